@@ -1,0 +1,68 @@
+#pragma once
+// Case files: TOML, read through parameter records. Every number reaches the program in SI; unknown keys are errors that name the nearest known one.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/parameter.hpp"
+
+namespace snag {
+
+struct CaseNode;
+
+/// A table of a case file, present or not. Copies refer to the same table.
+class Table {
+ public:
+  /// True if the file has this table at all.
+  bool present() const;
+  /// True if a key or sub-table is there, with or without a unit in the key; does not count as reading it.
+  bool has(std::string_view key) const;
+  /// Sub-table [name], which may be absent: reading an absent table leaves the defaults.
+  Table table(const std::string& name) const;
+  /// [[name]] or [name], in order of the file; empty if absent.
+  std::vector<Table> tables(const std::string& name) const;
+  /// Read all parameters into their targets. Throws Error(usage) on a wrong type, unit, range, choice or a missing required key.
+  void read(const std::vector<Parameter>& parameters) const;
+  /// Name = value pairs of a table with free keys, numbers only, as written.
+  std::vector<std::pair<std::string, double>> numbers() const;
+  /// "case.toml:12: [flow]", for messages.
+  std::string where() const;
+
+ private:
+  friend class CaseFile;
+  Table(std::shared_ptr<CaseNode> owner, CaseNode* node) : root_(std::move(owner)), node_(node) {}
+  std::shared_ptr<CaseNode> root_;
+  CaseNode* node_;
+};
+
+class CaseFile {
+ public:
+  /// Read a file and apply overrides "section.key=value" ("rag.0.radius=\"1 mm\"" for repeated tables). Throws Error(usage, or io if absent).
+  static CaseFile read(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
+  /// The same from text; `name` stands in messages.
+  static CaseFile parse(const std::string& text, const std::string& name = "case", const std::vector<std::string>& overrides = {});
+
+  Table root() const;
+  /// Throws Error(usage) if a key of the file was never read: a misspelt key must not be ignored.
+  void reject_unread() const;
+  /// The case with all defaults as it was read, as TOML in SI with the unit in the key; reading it gives the same case.
+  std::string resolved() const;
+  /// SHA-256 of the resolved case, hexadecimal.
+  std::string sha256() const;
+  /// A path of the case file, relative to the folder of the file.
+  std::filesystem::path path(const std::string& relative) const;
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::shared_ptr<CaseNode> root_;
+};
+
+/// The candidate nearest to a misspelt word (edit distance), or "" if none is near.
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
+/// "a, b, c".
+std::string joined(const std::vector<std::string>& words);
+
+}  // namespace snag

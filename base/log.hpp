@@ -1,0 +1,17 @@
+#pragma once
+// The log: to the terminal and to log.txt on rank 0, silent on the other ranks.
+#include <filesystem>
+#include <string>
+
+namespace snag::log {
+
+/// Called once after MPI has started; quiet: warnings and errors only on the terminal (the file keeps everything).
+void start(int rank, bool quiet = false);
+/// Also write to this file from now on (appends after a resume).
+void open(const std::filesystem::path& file, bool append);
+void info(const std::string& message);
+void warning(const std::string& message);
+void error(const std::string& message);
+void flush();
+
+}  // namespace snag::log

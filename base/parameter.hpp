@@ -1,0 +1,53 @@
+#pragma once
+// A parameter is declared once: the case file reader, `snag check`, the manual and the diagnosis use the same record.
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vec3.hpp"
+
+namespace snag {
+
+/// Where a default value comes from.
+enum class Basis { measured, literature, calibrated, assumed };
+const char* name(Basis basis);
+
+/// What a parameter is read into; the value found there at declaration is the default (an empty optional: "chosen by Snag").
+using ParameterTarget = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, Mat3*, std::vector<double>*, std::vector<Vec3>*,
+                                     std::vector<std::string>*>;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One key of the case file. Numbers are held in SI; `key` is written in a case file either with a unit in the value
+/// (density = "998 kg/m3") or with the unit in the key (density_kg_m3 = 998); a dimensionless number takes the bare key.
+struct Parameter {
+  std::string key;               // without unit
+  ParameterTarget target;        // not owned
+  std::string unit = "1";        // SI unit of the number; "1" dimensionless; "" for text and switches
+  double minimum = -infinity;    // inclusive
+  double maximum = infinity;     // inclusive
+  Basis basis = Basis::assumed;
+  std::string meaning;
+  std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any
+  bool required = false;
+};
+
+/// The same for a text, a list of texts or a switch.
+inline Parameter setting(std::string key, ParameterTarget target, std::string meaning, std::vector<std::string> choices = {}) {
+  return {.key = std::move(key), .target = target, .unit = "", .meaning = std::move(meaning), .choices = std::move(choices)};
+}
+
+/// A table of the case file: [name], or [[name]] where it repeats.
+struct Section {
+  std::string name;
+  std::string meaning;
+  std::vector<Parameter> parameters;
+  bool repeated = false;
+};
+
+/// The key as it is written to case.resolved.toml, unit included: density_kg_m3, speed_rad_s, drag_factor.
+std::string key_with_unit(const Parameter& parameter);
+
+}  // namespace snag

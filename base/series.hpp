@@ -1,0 +1,32 @@
+#pragma once
+// Monitors: one CSV file a series, header with units, a line a record, flushed; no line twice after a resume.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace snag {
+
+class Series {
+ public:
+  Series() = default;
+  /// `columns`: "time [s]" first, each with its unit. On a resume lines with time > from_time are cut and the header must match. Throws Error(io).
+  Series(const std::filesystem::path& file, std::vector<std::string> columns, bool resume = false, double from_time = 0);
+  /// One record; as many values as columns; written with 17 significant digits.
+  void add(const std::vector<double>& values);
+  const std::vector<std::string>& columns() const { return columns_; }
+
+ private:
+  std::ofstream file_;
+  std::vector<std::string> columns_;
+};
+
+/// Columns of a CSV file that Series wrote.
+struct SeriesTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> values;   // [column][record]
+  const std::vector<double>& column(const std::string& name) const;   // "head" finds "head [m]"; throws Error(io) listing the names
+};
+SeriesTable read_series(const std::filesystem::path& file);
+
+}  // namespace snag

@@ -1,0 +1,71 @@
+#pragma once
+// The mesh as flat arrays: every finite-volume operator is a loop over faces, owner -> neighbour.
+//
+//   Cells  [0, n_cells) are owned by this rank, [n_cells, n_cells + n_ghosts) are copies of cells of other ranks.
+//   Faces  [0, n_interior) lie between two local cells (at least one owned): face vector S points from owner to neighbour.
+//          [n_interior, n_faces) are boundary faces of owned cells, grouped by patch: S points out of the domain, neighbour = -1.
+//   A face between two ranks is held by both of them with the same orientation: each adds to its own cells only.
+//   Periodic patches are joined to interior faces: `delta` holds the way from the owner's to the neighbour's centre, across the period.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec3.hpp"
+#include "parallel/halo.hpp"
+
+namespace snag {
+
+/// A named part of the boundary: faces [first, first + count) of this rank; the same list of patches on every rank.
+struct Patch {
+  std::string name;
+  int first = 0;
+  int count = 0;
+  std::int64_t count_global = 0;
+  int end() const { return first + count; }
+};
+
+/// Two patches that are one surface: faces of `first` shifted by `translation` fall on those of `second`.
+struct PeriodicPair {
+  std::string first, second;
+  Vec3 translation;
+};
+
+enum class CellShape : std::uint8_t { tetrahedron, pyramid, prism, hexahedron };
+
+struct Mesh {
+  MPI_Comm comm = MPI_COMM_SELF;
+  int n_cells = 0, n_ghosts = 0, n_interior = 0, n_faces = 0;
+  std::int64_t n_cells_global = 0, n_interior_global = 0;
+
+  // cells: owned, then ghosts
+  std::vector<Vec3> cell_centre;            // m
+  std::vector<double> cell_volume;          // m3
+  std::vector<std::int64_t> cell_id;        // number of the cell in the mesh file, from 0: the same on any number of ranks
+  std::vector<int> cell_zone;               // index into zones
+  std::vector<std::string> zones;           // names of the physical volumes ("rotor", "stator")
+  Halo halo;                                // of cell fields
+
+  // faces: interior, then boundary by patch
+  std::vector<int> owner, neighbour;        // local cells
+  std::vector<Vec3> face_vector;            // S, m2
+  std::vector<Vec3> face_centre;            // m (of the owner's side for a periodic face)
+  std::vector<Vec3> delta;                  // owner centre -> neighbour centre; on the boundary -> face centre, m
+  std::vector<double> weight;               // linear interpolation: field_f = weight field_owner + (1 - weight) field_neighbour; 1 on the boundary
+  std::vector<Patch> patches;
+
+  // cell -> faces of owned cells (compressed rows), all kinds of faces
+  std::vector<int> cell_face_start, cell_face;
+
+  // geometry for output, location and walls: nodes of owned cells and of local faces
+  std::vector<Vec3> node;                   // m
+  std::vector<std::int64_t> node_id;        // number in the mesh file, from 0
+  std::vector<CellShape> cell_shape;        // owned cells
+  std::vector<int> cell_node_start, cell_node;  // owned cells, nodes in VTK order
+  std::vector<int> face_node_start, face_node;  // all local faces, in a cycle that turns right-handed about S
+
+  int n_all_cells() const { return n_cells + n_ghosts; }
+  /// Index of a patch; throws Error(mesh) that lists the known names.
+  int patch_index(const std::string& name) const;
+};
+
+}  // namespace snag

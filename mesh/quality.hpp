@@ -1,0 +1,27 @@
+#pragma once
+// How good a mesh is, in the words of checkMesh; `snag mesh --info` prints it and ends with code 3 on a bad one.
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+struct MeshQuality {
+  std::int64_t n_cells = 0, n_interior = 0, n_boundary = 0;
+  double volume = 0;                         // m3
+  double min_volume = 0, max_volume = 0;     // m3
+  double max_non_orthogonality_deg = 0, mean_non_orthogonality_deg = 0;
+  double max_skewness = 0;                   // distance of the face centre from the line of centres over that line's length
+  double closure = 0;                        // max over cells of |sum S| / sum |S|
+  double min_quality = 0, mean_quality = 0;  // tetrahedra: 3 r_in / R_circ; others: min over corners of the scaled Jacobian
+  double min_spacing = 0;                    // m, smallest distance between two cell centres across a face
+  std::vector<std::string> failures;         // one sentence each: what, where, rule, remedy; empty for a usable mesh
+};
+
+/// Collective; the same result on every rank.
+MeshQuality quality(const Mesh& mesh);
+/// The table a user reads, with patches and zones.
+std::string quality_table(const Mesh& mesh, const MeshQuality& q);
+
+}  // namespace snag

@@ -1,0 +1,20 @@
+#pragma once
+// Sums over all ranks that do not depend on how the terms are spread over them (beyond the last bits): double-double accumulation. Collective.
+#include <mpi.h>
+
+#include <cstdint>
+#include <span>
+
+#include "base/vec3.hpp"
+
+namespace snag {
+
+/// Sum of all terms of all ranks, with some 30 digits inside.
+double sum(MPI_Comm comm, std::span<const double> terms);
+Vec3 sum(MPI_Comm comm, std::span<const Vec3> terms);
+double sum(MPI_Comm comm, double term);
+std::int64_t sum(MPI_Comm comm, std::int64_t term);
+double maximum(MPI_Comm comm, double value);
+double minimum(MPI_Comm comm, double value);
+
+}  // namespace snag
