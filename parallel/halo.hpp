@@ -14,16 +14,18 @@ namespace snag {
 class Halo {
  public:
   Halo();
-  /// `owner_rank[g]`, `owner_index[g]`: rank and local index there of ghost g; ghosts follow the n_owned entries. Collective. Built on PetscSF.
+  /// `owner_rank[g]`, `owner_index[g]`: rank and local index there of ghost g; ghosts follow the n_owned entries. Collective. Built on
+  /// PetscSF.
   Halo(MPI_Comm comm, int n_owned, const std::vector<int>& owner_rank, const std::vector<int>& owner_index);
   ~Halo();
   Halo(Halo&&) noexcept;
   Halo& operator=(Halo&&) noexcept;
 
-  /// Owned -> ghosts. Collective.
+  /// Owned -> ghosts. Collective. Throws Error(invariant) if the field does not hold all owned and ghost entries; an empty Halo() does
+  /// nothing.
   void exchange(std::span<double> field, int components = 1) const;
   void exchange(std::vector<double>& field) const { exchange(std::span(field), 1); }
-  void exchange(std::vector<Vec3>& field) const { exchange(std::span(&field[0].x, 3 * field.size()), 3); }
+  void exchange(std::vector<Vec3>& field) const { exchange(std::span(reinterpret_cast<double*>(field.data()), 3 * field.size()), 3); }
   /// Ghosts -> added to owned (ghost values are left as they are). Collective.
   void add_to_owners(std::span<double> field, int components = 1) const;
   /// Owned -> ghosts, integers. Collective.
