@@ -1,5 +1,6 @@
 #pragma once
-// Case files: TOML, read through parameter records. Every number reaches the program in SI; unknown keys are errors that name the nearest known one.
+// Case files: TOML, read through parameter records. Every number reaches the program in SI; unknown keys are errors that name the nearest
+// known one.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -39,7 +40,8 @@ class Table {
 
 class CaseFile {
  public:
-  /// Read a file and apply overrides "section.key=value" ("rag.0.radius=\"1 mm\"" for repeated tables). Throws Error(usage, or io if absent).
+  /// Read a file and apply overrides "section.key=value" ("rag.0.radius=\"1 mm\"" for repeated tables). Throws Error(usage, or io if
+  /// absent).
   static CaseFile read(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
   /// The same from text; `name` stands in messages.
   static CaseFile parse(const std::string& text, const std::string& name = "case", const std::vector<std::string>& overrides = {});

@@ -15,19 +15,19 @@ enum class Basis { measured, literature, calibrated, assumed };
 const char* name(Basis basis);
 
 /// What a parameter is read into; the value found there at declaration is the default (an empty optional: "chosen by Snag").
-using ParameterTarget = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, Mat3*, std::vector<double>*, std::vector<Vec3>*,
-                                     std::vector<std::string>*>;
+using ParameterTarget = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, Mat3*, std::vector<double>*,
+                                     std::vector<Vec3>*, std::vector<std::string>*>;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One key of the case file. Numbers are held in SI; `key` is written in a case file either with a unit in the value
 /// (density = "998 kg/m3") or with the unit in the key (density_kg_m3 = 998); a dimensionless number takes the bare key.
 struct Parameter {
-  std::string key;               // without unit
-  ParameterTarget target;        // not owned
-  std::string unit = "1";        // SI unit of the number; "1" dimensionless; "" for text and switches
-  double minimum = -infinity;    // inclusive
-  double maximum = infinity;     // inclusive
+  std::string key;             // without unit
+  ParameterTarget target;      // not owned
+  std::string unit = "1";      // SI unit of the number; "1" dimensionless; "" for text and switches
+  double minimum = -infinity;  // inclusive
+  double maximum = infinity;   // inclusive
   Basis basis = Basis::assumed;
   std::string meaning;
   std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any

@@ -10,7 +10,8 @@ namespace snag {
 class Series {
  public:
   Series() = default;
-  /// `columns`: "time [s]" first, each with its unit. On a resume lines with time > from_time are cut and the header must match. Throws Error(io).
+  /// `columns`: "time [s]" first, each with its unit. On a resume lines with time > from_time are cut and the header must match. Throws
+  /// Error(io).
   Series(const std::filesystem::path& file, std::vector<std::string> columns, bool resume = false, double from_time = 0);
   /// One record; as many values as columns; written with 17 significant digits.
   void add(const std::vector<double>& values);
@@ -24,8 +25,8 @@ class Series {
 /// Columns of a CSV file that Series wrote.
 struct SeriesTable {
   std::vector<std::string> columns;
-  std::vector<std::vector<double>> values;   // [column][record]
-  const std::vector<double>& column(const std::string& name) const;   // "head" finds "head [m]"; throws Error(io) listing the names
+  std::vector<std::vector<double>> values;                           // [column][record]
+  const std::vector<double>& column(const std::string& name) const;  // "head" finds "head [m]"; throws Error(io) listing the names
 };
 SeriesTable read_series(const std::filesystem::path& file);
 

@@ -14,25 +14,26 @@ namespace snag {
 struct VtkArray {
   std::string name;
   int components = 1;
-  std::vector<double> values;   // written as Float32 if `single`, else Float64
+  std::vector<double> values;  // written as Float32 if `single`, else Float64
   bool single = true;
 };
 
 /// Unstructured grid (.vtu) or poly data (.vtp) of one rank.
 struct VtkPiece {
   std::vector<Vec3> points;
-  std::vector<std::int64_t> connectivity, offsets;   // cells or polygons: end of each in connectivity
-  std::vector<std::uint8_t> types;                   // VTK cell types; .vtu only
+  std::vector<std::int64_t> connectivity, offsets;  // cells or polygons: end of each in connectivity
+  std::vector<std::uint8_t> types;                  // VTK cell types; .vtu only
   std::vector<VtkArray> point_arrays, cell_arrays;
-  std::vector<VtkArray> field_arrays;                // FieldData: time, rotor angle
+  std::vector<VtkArray> field_arrays;  // FieldData: time, rotor angle
 };
 
-enum class VtkKind { unstructured_grid, polygons, vertices, lines };   // the last three are .vtp
+enum class VtkKind { unstructured_grid, polygons, vertices, lines };  // the last three are .vtp
 
 /// Write one piece to one file (through a temporary name, so that a reader never sees half a file). Throws Error(io).
 void write_vtk(const std::filesystem::path& file, VtkKind kind, const VtkPiece& piece);
 /// Index file (.pvtu/.pvtp) over the pieces of all ranks, with the same arrays as `example`.
-void write_parallel_vtk(const std::filesystem::path& file, VtkKind kind, const VtkPiece& example, const std::vector<std::string>& piece_files);
+void write_parallel_vtk(const std::filesystem::path& file, VtkKind kind, const VtkPiece& example,
+                        const std::vector<std::string>& piece_files);
 
 /// A time series for ParaView, rewritten after each entry; entries at or after `from_time` are dropped on a resume.
 class VtkCollection {

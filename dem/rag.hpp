@@ -10,30 +10,31 @@ namespace snag {
 
 /// Stiffness and strength of the bonds of one lattice direction, per unit area of the bond (A = pi r^2, I = pi r^4/4, J = 2 I).
 struct BondProperties {
-  double normal_stiffness = 0;        // S_n, N/m3
-  double tangential_stiffness = 0;    // S_t, N/m3: shear and torsion
-  double bending_stiffness = 0;       // S_nb, N/m3
-  double normal_strength = 0;         // Pa; 0: never breaks
-  double shear_strength = 0;          // Pa; 0: never breaks
+  double normal_stiffness = 0;      // S_n, N/m3
+  double tangential_stiffness = 0;  // S_t, N/m3: shear and torsion
+  double bending_stiffness = 0;     // S_nb, N/m3
+  double normal_strength = 0;       // Pa; 0: never breaks
+  double shear_strength = 0;        // Pa; 0: never breaks
 };
 
 struct Rag {
   std::string name;
-  int n_columns = 1, n_rows = 1;              // lattice; columns run along the length (x of the lattice frame), rows along the width (y)
-  std::int64_t first_particle = 0;            // id of the lattice's first place; id = first_particle + row * n_columns + column, places outside the mask included
+  int n_columns = 1, n_rows = 1;  // lattice; columns run along the length (x of the lattice frame), rows along the width (y)
+  std::int64_t first_particle =
+      0;  // id of the lattice's first place; id = first_particle + row * n_columns + column, places outside the mask included
   std::int64_t n_particles = 0, n_bonds = 0;  // that exist
   double radius = 0;                          // r_p, m; lattice spacing 2 r_p
   double mass = 0;                            // of one particle, kg
   double inertia = 0;                         // 2/5 m r^2, kg m2
-  double hydrodynamic_volume = 0;             // V_h: thickness (2 r)^2 of the cloth it stands for; a sphere's own volume for a single particle, m3
-  double hydrodynamic_diameter = 0;           // d of the drag law: 2 r_p, m
-  std::array<BondProperties, 2> bond{};       // along the row (lengthwise), between rows (crosswise)
-  double bond_damping = 0.5;                  // c_d of Guo et al. (2013a), thesis Eqs. 1.1, 1.2
-  double rotation_friction = 0.001;           // c_r, thesis Eqs. 1.5, 1.6
-  double contact_radius_ratio = 2.2;          // r_c / r_p: a bond ends when 2 r_c is exceeded (if breakage is on)
+  double hydrodynamic_volume = 0;    // V_h: thickness (2 r)^2 of the cloth it stands for; a sphere's own volume for a single particle, m3
+  double hydrodynamic_diameter = 0;  // d of the drag law: 2 r_p, m
+  std::array<BondProperties, 2> bond{};  // along the row (lengthwise), between rows (crosswise)
+  double bond_damping = 0.5;             // c_d of Guo et al. (2013a), thesis Eqs. 1.1, 1.2
+  double rotation_friction = 0.001;      // c_r, thesis Eqs. 1.5, 1.6
+  double contact_radius_ratio = 2.2;     // r_c / r_p: a bond ends when 2 r_c is exceeded (if breakage is on)
   bool breakage = false;
   // contacts (Hertz-Mindlin)
-  double shear_modulus = 1e6;                 // Pa
+  double shear_modulus = 1e6;  // Pa
   double poisson_ratio = 0.25;
 };
 

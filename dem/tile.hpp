@@ -1,9 +1,11 @@
 #pragma once
-// Particles live in lattice tiles: a piece of cloth (sheet, disc, fibre, single sphere) is a masked rectangular lattice, cut into tiles of at most
-// 32 x 32 particles. A tile is stored with a ring of one particle around it (copies of its neighbours), field by field, row by row, so that bonds are
-// implicit neighbours k -> k + 1 (along the row, "x") and k -> k + stride (between rows, "y"), and every loop runs over contiguous rows and vectorises.
+// Particles live in lattice tiles: a piece of cloth (sheet, disc, fibre, single sphere) is a masked rectangular lattice, cut into tiles of
+// at most 32 x 32 particles. A tile is stored with a ring of one particle around it (copies of its neighbours), field by field, row by row,
+// so that bonds are implicit neighbours k -> k + 1 (along the row, "x") and k -> k + stride (between rows, "y"), and every loop runs over
+// contiguous rows and vectorises.
 //
-// A bond between two tiles is computed by both, from the same numbers in the same order: so forces need no way back, and results do not depend on the ranks.
+// A bond between two tiles is computed by both, from the same numbers in the same order: so forces need no way back, and results do not
+// depend on the ranks.
 #include <cstdint>
 #include <vector>
 
@@ -15,32 +17,48 @@ inline constexpr int max_tile_side = 32;
 
 struct Tile {
   enum Field : int {
-    x, y, z,          // position, m
-    vx, vy, vz,       // velocity, m/s
-    qw, qx, qy, qz,   // orientation: turns the lattice frame at birth into the present one (unit quaternion)
-    wx, wy, wz,       // angular velocity in the fixed frame, rad/s
-    fx, fy, fz,       // force of this sub-step, N
-    tx, ty, tz,       // torque, N m
+    x,
+    y,
+    z,  // position, m
+    vx,
+    vy,
+    vz,  // velocity, m/s
+    qw,
+    qx,
+    qy,
+    qz,  // orientation: turns the lattice frame at birth into the present one (unit quaternion)
+    wx,
+    wy,
+    wz,  // angular velocity in the fixed frame, rad/s
+    fx,
+    fy,
+    fz,  // force of this sub-step, N
+    tx,
+    ty,
+    tz,  // torque, N m
     n_fields
   };
-  static constexpr int n_state = 13;        // x .. wz: what is sent to others and stored
+  static constexpr int n_state = 13;  // x .. wz: what is sent to others and stored
 
-  int rag = 0;                              // index into the list of rags
-  int column = 0, row = 0;                  // lattice index of the tile's first particle
-  int nx = 0, ny = 0;                       // particles in the tile, without ring
-  int stride = 0;                           // doubles in a row of a field, a multiple of 8, >= nx + 2
-  std::vector<double> values;               // [n_fields][ny + 2][stride], fields staggered against cache-set conflicts
-  std::size_t field_size = 0;               // doubles from one field to the next
+  int rag = 0;                 // index into the list of rags
+  int column = 0, row = 0;     // lattice index of the tile's first particle
+  int nx = 0, ny = 0;          // particles in the tile, without ring
+  int stride = 0;              // doubles in a row of a field, a multiple of 8, >= nx + 2
+  std::vector<double> values;  // [n_fields][ny + 2][stride], fields staggered against cache-set conflicts
+  std::size_t field_size = 0;  // doubles from one field to the next
 
-  std::vector<double> exists;               // [(ny + 2) * stride] 1 or 0: the mask of the piece, ring included
-  std::vector<double> bond_x, bond_y;       // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
+  std::vector<double> exists;  // [(ny + 2) * stride] 1 or 0: the mask of the piece, ring included
+  std::vector<double> bond_x,
+      bond_y;  // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
 
   double* field(int f) { return values.data() + f * field_size; }
   const double* field(int f) const { return values.data() + f * field_size; }
   /// Place of the particle in column i, row j of the tile; -1 and nx, ny are the ring.
   int index(int i, int j) const { return (j + 1) * stride + i + 1; }
   Vec3 vector(int first_field, int k) const { return {field(first_field)[k], field(first_field + 1)[k], field(first_field + 2)[k]}; }
-  void set_vector(int first_field, int k, const Vec3& v) { field(first_field)[k] = v.x, field(first_field + 1)[k] = v.y, field(first_field + 2)[k] = v.z; }
+  void set_vector(int first_field, int k, const Vec3& v) {
+    field(first_field)[k] = v.x, field(first_field + 1)[k] = v.y, field(first_field + 2)[k] = v.z;
+  }
 };
 
 }  // namespace snag

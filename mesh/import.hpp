@@ -8,13 +8,14 @@
 namespace snag {
 
 struct ImportOptions {
-  double scale = 1;                                        // file unit in metres
+  double scale = 1;  // file unit in metres
   std::vector<PeriodicPair> periodic = {};
-  std::optional<std::vector<int>> partition = {};          // rank of every cell of the file (known on all ranks), as stored by a checkpoint
+  std::optional<std::vector<int>> partition = {};  // rank of every cell of the file (known on all ranks), as stored by a checkpoint
 };
 
 /// Read, distribute (PTScotch) and flatten a mesh; cells in bandwidth-reducing order. Collective.
-/// Throws Error(io) if the file is missing or unreadable, Error(mesh) if it holds no volume cells, unnamed boundary faces, or an unmatched periodic pair.
+/// Throws Error(io) if the file is missing or unreadable, Error(mesh) if it holds no volume cells, unnamed boundary faces, or an unmatched
+/// periodic pair.
 Mesh import_gmsh(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options = {});
 
 /// Rank of every cell of the file, for the checkpoint. Collective.

@@ -10,7 +10,8 @@ namespace snag {
 class CellLocator {
  public:
   explicit CellLocator(const Mesh& mesh);
-  /// Owned cell that holds the point, or -1. A point on a face belongs to the cell of the lower cell_id. `hint`: cell to try first, with its neighbours.
+  /// Owned cell that holds the point, or -1. A point on a face belongs to the cell of the lower cell_id. `hint`: cell to try first, with
+  /// its neighbours.
   int find(const Vec3& point, int hint = -1) const;
   /// Owned cells whose centres lie within `radius` of the point, appended to `cells`.
   void within(const Vec3& point, double radius, std::vector<int>& cells) const;

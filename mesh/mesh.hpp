@@ -38,28 +38,28 @@ struct Mesh {
   std::int64_t n_cells_global = 0, n_interior_global = 0;
 
   // cells: owned, then ghosts
-  std::vector<Vec3> cell_centre;            // m
-  std::vector<double> cell_volume;          // m3
-  std::vector<std::int64_t> cell_id;        // number of the cell in the mesh file, from 0: the same on any number of ranks
-  std::vector<int> cell_zone;               // index into zones
-  std::vector<std::string> zones;           // names of the physical volumes ("rotor", "stator")
-  Halo halo;                                // of cell fields
+  std::vector<Vec3> cell_centre;      // m
+  std::vector<double> cell_volume;    // m3
+  std::vector<std::int64_t> cell_id;  // number of the cell in the mesh file, from 0: the same on any number of ranks
+  std::vector<int> cell_zone;         // index into zones
+  std::vector<std::string> zones;     // names of the physical volumes ("rotor", "stator")
+  Halo halo;                          // of cell fields
 
   // faces: interior, then boundary by patch
-  std::vector<int> owner, neighbour;        // local cells
-  std::vector<Vec3> face_vector;            // S, m2
-  std::vector<Vec3> face_centre;            // m (of the owner's side for a periodic face)
-  std::vector<Vec3> delta;                  // owner centre -> neighbour centre; on the boundary -> face centre, m
-  std::vector<double> weight;               // linear interpolation: field_f = weight field_owner + (1 - weight) field_neighbour; 1 on the boundary
+  std::vector<int> owner, neighbour;  // local cells
+  std::vector<Vec3> face_vector;      // S, m2
+  std::vector<Vec3> face_centre;      // m (of the owner's side for a periodic face)
+  std::vector<Vec3> delta;            // owner centre -> neighbour centre; on the boundary -> face centre, m
+  std::vector<double> weight;  // linear interpolation: field_f = weight field_owner + (1 - weight) field_neighbour; 1 on the boundary
   std::vector<Patch> patches;
 
   // cell -> faces of owned cells (compressed rows), all kinds of faces
   std::vector<int> cell_face_start, cell_face;
 
   // geometry for output, location and walls: nodes of owned cells and of local faces
-  std::vector<Vec3> node;                   // m
-  std::vector<std::int64_t> node_id;        // number in the mesh file, from 0
-  std::vector<CellShape> cell_shape;        // owned cells
+  std::vector<Vec3> node;                       // m
+  std::vector<std::int64_t> node_id;            // number in the mesh file, from 0
+  std::vector<CellShape> cell_shape;            // owned cells
   std::vector<int> cell_node_start, cell_node;  // owned cells, nodes in VTK order
   std::vector<int> face_node_start, face_node;  // all local faces, in a cycle that turns right-handed about S
 

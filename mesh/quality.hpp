@@ -9,8 +9,8 @@ namespace snag {
 
 struct MeshQuality {
   std::int64_t n_cells = 0, n_interior = 0, n_boundary = 0;
-  double volume = 0;                         // m3
-  double min_volume = 0, max_volume = 0;     // m3
+  double volume = 0;                      // m3
+  double min_volume = 0, max_volume = 0;  // m3
   double max_non_orthogonality_deg = 0, mean_non_orthogonality_deg = 0;
   double max_skewness = 0;                   // distance of the face centre from the line of centres over that line's length
   double closure = 0;                        // max over cells of |sum S| / sum |S|

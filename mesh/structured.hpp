@@ -6,7 +6,8 @@
 
 namespace snag {
 
-/// A box of n[0] x n[1] x n[2] hexahedra; patches x0, x1, y0, y1, z0, z1 (joined to periodic where periodic[axis]); blocks of slabs along z per rank.
+/// A box of n[0] x n[1] x n[2] hexahedra; patches x0, x1, y0, y1, z0, z1 (joined to periodic where periodic[axis]); blocks of slabs along z
+/// per rank.
 Mesh structured_box(MPI_Comm comm, Vec3 lower, Vec3 upper, std::array<int, 3> n, std::array<bool, 3> periodic = {});
 
 }  // namespace snag

@@ -23,8 +23,8 @@ class Session {
 int rank_of(MPI_Comm comm);
 int size_of(MPI_Comm comm);
 
-/// Run a piece of work that may fail on some ranks only; then either all ranks return or all throw the same Error (that of the lowest failing rank).
-/// The work itself must not communicate after the point where it may throw. Collective.
+/// Run a piece of work that may fail on some ranks only; then either all ranks return or all throw the same Error (that of the lowest
+/// failing rank). The work itself must not communicate after the point where it may throw. Collective.
 void together(MPI_Comm comm, const std::function<void()>& work);
 
 /// Throw Error(io/mesh/...) with PETSc's own message if a PETSc call failed.

@@ -14,10 +14,10 @@ struct Flow {
   explicit Flow(const Mesh& mesh);
 
   const Mesh& mesh;
-  double density = 998.2;                  // kg/m3
-  double dynamic_viscosity = 1.003e-3;     // Pa s
-  double time = 0;                         // s
-  std::int64_t time_step = 0;              // steps done
+  double density = 998.2;               // kg/m3
+  double dynamic_viscosity = 1.003e-3;  // Pa s
+  double time = 0;                      // s
+  std::int64_t time_step = 0;           // steps done
 
   // [n_all_cells], ghosts up to date after every step
   std::vector<Vec3> velocity, velocity_old, velocity_older;  // u at t, t - dt, t - 2 dt; m/s
@@ -25,13 +25,13 @@ struct Flow {
   std::vector<Mat3> velocity_gradient;                       // G_ij = du_i/dx_j, 1/s
   std::vector<Vec3> pressure_gradient;                       // Pa/m
   // [n_faces]
-  std::vector<double> flux, flux_old;                        // volume flux along S, m3/s
+  std::vector<double> flux, flux_old;  // volume flux along S, m3/s
 
   // from the rags, [n_cells]
-  std::vector<Vec3> reaction;              // f
-  std::vector<double> drag;                // beta
-  std::vector<double> solid_fraction;      // 1
-  Vec3 body_force;                         // N/m3, uniform (periodic channels)
+  std::vector<Vec3> reaction;          // f
+  std::vector<double> drag;            // beta
+  std::vector<double> solid_fraction;  // 1
+  Vec3 body_force;                     // N/m3, uniform (periodic channels)
 };
 
 }  // namespace snag

@@ -1,0 +1,461 @@
+#include "base/case_file.hpp"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "base/error.hpp"
+#include "base/units.hpp"
+
+namespace snag {
+
+// The tree of a case file: tables by name, other values as TOML holds them. Reading marks what was used and keeps what was made of it.
+struct CaseNode {
+  std::string name;  // "rag", "" for the root
+  std::string file;  // for messages
+  int line = 0;
+  bool present = false;
+  std::map<std::string, std::vector<std::unique_ptr<CaseNode>>> tables;
+  std::map<std::string, std::shared_ptr<toml::node>> values;
+  std::set<std::string> used;                                 // keys of `values` that were read
+  std::vector<std::string> known;                             // keys that reading asked for
+  std::vector<std::pair<std::string, std::string>> resolved;  // key = value as TOML, in the order of reading
+  std::vector<std::string> table_order;                       // of reading
+  std::set<std::string> repeated;                             // tables that are written as [[name]]
+
+  std::string where() const { return file + (line > 0 ? ":" + std::to_string(line) : "") + (name.empty() ? "" : ": [" + name + "]"); }
+};
+
+namespace {
+
+bool is_table_array(const toml::array& array) {
+  return !array.empty() && std::all_of(array.begin(), array.end(), [](const toml::node& n) { return n.is_table(); });
+}
+
+void fill(CaseNode& node, const toml::table& table) {
+  node.present = true;
+  if (node.line == 0) node.line = static_cast<int>(table.source().begin.line);
+  for (const auto& [key_view, value] : table) {
+    const std::string key(key_view.str());
+    const auto child = [&](const toml::table& sub) {
+      auto made = std::make_unique<CaseNode>();
+      made->name = node.name.empty() ? key : node.name + "." + key;
+      made->file = node.file;
+      fill(*made, sub);
+      node.tables[key].push_back(std::move(made));
+    };
+    if (const auto* sub = value.as_table()) {
+      child(*sub);
+    } else if (const auto* array = value.as_array(); array && is_table_array(*array)) {
+      for (const toml::node& element : *array) child(*element.as_table());
+    } else {
+      value.visit([&](const auto& concrete) { node.values[key] = std::make_shared<std::remove_cvref_t<decltype(concrete)>>(concrete); });
+    }
+  }
+}
+
+// Override "a.b.0.key=value": the value is TOML, or a bare word taken as text.
+void apply_override(toml::table& root, const std::string& text) {
+  const auto equals = text.find('=');
+  const auto fail = [&](const std::string& why) {
+    return Error(ExitCode::usage, "--set " + text + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
+  };
+  if (equals == std::string::npos || equals == 0) throw fail("has no \"=\"");
+  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+  toml::table parsed;
+  try {
+    parsed = toml::parse("v = " + value);
+  } catch (const toml::parse_error&) {
+    std::string quoted;
+    for (const char c : value) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    try {
+      parsed = toml::parse("v = \"" + quoted + "\"");
+    } catch (const toml::parse_error&) {
+      throw fail("has a value that is no TOML");
+    }
+  }
+  std::vector<std::string> steps(1);
+  for (const char c : path) {
+    if (c == '.')
+      steps.emplace_back();
+    else
+      steps.back() += c;
+  }
+  toml::node* at = &root;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::string& step = steps[i];
+    const bool last = i + 1 == steps.size();
+    if (auto* array = at->as_array()) {
+      std::size_t index = 0;
+      const auto [end, code] = std::from_chars(step.data(), step.data() + step.size(), index);
+      if (code != std::errc() || end != step.data() + step.size() || index >= array->size())
+        throw fail("\"" + step + "\" is no index of the " + std::to_string(array->size()) + " tables there");
+      at = array->get(index);
+      if (last) throw fail("names a table, not a key");
+      continue;
+    }
+    auto* table = at->as_table();
+    if (!table) throw fail("\"" + steps[i - 1] + "\" is a value, not a table");
+    if (last) {
+      table->insert_or_assign(step, *parsed.get("v"));
+    } else {
+      if (!table->contains(step)) table->insert(step, toml::table{});
+      at = table->get(step);
+      // [[rag]] with a single element may be addressed without its index.
+      if (auto* array = at->as_array();
+          array && array->size() == 1 && (steps[i + 1].empty() || !std::isdigit(static_cast<unsigned char>(steps[i + 1][0]))))
+        at = array->get(0);
+    }
+  }
+}
+
+std::string text_of(double value) {
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  char buffer[32];
+  const auto [end, code] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  std::string text(buffer, end);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string quoted(const std::string& value) {
+  std::ostringstream out;
+  out << toml::value<std::string>(value);
+  return out.str();
+}
+
+std::string text_of(const Vec3& v) { return "[" + text_of(v.x) + ", " + text_of(v.y) + ", " + text_of(v.z) + "]"; }
+
+template <class Range, class Print>
+std::string list_text(const Range& range, Print print) {
+  std::string text = "[";
+  for (const auto& element : range) text += (text.size() > 1 ? ", " : "") + print(element);
+  return text + "]";
+}
+
+// One reading of one parameter from one node of TOML.
+class Reading {
+ public:
+  Reading(const Parameter& parameter, std::string factor_unit, std::string where)
+      : parameter_(parameter), factor_unit_(std::move(factor_unit)), where_(std::move(where)) {}
+
+  void into_target(const toml::node& node) const {
+    std::visit([&](auto* target) { read(node, *target); }, parameter_.target);
+  }
+
+ private:
+  Error wrong(const std::string& found, const std::string& rule) const {
+    return {ExitCode::usage, where_ + " is " + found + ", but " + rule};
+  }
+  static std::string shown(const toml::node& node) {
+    std::ostringstream out;
+    node.visit([&](const auto& concrete) { out << concrete; });
+    return out.str();
+  }
+
+  double number(const toml::node& node) const {
+    double value = 0;
+    if (const auto* text = node.as_string()) {
+      value = quantity(text->get(), parameter_.unit, where_);
+    } else if (node.is_number()) {
+      if (factor_unit_.empty() && parameter_.unit != "1")
+        throw wrong(shown(node) + " without a unit", "a unit is needed; write " + key_with_unit(parameter_) + " = " + shown(node) + " or " +
+                                                         parameter_.key + " = \"" + shown(node) + " " + parameter_.unit + "\"");
+      value = *node.value<double>() * (factor_unit_.empty() ? 1 : parse_unit(factor_unit_)->factor);
+    } else {
+      throw wrong(shown(node), "it must be a number");
+    }
+    if (std::isnan(value) || value < parameter_.minimum || value > parameter_.maximum)
+      throw wrong(shown(node), "it must lie between " + text_of(parameter_.minimum) + " and " + text_of(parameter_.maximum) +
+                                   (parameter_.unit == "1" ? "" : " " + parameter_.unit));
+    return value;
+  }
+  const toml::array& array(const toml::node& node, std::size_t size) const {
+    const auto* found = node.as_array();
+    if (!found || (size > 0 && found->size() != size))
+      throw wrong(shown(node), size > 0 ? "it must be a list of " + std::to_string(size) : "it must be a list");
+    return *found;
+  }
+  void check_choice(const std::string& word) const {
+    if (parameter_.choices.empty() || std::find(parameter_.choices.begin(), parameter_.choices.end(), word) != parameter_.choices.end())
+      return;
+    const std::string near = nearest_name(word, parameter_.choices);
+    throw wrong("\"" + word + "\"",
+                "it must be one of " + joined(parameter_.choices) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+
+  void read(const toml::node& node, double& target) const { target = number(node); }
+  void read(const toml::node& node, std::optional<double>& target) const { target = number(node); }
+  void read(const toml::node& node, int& target) const {
+    if (!node.is_integer()) throw wrong(shown(node), "it must be a whole number");
+    const auto value = *node.value<std::int64_t>();
+    if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+      throw wrong(shown(node), "it must lie between -2147483648 and 2147483647");
+    target = static_cast<int>(number(node));
+  }
+  void read(const toml::node& node, bool& target) const {
+    if (!node.is_boolean()) throw wrong(shown(node), "it must be true or false");
+    target = *node.value<bool>();
+  }
+  void read(const toml::node& node, std::string& target) const {
+    if (!node.is_string()) throw wrong(shown(node), "it must be a text in quotes");
+    check_choice(*node.value<std::string>());
+    target = *node.value<std::string>();
+  }
+  void read(const toml::node& node, Vec3& target) const {
+    const auto& list = array(node, 3);
+    for (int i = 0; i < 3; ++i) target[i] = number(list[i]);
+  }
+  void read(const toml::node& node, Mat3& target) const {
+    const auto& list = array(node, 3);
+    for (int i = 0; i < 3; ++i) read(list[i], target[i]);
+  }
+  void read(const toml::node& node, std::vector<double>& target) const {
+    target.clear();
+    for (const toml::node& element : array(node, 0)) target.push_back(number(element));
+  }
+  void read(const toml::node& node, std::vector<Vec3>& target) const {
+    target.clear();
+    for (const toml::node& element : array(node, 0)) read(element, target.emplace_back());
+  }
+  void read(const toml::node& node, std::vector<std::string>& target) const {
+    target.clear();
+    for (const toml::node& element : array(node, 0)) read(element, target.emplace_back());
+  }
+
+  const Parameter& parameter_;
+  std::string factor_unit_;  // of a number whose unit stands in the key
+  std::string where_;
+};
+
+struct Resolve {
+  std::string operator()(const double* v) const { return text_of(*v); }
+  std::string operator()(const std::optional<double>* v) const { return *v ? text_of(**v) : ""; }
+  std::string operator()(const int* v) const { return std::to_string(*v); }
+  std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
+  std::string operator()(const std::string* v) const { return quoted(*v); }
+  std::string operator()(const Vec3* v) const { return text_of(*v); }
+  std::string operator()(const Mat3* v) const {
+    return list_text(*v, [](const Vec3& row) { return text_of(row); });
+  }
+  std::string operator()(const std::vector<double>* v) const {
+    return list_text(*v, [](double x) { return text_of(x); });
+  }
+  std::string operator()(const std::vector<Vec3>* v) const {
+    return list_text(*v, [](const Vec3& x) { return text_of(x); });
+  }
+  std::string operator()(const std::vector<std::string>* v) const { return list_text(*v, quoted); }
+};
+
+// Unit that a key of the file carries for this parameter: "" for the bare key, nothing if the key is another one.
+std::optional<std::string> unit_in_key(const std::string& key, const Parameter& parameter) {
+  if (key == parameter.key) return "";
+  if (parameter.unit.empty() || !key.starts_with(parameter.key + "_")) return {};
+  const std::string unit = unit_of_suffix(key.substr(parameter.key.size() + 1));
+  const auto parsed = parse_unit(unit);
+  if (!parsed || parsed->exponents != parse_unit(parameter.unit)->exponents) return {};
+  return unit;
+}
+
+std::string known_spelling(const Parameter& parameter) { return parameter.unit.empty() ? parameter.key : key_with_unit(parameter); }
+
+void reject_unread_in(const CaseNode& node) {
+  for (const auto& [key, value] : node.values) {
+    if (node.used.contains(key)) continue;
+    const std::string where = node.file + ":" + std::to_string(value->source().begin.line) + ": [" + node.name + "]";
+    std::string message = where + ": unknown key \"" + key + "\"";
+    const std::string near = nearest_name(key, node.known);
+    if (!near.empty()) message += "; did you mean \"" + near + "\"?";
+    message += node.known.empty() ? "; no key is read here" : "; known keys: " + joined(node.known);
+    for (const std::string& known : node.known) {
+      if (key.starts_with(known + "_")) message += " (the ending \"" + key.substr(known.size() + 1) + "\" is no unit of " + known + ")";
+    }
+    throw Error(ExitCode::usage, message);
+  }
+  for (const auto& [key, list] : node.tables) {
+    const bool read = std::find(node.table_order.begin(), node.table_order.end(), key) != node.table_order.end();
+    for (const auto& child : list) {
+      if (!read) {
+        const std::string near = nearest_name(key, node.table_order);
+        throw Error(ExitCode::usage, child->file + ":" + std::to_string(child->line) + ": unknown section [" + child->name + "]" +
+                                         (near.empty() ? "" : "; did you mean [" + near + "]?") +
+                                         "; known sections: " + joined(node.table_order));
+      }
+      reject_unread_in(*child);
+    }
+  }
+}
+
+void write_resolved(const CaseNode& node, bool repeated, std::string& out) {
+  if (!node.name.empty()) out += (repeated ? "\n[[" + node.name + "]]\n" : "\n[" + node.name + "]\n");
+  for (const auto& [key, value] : node.resolved) out += key + " = " + value + "\n";
+  for (const std::string& key : node.table_order) {
+    const auto found = node.tables.find(key);
+    if (found == node.tables.end()) continue;
+    for (const auto& child : found->second) {
+      const bool empty = child->resolved.empty() && child->table_order.empty();
+      if (!empty) write_resolved(*child, node.repeated.contains(key), out);
+    }
+  }
+}
+
+}  // namespace
+
+bool Table::present() const { return node_->present; }
+
+bool Table::has(std::string_view key) const {
+  const std::string name(key);
+  if (node_->values.contains(name)) return true;
+  const auto sub = node_->tables.find(name);
+  if (sub != node_->tables.end() && sub->second.front()->present) return true;
+  return std::any_of(node_->values.begin(), node_->values.end(), [&](const auto& entry) {
+    return entry.first.starts_with(name + "_") && parse_unit(unit_of_suffix(entry.first.substr(name.size() + 1)));
+  });
+}
+
+Table Table::table(const std::string& name) const {
+  auto& list = node_->tables[name];
+  if (list.size() > 1) throw Error(ExitCode::usage, list[1]->where() + " stands more than once; write one [" + list[1]->name + "]");
+  if (list.empty()) {
+    list.push_back(std::make_unique<CaseNode>());
+    list.front()->name = node_->name.empty() ? name : node_->name + "." + name;
+    list.front()->file = node_->file;
+  }
+  if (std::find(node_->table_order.begin(), node_->table_order.end(), name) == node_->table_order.end()) node_->table_order.push_back(name);
+  return {root_, list.front().get()};
+}
+
+std::vector<Table> Table::tables(const std::string& name) const {
+  if (std::find(node_->table_order.begin(), node_->table_order.end(), name) == node_->table_order.end()) node_->table_order.push_back(name);
+  node_->repeated.insert(name);
+  std::vector<Table> all;
+  const auto found = node_->tables.find(name);
+  if (found == node_->tables.end()) return all;
+  for (const auto& child : found->second) all.push_back({root_, child.get()});
+  return all;
+}
+
+void Table::read(const std::vector<Parameter>& parameters) const {
+  for (const Parameter& parameter : parameters) {
+    node_->known.push_back(known_spelling(parameter));
+    std::string found_key;
+    for (const auto& [key, value] : node_->values) {
+      const auto unit = unit_in_key(key, parameter);
+      if (!unit) continue;
+      const std::string where = node_->file + ":" + std::to_string(value->source().begin.line) + ": [" + node_->name + "] " + key;
+      if (!found_key.empty())
+        throw Error(ExitCode::usage, where + " is given twice, as " + found_key + " and " + key + "; keep one of them");
+      found_key = key;
+      node_->used.insert(key);
+      Reading(parameter, *unit, where).into_target(*value);
+    }
+    if (found_key.empty() && parameter.required)
+      throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
+    const std::string text = std::visit(Resolve{}, parameter.target);
+    if (!text.empty()) node_->resolved.emplace_back(known_spelling(parameter), text);
+  }
+}
+
+std::vector<std::pair<std::string, double>> Table::numbers() const {
+  std::vector<std::pair<std::string, double>> all;
+  for (const auto& [key, value] : node_->values) {
+    const auto number = value->value<double>();
+    if (!number) throw Error(ExitCode::usage, node_->where() + " " + key + " must be a number");
+    node_->used.insert(key);
+    node_->resolved.emplace_back(quoted(key), text_of(*number));
+    all.emplace_back(key, *number);
+  }
+  return all;
+}
+
+std::string Table::where() const { return node_->where(); }
+
+CaseFile CaseFile::read(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(ExitCode::io, path.string() + ": the case file cannot be read; check the path");
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  CaseFile made = parse(text, path.string(), overrides);
+  made.file_ = path;
+  return made;
+}
+
+CaseFile CaseFile::parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
+  CaseFile made;
+  made.root_ = std::make_shared<CaseNode>();
+  made.root_->file = name;
+  try {
+    toml::table table = toml::parse(text, name);
+    for (const std::string& override_text : overrides) apply_override(table, override_text);
+    fill(*made.root_, table);
+    made.root_->line = 0;
+  } catch (const toml::parse_error& failure) {
+    throw Error(ExitCode::usage,
+                name + ":" + std::to_string(failure.source().begin.line) + ": no valid TOML: " + std::string(failure.description()));
+  }
+  return made;
+}
+
+Table CaseFile::root() const { return {root_, root_.get()}; }
+
+void CaseFile::reject_unread() const { reject_unread_in(*root_); }
+
+std::string CaseFile::resolved() const {
+  std::string out = "# The case as it was read, with all defaults, in SI units.\n";
+  write_resolved(*root_, false, out);
+  return out;
+}
+
+std::string CaseFile::sha256() const {
+  const std::string text = resolved();
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr);
+  std::string hexadecimal;
+  for (unsigned int i = 0; i < length; ++i) {
+    constexpr char digits[] = "0123456789abcdef";
+    hexadecimal += digits[digest[i] >> 4];
+    hexadecimal += digits[digest[i] & 15];
+  }
+  return hexadecimal;
+}
+
+std::filesystem::path CaseFile::path(const std::string& relative) const {
+  const std::filesystem::path given(relative);
+  return given.is_absolute() ? given : file_.parent_path() / given;
+}
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = word.size() / 2 + 1;
+  for (const std::string& candidate : candidates) {
+    std::vector<std::size_t> row(candidate.size() + 1);
+    for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t above = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1)});
+        diagonal = above;
+      }
+    }
+    if (row.back() < best_distance) best_distance = row.back(), best = candidate;
+  }
+  return best;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace snag

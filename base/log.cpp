@@ -1,0 +1,56 @@
+#include "base/log.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "base/error.hpp"
+
+namespace snag::log {
+
+namespace {
+
+spdlog::logger& logger() {
+  static auto instance = [] {
+    auto terminal = std::make_shared<spdlog::sinks::stdout_color_sink_mt>();
+    terminal->set_pattern("%^%v%$");
+    auto made = std::make_shared<spdlog::logger>("snag", terminal);
+    made->set_level(spdlog::level::info);
+    return made;
+  }();
+  return *instance;
+}
+
+}  // namespace
+
+void start(int rank, bool quiet) {
+  if (rank != 0) logger().set_level(spdlog::level::off);
+  if (quiet) logger().sinks().front()->set_level(spdlog::level::warn);
+}
+
+void open(const std::filesystem::path& file, bool append) {
+  if (logger().level() == spdlog::level::off) return;
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append);
+    sink->set_pattern("%Y-%m-%d %H:%M:%S %l: %v");
+    logger().sinks().resize(1);
+    logger().sinks().push_back(sink);
+  } catch (const spdlog::spdlog_ex& failure) {
+    throw Error(ExitCode::io, file.string() + ": cannot be written (" + failure.what() + "); choose another --out");
+  }
+}
+
+void info(const std::string& message) { logger().info(message); }
+void warning(const std::string& message) { logger().warn("warning: " + message); }
+
+// Errors go to stderr, so that they are seen where stdout is redirected; to the file as well.
+void error(const std::string& message) {
+  if (logger().level() == spdlog::level::off) return;
+  flush();
+  std::fprintf(stderr, "error: %s\n", message.c_str());
+  if (logger().sinks().size() > 1) logger().sinks().back()->log({"snag", spdlog::level::err, message});
+}
+
+void flush() { logger().flush(); }
+
+}  // namespace snag::log
