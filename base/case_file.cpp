@@ -24,7 +24,11 @@ struct CaseNode {
   int line = 0;
   bool present = false;
   std::map<std::string, std::vector<std::unique_ptr<CaseNode>>> tables;
-  std::map<std::string, std::shared_ptr<toml::node>> values;
+  struct Value {
+    std::shared_ptr<toml::node> node;
+    int line;  // of the file; TOML's own copies forget it
+  };
+  std::map<std::string, Value> values;
   std::set<std::string> used;                                 // keys of `values` that were read
   std::vector<std::string> known;                             // keys that reading asked for
   std::vector<std::pair<std::string, std::string>> resolved;  // key = value as TOML, in the order of reading
@@ -270,7 +274,7 @@ std::string known_spelling(const Parameter& parameter) { return parameter.unit.e
 void reject_unread_in(const CaseNode& node) {
   for (const auto& [key, value] : node.values) {
     if (node.used.contains(key)) continue;
-    const std::string where = node.file + ":" + std::to_string(value->source().begin.line) + ": [" + node.name + "]";
+    const std::string where = node.file + ":" + std::to_string(value.line) + ": [" + node.name + "]";
     std::string message = where + ": unknown key \"" + key + "\"";
     const std::string near = nearest_name(key, node.known);
     if (!near.empty()) message += "; did you mean \"" + near + "\"?";
@@ -350,12 +354,12 @@ void Table::read(const std::vector<Parameter>& parameters) const {
     for (const auto& [key, value] : node_->values) {
       const auto unit = unit_in_key(key, parameter);
       if (!unit) continue;
-      const std::string where = node_->file + ":" + std::to_string(value->source().begin.line) + ": [" + node_->name + "] " + key;
+      const std::string where = node_->file + ":" + std::to_string(value.line) + ": [" + node_->name + "] " + key;
       if (!found_key.empty())
         throw Error(ExitCode::usage, where + " is given twice, as " + found_key + " and " + key + "; keep one of them");
       found_key = key;
       node_->used.insert(key);
-      Reading(parameter, *unit, where).into_target(*value);
+      Reading(parameter, *unit, where).into_target(*value.node);
     }
     if (found_key.empty() && parameter.required)
       throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
@@ -367,7 +371,7 @@ void Table::read(const std::vector<Parameter>& parameters) const {
 std::vector<std::pair<std::string, double>> Table::numbers() const {
   std::vector<std::pair<std::string, double>> all;
   for (const auto& [key, value] : node_->values) {
-    const auto number = value->value<double>();
+    const auto number = value.node->value<double>();
     if (!number) throw Error(ExitCode::usage, node_->where() + " " + key + " must be a number");
     node_->used.insert(key);
     node_->resolved.emplace_back(quoted(key), text_of(*number));

@@ -1,0 +1,127 @@
+#include "base/case_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+
+using namespace snag;
+
+namespace {
+
+struct Settings {
+  double density = 998.2, factor = 1, radius = 1e-3;
+  int count = 2;
+  bool active = true;
+  std::string kind = "sheet";
+  std::optional<double> step;
+  Vec3 centre;
+  std::vector<std::string> forces;
+  std::vector<Parameter> parameters() {
+    return {{"density", &density, "kg/m3", 1, 2e4, Basis::literature, "Density."},
+            {"factor", &factor, "1", 0, 10, Basis::assumed, "Factor."},
+            {"radius", &radius, "m", 1e-5, 1, Basis::assumed, "Radius."},
+            {"count", &count, "1", 0, 100, Basis::assumed, "Count."},
+            setting("active", &active, "On."),
+            setting("kind", &kind, "Shape.", {"sheet", "disc"}),
+            {"step", &step, "s", 0, 1, Basis::assumed, "Step; chosen if not given."},
+            {"centre", &centre, "m", -10, 10, Basis::assumed, "Centre."},
+            setting("forces", &forces, "Forces.")};
+  }
+};
+
+std::string message_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    const auto file = CaseFile::parse(text, "case.toml", overrides);
+    Settings settings;
+    file.root().table("rag").read(settings.parameters());
+    file.reject_unread();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+// Both ways of giving a unit, and every type of value, are read.
+TEST(CaseFile, ReadsValues) {
+  const auto file = CaseFile::parse(R"([rag]
+density = "1.2 g/mL"
+radius_mm = 1.5
+factor = 3
+count = 7
+active = false
+kind = "disc"
+centre_m = [1, 2.5, -3]
+forces = ["a", "b"])");
+  Settings s;
+  file.root().table("rag").read(s.parameters());
+  file.reject_unread();
+  EXPECT_DOUBLE_EQ(s.density, 1200);
+  EXPECT_DOUBLE_EQ(s.radius, 1.5e-3);
+  EXPECT_DOUBLE_EQ(s.factor, 3);
+  EXPECT_EQ(s.count, 7);
+  EXPECT_FALSE(s.active);
+  EXPECT_EQ(s.kind, "disc");
+  EXPECT_FALSE(s.step);
+  EXPECT_EQ(s.centre, (Vec3{1, 2.5, -3}));
+  EXPECT_EQ(s.forces.size(), 2u);
+}
+
+// Each mistake gets a message with the place, the value, the rule and the remedy.
+TEST(CaseFile, ExplainsMistakes) {
+  EXPECT_TRUE(contains(message_of("[rag]\n\ndensty_kg_m3 = 5"), "case.toml:3"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensty_kg_m3 = 5"), "did you mean \"density_kg_m3\""));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity = 5"), "without a unit"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity = \"5 mm\""), "wrong unit"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity_mm = 5"), "unknown key"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity = \"5 kg/m3\"\ndensity_kg_m3 = 5"), "given twice"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity_kg_m3 = -5"), "between 1 and 20000 kg/m3") ||
+              contains(message_of("[rag]\ndensity_kg_m3 = -5"), "between 1.0"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity_kg_m3 = nan"), "between"));
+  EXPECT_TRUE(contains(message_of("[rag]\nkind = \"disk\""), "did you mean \"disc\""));
+  EXPECT_TRUE(contains(message_of("[rag]\ncount = 1.5"), "whole number"));
+  EXPECT_TRUE(contains(message_of("[rag]\nactive = 1"), "true or false"));
+  EXPECT_TRUE(contains(message_of("[rag]\ncentre_m = [1, 2]"), "list of 3"));
+  EXPECT_TRUE(contains(message_of("[rags]\ncount = 1"), "did you mean [rag]"));
+  EXPECT_TRUE(contains(message_of("[rag\ncount = 1"), "no valid TOML"));
+  EXPECT_TRUE(contains(message_of("[[rag]]\ncount = 1\n[[rag]]\ncount = 2"), "more than once"));
+}
+
+// Overrides reach keys, repeated tables and tables that the file does not have; mistakes in them are explained.
+TEST(CaseFile, Overrides) {
+  const auto file =
+      CaseFile::parse("[[rag]]\ncount = 1\n[[rag]]\ncount = 2\n", "case", {"rag.1.count=5", "rag.0.kind=disc", "flow.factor=2"});
+  Settings a, b, c;
+  const auto rags = file.root().tables("rag");
+  ASSERT_EQ(rags.size(), 2u);
+  rags[0].read(a.parameters());
+  rags[1].read(b.parameters());
+  file.root().table("flow").read(c.parameters());
+  file.reject_unread();
+  EXPECT_EQ(a.kind, "disc");
+  EXPECT_EQ(b.count, 5);
+  EXPECT_DOUBLE_EQ(c.factor, 2);
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"rag.count"}), "has no \"=\""));
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"rag.coutn=3"}), "did you mean \"count\""));
+}
+
+// The resolved case reads back as the same case, so its hash is that of the physics and not of the spelling.
+TEST(CaseFile, ResolvedCaseIsTheSameCase) {
+  const auto read = [](const std::string& text, Settings& s) {
+    const auto file = CaseFile::parse(text);
+    for (const Table& table : file.root().tables("rag")) table.read(s.parameters());
+    file.reject_unread();
+    return std::pair(file.resolved(), file.sha256());
+  };
+  Settings s, t, u;
+  const auto [first, hash] = read("[[rag]]\nradius = \"0.1 mm\"\nforces=[\"x\"]\nstep_s=1e-7", s);
+  const auto [second, again] = read(first, t);
+  EXPECT_EQ(first, second);
+  EXPECT_EQ(hash, again);
+  EXPECT_EQ(s.radius, t.radius);
+  EXPECT_NE(read("[[rag]]\nradius = \"0.2 mm\"", u).second, hash);
+}
