@@ -61,7 +61,10 @@ void fill(CaseNode& node, const toml::table& table) {
     } else if (const auto* array = value.as_array(); array && is_table_array(*array)) {
       for (const toml::node& element : *array) child(*element.as_table());
     } else {
-      value.visit([&](const auto& concrete) { node.values[key] = std::make_shared<std::remove_cvref_t<decltype(concrete)>>(concrete); });
+      value.visit([&](const auto& concrete) {
+        node.values[key] = {std::make_shared<std::remove_cvref_t<decltype(concrete)>>(concrete),
+                            static_cast<int>(value.source().begin.line)};
+      });
     }
   }
 }
