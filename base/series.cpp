@@ -1,0 +1,115 @@
+#include "base/series.hpp"
+
+#include <charconv>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+
+namespace snag {
+
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> parts;
+  std::istringstream in(line);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+std::string header_line(const std::vector<std::string>& columns) {
+  std::string line;
+  for (const auto& column : columns) line += (line.empty() ? "" : ",") + column;
+  return line;
+}
+
+/// The numbers of a line, or nothing if it is not n of them.
+std::optional<std::vector<double>> numbers(const std::string& line, std::size_t n) {
+  const auto parts = split(line);
+  if (parts.size() != n) return {};
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const char *begin = parts[i].data(), *end = begin + parts[i].size();
+    const auto [stop, failure] = std::from_chars(begin, end, values[i]);
+    if (failure != std::errc() || stop != end) return {};
+  }
+  return values;
+}
+
+/// Calls `record` with each complete line behind the header and its numbers; returns the header.
+/// A last line without its end was cut off when a run was stopped, and is passed over.
+template <class Record>
+std::string for_each_record(const std::filesystem::path& file, Record record) {
+  std::ifstream in(file);
+  if (!in) throw Error(ExitCode::io, file.string() + ": cannot be read; is this the folder of a run?");
+  std::string header, line;
+  if (!std::getline(in, header) || in.eof()) return "";
+  const auto n_columns = split(header).size();
+  for (std::size_t number = 2; std::getline(in, line) && !in.eof(); ++number) {
+    const auto values = numbers(line, n_columns);
+    if (!values)
+      throw Error(ExitCode::io, file.string() + ":" + std::to_string(number) + ": \"" + line + "\" is not " + std::to_string(n_columns) +
+                                    " numbers separated by commas; repair or remove the line");
+    record(line, *values);
+  }
+  return header;
+}
+
+}  // namespace
+
+Series::Series(const std::filesystem::path& file, std::vector<std::string> columns, bool resume, double from_time)
+    : columns_(std::move(columns)) {
+  for (const auto& column : columns_)
+    if (column.empty() || column.find_first_of(",\n") != std::string::npos)
+      throw Error(ExitCode::io, file.string() + ": column name \"" + column + "\" is empty or holds a comma; choose another name");
+  const std::string header = header_line(columns_);
+  std::string kept = header + "\n";
+  if (resume && std::filesystem::exists(file)) {
+    const auto found = for_each_record(file, [&](const std::string& line, const std::vector<double>& values) {
+      if (values[0] <= from_time) kept += line + "\n";
+    });
+    if (!found.empty() && found != header)
+      throw Error(ExitCode::io, file.string() + ": has the columns \"" + found + "\", this run writes \"" + header +
+                                    "\"; resume with the same program and case, or move the file away");
+  }
+  write_atomically(file, kept);
+  file_.open(file, std::ios::app);
+  if (!file_) throw Error(ExitCode::io, file.string() + ": cannot be written; choose another --out");
+}
+
+void Series::add(const std::vector<double>& values) {
+  if (values.size() != columns_.size())
+    throw Error(ExitCode::io, "monitor of \"" + header_line(columns_) + "\": " + std::to_string(values.size()) + " values, needs " +
+                                  std::to_string(columns_.size()));
+  std::string line;
+  char number[32];
+  for (const double value : values) {
+    const int length = std::snprintf(number, sizeof number, "%.17g", value);
+    if (!line.empty()) line += ',';
+    line.append(number, length);
+  }
+  line += '\n';
+  file_.write(line.data(), static_cast<std::streamsize>(line.size()));
+  file_.flush();
+  if (!file_) throw Error(ExitCode::io, "monitor of \"" + header_line(columns_) + "\": a line could not be written; is the disk full?");
+}
+
+const std::vector<double>& SeriesTable::column(const std::string& name) const {
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i] == name || columns[i].starts_with(name + " [")) return values[i];
+  throw Error(ExitCode::io, "monitor: no column \"" + name + "\"; there are: " + header_line(columns));
+}
+
+SeriesTable read_series(const std::filesystem::path& file) {
+  std::vector<std::vector<double>> records;
+  SeriesTable table;
+  table.columns = split(for_each_record(file, [&](const std::string&, const std::vector<double>& values) { records.push_back(values); }));
+  table.values.resize(table.columns.size());
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    for (const auto& record : records) table.values[i].push_back(record[i]);
+  return table;
+}
+
+}  // namespace snag
