@@ -1,0 +1,25 @@
+#pragma once
+// Settings of contacts, table [contact] of the case file.
+#include <vector>
+
+#include "base/parameter.hpp"
+
+namespace snag {
+
+struct ContactSettings {
+  bool between_particles = true;   // contacts of particles with each other
+  double restitution = 0.01;       // e, of normal impact
+  double static_friction = 0.5;    // mu, Coulomb
+  double rolling_friction = 0.01;  // mu_r, between particles
+  double wall_restitution = 0.01;
+  double wall_friction = 0.5;
+  double wall_rolling_friction = 0;
+  double wall_stiffness_factor = 1;  // multiplies E* and G* of contacts with walls
+  double skin_over_radius = 0.3;     // of the largest particle
+  double impact_speed = 5;           // m/s, for stable_step
+
+  /// Records of the table; they refer to this object.
+  std::vector<Parameter> parameters();
+};
+
+}  // namespace snag

@@ -1,0 +1,90 @@
+#pragma once
+// Contacts of particles that are not bonded to each other, and of particles with walls: Hertz-Mindlin with tangential history, Coulomb
+// limit and rolling friction (laws: hertz_mindlin.hpp, rolling_friction.hpp; search: contact_list.hpp, wall_contacts.hpp).
+//
+// Two particles may touch when they belong to different rags, or to one rag without a whole bond between them: so neighbours on the lattice
+// touch once their bond broke, and diagonal neighbours (2 sqrt2 r apart at rest) when the cloth is sheared enough.
+//
+// Results do not depend on the ranks: a pair is evaluated from the same numbers in the same order (lower particle id first) wherever one of
+// the two is owned, forces are summed in the order of the partner's id and then walls, and the lists (of near pairs, rebuilt when a
+// particle moved half the skin) hold more pairs than touch but never decide a force.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/vec3.hpp"
+#include "dem/contacts/contact_settings.hpp"
+#include "dem/rag.hpp"
+#include "dem/tile.hpp"
+
+namespace snag {
+
+class WallSet;
+
+/// What one rag did to one wall part since the last reset, on this rank: sum over ranks.
+struct WallLoad {
+  double particle_time = 0;   // s, summed over the particles that touch
+  Vec3 impulse;               // N s, of the rag on the wall, fixed frame
+  double normal_impulse = 0;  // N s, sum of magnitudes of the normal part
+  std::int64_t touching = 0;  // particles that touch now
+};
+
+/// Counts and maxima of this rank. "Now" is the last call of add_forces; maxima are since the last reset.
+struct ContactMeasures {
+  std::int64_t n_contacts = 0;         // pairs that touch now, counted where the lower id is owned: the sum over ranks counts each once
+  std::int64_t n_wall_contacts = 0;    // now
+  double max_overlap_over_radius = 0;  // between particles, of the smaller radius
+  std::vector<double> max_wall_overlap_over_radius;  // [n_rags]
+  std::vector<std::int64_t> beyond_walls;            // [n_rags] particles whose centre is beyond a wall now
+  std::int64_t n_not_finite = 0;                     // particles without a finite position, left out of all contacts, at the last list
+  std::int64_t n_lists = 0;                          // times the lists were built
+};
+
+class ContactSolver {
+ public:
+  /// `rags` and `walls` (may be null) must outlive the solver; walls are complete when it is made. Throws Error(usage) on values out of
+  /// range.
+  ContactSolver(const ContactSettings& settings, const std::vector<Rag>& rags, const WallSet* walls);
+  ~ContactSolver();
+  ContactSolver(ContactSolver&&) noexcept;
+  ContactSolver& operator=(ContactSolver&&) noexcept;
+
+  /// Time of the walls at the next add_forces, s (default 0). Each add_forces then moves it on by its step: set it once a fluid step, or
+  /// before each call.
+  void set_time(double time);
+  /// Add forces (N) and torques (N m) to fx .. tz of the owned tiles' particles; call it when positions and velocities of owned and ghost
+  /// tiles are those of this sub-step. `step` (s) is what the tangential history advances by; 0 evaluates without advancing it. Rings are
+  /// not read; of ghosts the 13 state fields and `exists` are. Any tile that has a particle within 2 r_max of an owned one must be among
+  /// owned or ghosts. Not collective; does not throw.
+  void add_forces(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step);
+
+  /// Distance between particle centres within which tiles must be present as ghosts: 2 r_max + skin, m. Ghosts chosen so stay good until a
+  /// particle moved skin()/2.
+  double cutoff() const;
+  double skin() const;
+  /// Largest sub-step for contacts, s: a third of the Rayleigh time and an eighth of the Hertz impact time at the setting `impact_speed`,
+  /// over all pairs and walls.
+  double stable_step() const;
+  /// Which contact sets it, in words.
+  std::string stable_step_reason() const;
+
+  /// Tangential history of all contacts of a tile's particles (with particles and walls), for the tile's new rank or a checkpoint. Owner
+  /// only.
+  std::vector<double> pack(const Tile& tile) const;
+  /// Put back what pack gave; before the first add_forces that sees the tile as owned here. The same contact from two tiles is one contact.
+  void unpack(const Tile& tile, std::span<const double> values);
+
+  const ContactMeasures& measures() const;
+  /// [n_rags][parts of the WallSet], row by row.
+  const std::vector<WallLoad>& wall_loads() const;
+  /// Start maxima, times and impulses anew.
+  void reset_measures();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace snag
