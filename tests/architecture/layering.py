@@ -9,9 +9,10 @@ ALLOWED = {
     "parallel": ["base"],
     "mesh": ["parallel", "base"],
     "solver": ["mesh", "parallel", "base"],
-    "dem": ["mesh", "parallel", "base"],
+    "dem": ["observe", "mesh", "parallel", "base"],
+    "observe": ["base"],
     "coupling": ["solver", "dem", "mesh", "parallel", "base"],
-    "app": ["coupling", "solver", "dem", "mesh", "parallel", "base"],
+    "app": ["coupling", "observe", "solver", "dem", "mesh", "parallel", "base"],
 }
 HEAVY = re.compile(r"(toml\+\+|spdlog|nlohmann|CLI|petsc|hdf5|gmsh)")
 TOP = set(ALLOWED) | {"cases", "tests", "docs", "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "snag", "build", "results"}

@@ -1,0 +1,21 @@
+#pragma once
+// The subcommands: each file adds its own to the command line and returns what is to be done when the user asks for it.
+#include <functional>
+
+#include "base/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace snag {
+
+using Action = std::function<ExitCode()>;
+
+Action add_run(CLI::App& app);
+Action add_check(CLI::App& app);
+Action add_mesh(CLI::App& app);
+Action add_report(CLI::App& app);
+Action add_manual(CLI::App& app);
+
+}  // namespace snag

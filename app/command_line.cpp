@@ -1,0 +1,98 @@
+#include "app/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/command.hpp"
+#include "base/case_file.hpp"
+#include "base/log.hpp"
+#include "base/version.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr const char* about =
+    "Snag predicts how wet wipes and rags travel through and clog wastewater pumps.\n\n"
+    "A first run:   snag run cases/rag-in-channel/case.toml --out results/first\n"
+    "Look at it:    results/first/report.html in a browser, results/first/fields and rags in ParaView\n"
+    "On 4 ranks:    mpirun -n 4 snag run CASE.toml\n\n"
+    "Exit codes: 0 ok, 2 usage or case file, 3 mesh, 4 diverged, 5 invariant broken, 6 input/output, 7 stopped on request (checkpoint "
+    "written)";
+
+/// Every rank that fails alone leaves the others waiting in some exchange: give them a moment to fail too, else end them with the same
+/// code.
+void leave_together(ExitCode code) {
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (int waited = 0; waited < 100; ++waited) {
+    int done = 0;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+}
+
+/// A misspelt subcommand gets the nearest known one.
+void explain_unknown_command(int argc, char** argv, const std::vector<std::string>& known) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string word = argv[1];
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  const std::string near = nearest_name(word, known);
+  throw Error(ExitCode::usage,
+              "unknown command \"" + word + "\"; known: " + joined(known) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+}
+
+int parse_and_act(int argc, char** argv, const Session& session) {
+  CLI::App app(about, "snag");
+  app.set_version_flag("--version", std::string("snag ") + version_number + " (" + version_git + ")");
+  bool build_info = false;
+  app.add_flag("--build-info", build_info, "Compiler, flags and libraries of this program");
+  const std::vector<std::pair<std::string, Action>> actions = {
+      {"run", add_run(app)}, {"check", add_check(app)}, {"mesh", add_mesh(app)}, {"report", add_report(app)}, {"manual", add_manual(app)}};
+  std::vector<std::string> known;
+  for (const auto& [name, action] : actions) known.push_back(name);
+  explain_unknown_command(argc, argv, known);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& parse) {
+    std::ostringstream out, err;
+    const int code = app.exit(parse, out, err);
+    if (session.rank() == 0) std::cout << out.str(), std::cerr << err.str();
+    return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  if (build_info) {
+    if (session.rank() == 0) std::cout << "snag " << version_number << " " << version_git << "\n" << version_build << "\n";
+    return 0;
+  }
+  for (const auto& [name, action] : actions) {
+    if (app.got_subcommand(name)) return static_cast<int>(action());
+  }
+  if (session.rank() == 0) std::cout << app.help();
+  return static_cast<int>(ExitCode::usage);
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv, const Session& session) {
+  ExitCode code = ExitCode::io;
+  try {
+    return parse_and_act(argc, argv, session);
+  } catch (const Error& failure) {
+    code = failure.code;
+    log::error(failure.what());
+  } catch (const std::exception& failure) {
+    log::error(std::string("unexpected: ") + failure.what());
+  }
+  log::flush();
+  leave_together(code);
+  return static_cast<int>(code);
+}
+
+}  // namespace snag

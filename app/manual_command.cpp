@@ -1,0 +1,31 @@
+// snag manual: the manual of the case file, from the same records that read it.
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/manual.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+Action add_manual(CLI::App& app) {
+  const auto out = std::make_shared<std::string>();
+  CLI::App* command =
+      app.add_subcommand("manual", "Print every section and key of the case file: unit, range, default, where it comes from, meaning");
+  command->add_option("--out", *out, "File to write instead of printing");
+  return [out] {
+    if (rank_of(MPI_COMM_WORLD) != 0) return ExitCode::ok;
+    if (out->empty()) {
+      std::cout << case_file_manual();
+      return ExitCode::ok;
+    }
+    std::ofstream file(*out);
+    file << case_file_manual();
+    if (!file) throw Error(ExitCode::io, *out + ": cannot be written; choose another --out");
+    return ExitCode::ok;
+  };
+}
+
+}  // namespace snag

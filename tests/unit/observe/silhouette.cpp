@@ -1,0 +1,57 @@
+#include "observe/silhouette.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+using namespace snag;
+
+namespace {
+
+struct Sheet {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+// An ellipse with half axes a and b as a fan, turned by `angle` in the plane of the picture.
+Sheet ellipse(double a, double b, double angle, int n = 720) {
+  Sheet sheet;
+  sheet.points.push_back({0.3, -0.2, 7});
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * std::numbers::pi * i / n, x = a * std::cos(t), y = b * std::sin(t);
+    sheet.points.push_back(sheet.points[0] +
+                           Vec3{x * std::cos(angle) - y * std::sin(angle), x * std::sin(angle) + y * std::cos(angle), 0.1 * x});
+    sheet.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+  }
+  return sheet;
+}
+
+}  // namespace
+
+// An ellipse of known moments is measured to 0.5 %.
+TEST(Silhouette, EllipseToHalfAPercent) {
+  for (const double angle : {0.0, 0.4, -1.2}) {
+    const Sheet sheet = ellipse(0.15, 0.05, angle);
+    const Silhouette seen = silhouette(sheet.points, sheet.triangles, {}, 5e-4);
+    EXPECT_NEAR(seen.area, std::numbers::pi * 0.15 * 0.05, 0.005 * std::numbers::pi * 0.15 * 0.05);
+    EXPECT_NEAR(seen.elongation_ratio, 3, 0.015);
+    EXPECT_NEAR(seen.orientation, angle, 0.005);
+    EXPECT_NEAR(seen.x, 0.3, 1e-4);
+    EXPECT_NEAR(seen.y, -0.2, 1e-4);
+  }
+}
+
+// What covers itself counts once, and the view decides what is seen: a sheet seen from its edge has no area to speak of.
+TEST(Silhouette, OverlapAndView) {
+  Sheet sheet = ellipse(0.1, 0.1, 0);
+  const double once = silhouette(sheet.points, sheet.triangles, {}, 1e-3).area;
+  const int n = static_cast<int>(sheet.points.size());
+  for (int i = 0; i < n; ++i) sheet.points.push_back(sheet.points[i] + Vec3{0, 0, 1});
+  for (std::size_t i = 0, count = sheet.triangles.size(); i < count; ++i) {
+    const auto [a, b, c] = sheet.triangles[i];
+    sheet.triangles.push_back({a + n, c + n, b + n});
+  }
+  EXPECT_DOUBLE_EQ(silhouette(sheet.points, sheet.triangles, {}, 1e-3).area, once);
+  const Sheet flat = ellipse(0.1, 0.1, 0);
+  EXPECT_LT(silhouette(flat.points, flat.triangles, {{0, 1, 0}, unit(Vec3{0.1, 0, -1})}, 1e-3).area, 0.15 * once);
+}
