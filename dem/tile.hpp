@@ -6,7 +6,9 @@
 //
 // A bond between two tiles is computed by both, from the same numbers in the same order: so forces need no way back, and results do not
 // depend on the ranks.
+#include <cstddef>
 #include <cstdint>
+#include <new>
 #include <vector>
 
 #include "base/vec3.hpp"
@@ -14,6 +16,20 @@
 namespace snag {
 
 inline constexpr int max_tile_side = 32;
+inline constexpr int max_stride = 40;  // max_tile_side + 2, rounded up to a multiple of 8
+
+/// Memory that starts at a cache line: a vector load that crosses two lines costs double.
+template <class T>
+struct CacheAligned {
+  using value_type = T;
+  CacheAligned() = default;
+  template <class U>
+  CacheAligned(const CacheAligned<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
+  bool operator==(const CacheAligned&) const = default;
+};
+using AlignedDoubles = std::vector<double, CacheAligned<double>>;
 
 struct Tile {
   enum Field : int {
@@ -44,13 +60,16 @@ struct Tile {
   int column = 0, row = 0;     // lattice index of the tile's first particle
   int nx = 0, ny = 0;          // particles in the tile, without ring
   int stride = 0;              // doubles in a row of a field, a multiple of 8, >= nx + 2
-  std::vector<double> values;  // [n_fields][ny + 2][stride], fields staggered against cache-set conflicts
+  AlignedDoubles values;       // [n_fields][ny + 2][stride], fields staggered against cache-set conflicts
   std::size_t field_size = 0;  // doubles from one field to the next
 
-  std::vector<double> exists;  // [(ny + 2) * stride] 1 or 0: the mask of the piece, ring included
-  std::vector<double> bond_x,
-      bond_y;  // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
+  AlignedDoubles exists;  // [(ny + 2) * stride] 1 or 0: the mask of the piece, ring included
+  AlignedDoubles free;    // [(ny + 2) * stride] 1: obeys the forces; 0: keeps its velocity (held by a clamp, or absent)
+  // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
+  AlignedDoubles bond_x, bond_y;
 
+  /// Sizes the arrays for nx x ny particles: everything zero, unit quaternions, nothing exists.
+  void allocate(int tile_nx, int tile_ny);
   double* field(int f) { return values.data() + f * field_size; }
   const double* field(int f) const { return values.data() + f * field_size; }
   /// Place of the particle in column i, row j of the tile; -1 and nx, ny are the ring.
