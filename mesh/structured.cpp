@@ -1,0 +1,101 @@
+// Cell (i, j, k) has the number i + n_x (j + n_y k); node (i, j, k) likewise with n + 1 nodes along each axis. Rank r owns the slabs k of
+// an equal share.
+#include "mesh/structured.hpp"
+
+#include "base/error.hpp"
+#include "mesh/parts.hpp"
+#include "mesh/place.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+namespace {
+
+struct Box {
+  Vec3 lower, upper;
+  std::array<int, 3> n;
+  int first = 0, last = 0;  // slabs [first, last) of this rank
+
+  int n_nodes(int axis) const { return n[static_cast<std::size_t>(axis)] + 1; }
+  std::int64_t node_id(int i, int j, int k) const { return i + std::int64_t{n_nodes(0)} * (j + std::int64_t{n_nodes(1)} * k); }
+  Vec3 position(int i, int j, int k) const {
+    const auto along = [this](int axis, int index) {
+      const double fraction = static_cast<double>(index) / n[static_cast<std::size_t>(axis)];
+      return (1 - fraction) * lower[axis] + fraction * upper[axis];
+    };
+    return {along(0, i), along(1, j), along(2, k)};
+  }
+};
+
+int first_slab(int n_slabs, int rank, int size) { return static_cast<int>(std::int64_t{n_slabs} * rank / size); }
+
+int rank_of_slab(int slab, int n_slabs, int size) {
+  int rank = 0;
+  while (first_slab(n_slabs, rank + 1, size) <= slab) ++rank;
+  return rank;
+}
+
+/// Slab k: owned, or a ghost slab of another rank. Nodes of the slabs [bottom, ...) lie in parts in the order of their numbers.
+void add_slab(const Box& box, int k, int bottom, MeshParts& parts) {
+  const auto local = [&](int i, int j, int level) { return static_cast<int>(box.node_id(i, j, level) - box.node_id(0, 0, bottom)); };
+  const int size = size_of(parts.comm), owner = rank_of_slab(k, box.n[2], size);
+  const bool is_ghost = k < box.first || k >= box.last;
+  int index = (k - first_slab(box.n[2], owner, size)) * box.n[0] * box.n[1];
+  for (int j = 0; j < box.n[1]; ++j)
+    for (int i = 0; i < box.n[0]; ++i) {
+      const std::array<int, 8> nodes{local(i, j, k),     local(i + 1, j, k),     local(i + 1, j + 1, k),     local(i, j + 1, k),
+                                     local(i, j, k + 1), local(i + 1, j, k + 1), local(i + 1, j + 1, k + 1), local(i, j + 1, k + 1)};
+      add_cell(parts, CellShape::hexahedron, nodes.data(), 8);
+      parts.cell_id.push_back(i + std::int64_t{box.n[0]} * (j + std::int64_t{box.n[1]} * k));
+      parts.zone.push_back(0);
+      if (is_ghost) parts.ghost_rank.push_back(owner), parts.ghost_index.push_back(index);
+      ++index;
+      const auto name = [&](int patch, std::array<int, 4> corner) {
+        const std::array<int, 4> face{nodes[corner[0]], nodes[corner[1]], nodes[corner[2]], nodes[corner[3]]};
+        add_boundary_face(parts, patch, face.data(), 4);
+      };
+      if (i == 0) name(0, {0, 3, 7, 4});
+      if (i == box.n[0] - 1) name(1, {1, 2, 6, 5});
+      if (j == 0) name(2, {0, 1, 5, 4});
+      if (j == box.n[1] - 1) name(3, {3, 2, 6, 7});
+      if (k == 0) name(4, {0, 1, 2, 3});
+      if (k == box.n[2] - 1) name(5, {4, 5, 6, 7});
+    }
+}
+
+}  // namespace
+
+Mesh structured_box(MPI_Comm comm, Vec3 lower, Vec3 upper, std::array<int, 3> n, std::array<bool, 3> periodic) {
+  const Vec3 width = upper - lower;
+  for (int axis = 0; axis < 3; ++axis)
+    if (n[static_cast<std::size_t>(axis)] < 1 || !(width[axis] > 0))
+      throw Error(ExitCode::mesh, "structured box: axis " + std::to_string(axis) + " has " +
+                                      std::to_string(n[static_cast<std::size_t>(axis)]) + " cells over " + words(width[axis]) +
+                                      " m, at least one cell and a positive width are needed; correct the box");
+  MeshParts parts;
+  parts.comm = comm;
+  parts.source = "structured box";
+  parts.zones = {"fluid"};
+  parts.patches = {"x0", "x1", "y0", "y1", "z0", "z1"};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic[static_cast<std::size_t>(axis)]) continue;
+    Vec3 translation;
+    translation[axis] = width[axis];
+    parts.periodic.push_back(
+        {parts.patches[static_cast<std::size_t>(2 * axis)], parts.patches[static_cast<std::size_t>(2 * axis + 1)], translation});
+  }
+
+  const int rank = rank_of(comm), size = size_of(comm);
+  Box box{lower, upper, n, first_slab(n[2], rank, size), first_slab(n[2], rank + 1, size)};
+  if (box.first == box.last) return build_mesh(std::move(parts));
+  const int bottom = std::max(box.first - 1, 0), top = std::min(box.last + 1, n[2]);
+  for (int k = bottom; k <= top; ++k)
+    for (int j = 0; j <= n[1]; ++j)
+      for (int i = 0; i <= n[0]; ++i) parts.node.push_back(box.position(i, j, k)), parts.node_id.push_back(box.node_id(i, j, k));
+  for (int k = box.first; k < box.last; ++k) add_slab(box, k, bottom, parts);
+  parts.n_owned = static_cast<int>(parts.cell_id.size());
+  if (bottom < box.first) add_slab(box, bottom, bottom, parts);
+  if (top > box.last) add_slab(box, top - 1, bottom, parts);
+  return build_mesh(std::move(parts));
+}
+
+}  // namespace snag
