@@ -1,0 +1,298 @@
+#include "coupling/kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double use_holder = -1;   // factor that stands for "the cell that holds the particle, weight 1"
+constexpr double none = -infinity;  // exponent where no cell is in the support
+
+}  // namespace
+
+/// What a rank answers about a particle: four doubles.
+struct Kernel::Answer {
+  double exponent = none;   // largest ln g of its cells: the shift of `sum`
+  double sum = 0;           // sum V_c exp(ln g_c - exponent), m3
+  double holder_id = -1;    // cell_id of its cell that holds the particle (exact below 2^53), or -1
+  double holder_cell = -1;  // local number of that cell
+
+  static Answer read(const double* from) { return {from[0], from[1], from[2], from[3]}; }
+  void write(double* to) const { to[0] = exponent, to[1] = sum, to[2] = holder_id, to[3] = holder_cell; }
+};
+
+Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
+    : shape_(shape), width_(width), mesh_(mesh), around_(mesh.comm), nearest_(mesh.comm) {
+  mesh_moved();
+}
+
+void Kernel::mesh_moved() {
+  locator_ = std::make_unique<CellLocator>(mesh_);
+  const Vec3 &lower = locator_->lower(), &upper = locator_->upper();
+  const std::array<double, 6> box{lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  boxes_.resize(size_of(mesh_.comm));
+  MPI_Allgather(box.data(), 6, MPI_DOUBLE, boxes_.data(), 6, MPI_DOUBLE, mesh_.comm);
+}
+
+void Kernel::locate(std::span<const Vec3> points) {
+  n_particles_ = static_cast<int>(points.size());
+  if (holder_cell_.size() != points.size()) {
+    holder_cell_.assign(points.size(), -1);
+    holder_rank_.assign(points.size(), -1);
+  }
+  plan_by_boxes(points);
+  std::vector<double> answers, received;
+  around_.router.back(search_cells(points), 4, answers);
+  std::vector<int> unresolved;
+  const std::vector<double> factors = weight_factors(answers, unresolved);
+  around_.router.forward(factors, 1, received);
+  finish_weights(received);
+  strays_ = sum(mesh_.comm, static_cast<std::int64_t>(unresolved.size())) > 0;
+  if (strays_) take_nearest_cells(points, unresolved);
+}
+
+/// A particle is told to the ranks whose cells' bounding box, enlarged by the support, holds it.
+void Kernel::plan_by_boxes(std::span<const Vec3> points) {
+  const double support = shape_.support_radius(width_);
+  std::vector<std::vector<int>> particles_for(boxes_.size());
+  for (std::size_t r = 0; r < boxes_.size(); ++r) {
+    const auto& box = boxes_[r];
+    if (box[0] > box[3]) continue;  // a rank without cells
+    // A point on the box's face must not be lost by round-off.
+    const double margin = support + 1e-9 * (std::abs(box[3] - box[0]) + std::abs(box[4] - box[1]) + std::abs(box[5] - box[2]));
+    for (std::size_t b = 0; b < points.size(); ++b) {
+      const Vec3& x = points[b];
+      const bool inside = x.x >= box[0] - margin && x.x <= box[3] + margin && x.y >= box[1] - margin && x.y <= box[4] + margin &&
+                          x.z >= box[2] - margin && x.z <= box[5] + margin;
+      if (inside) particles_for[r].push_back(static_cast<int>(b));
+    }
+  }
+  around_.router.plan(particles_for);
+}
+
+/// Cells of this rank around the particles it was told of: weights shifted by the nearest of them, and their sums.
+std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
+  const auto& router = around_.router;
+  std::vector<double> sent(4 * router.n_entries()), received;
+  for (int e = 0; e < router.n_entries(); ++e) {
+    const int b = router.particle(e);
+    const double hint = holder_rank_[b] == router.rank(e) ? holder_cell_[b] : -1;
+    std::copy_n(std::array{points[b].x, points[b].y, points[b].z, hint}.data(), 4, &sent[4 * e]);
+  }
+  router.forward(sent, 4, received);
+
+  const double support = shape_.support_radius(width_);
+  const int n = router.n_received();
+  std::vector<double> answers(4 * static_cast<std::size_t>(n));
+  received_holder_.resize(n);
+  around_.start.assign(1, 0);
+  around_.cell.clear();
+  around_.weight.clear();
+  for (int i = 0; i < n; ++i) {
+    const Vec3 x{received[4 * i], received[4 * i + 1], received[4 * i + 2]};
+    Answer answer;
+    const int holder = received_holder_[i] = locator_->find(x, static_cast<int>(received[4 * i + 3]));
+    if (holder >= 0) answer.holder_id = static_cast<double>(mesh_.cell_id[holder]), answer.holder_cell = holder;
+    if (support > 0) add_weights(x, support, answer.exponent, answer.sum);
+    around_.start.push_back(static_cast<int>(around_.cell.size()));
+    answer.write(&answers[4 * static_cast<std::size_t>(i)]);
+  }
+  return answers;
+}
+
+/// Cells of this rank in the support about x and V_c g_c exp(-exponent), appended to the stencils; exponent and sum of them.
+void Kernel::add_weights(const Vec3& x, double support, double& exponent, double& sum_of_weights) {
+  auto& [router, start, cell, weight] = around_;
+  const std::size_t first = cell.size();
+  locator_->within(x, support, cell);
+  weight.resize(cell.size());
+  if (first == cell.size()) return;
+  for (std::size_t s = first; s < cell.size(); ++s) weight[s] = norm_squared(mesh_.cell_centre[cell[s]] - x);
+  const std::span<double> added(weight.data() + first, cell.size() - first);
+  shape_.log_weights(added, width_);
+  exponent = *std::max_element(added.begin(), added.end());
+  for (std::size_t s = first; s < cell.size() && exponent > none; ++s) {
+    weight[s] = mesh_.cell_volume[cell[s]] * std::exp(weight[s] - exponent);
+    sum_of_weights += weight[s];
+  }
+}
+
+/// From the answers of all ranks about one particle: the factor that normalises the weights on each of them.
+std::vector<double> Kernel::weight_factors(std::span<const double> answers, std::vector<int>& unresolved) {
+  const auto& router = around_.router;
+  std::vector<double> exponent(n_particles_, none), total(n_particles_, 0.0);
+  std::vector<double> holder_id(n_particles_, infinity);
+  holder_rank_.assign(n_particles_, -1);
+  holder_cell_.assign(n_particles_, -1);
+  for (int e = 0; e < router.n_entries(); ++e) {
+    const int b = router.particle(e);
+    const Answer answer = Answer::read(&answers[4 * static_cast<std::size_t>(e)]);
+    exponent[b] = std::max(exponent[b], answer.exponent);
+    if (answer.holder_id < 0 || answer.holder_id >= holder_id[b]) continue;
+    holder_id[b] = answer.holder_id;
+    holder_rank_[b] = router.rank(e);
+    holder_cell_[b] = static_cast<int>(answer.holder_cell);
+  }
+  std::vector<double> factors(router.n_entries(), 0.0);
+  for (int e = 0; e < router.n_entries(); ++e) {
+    const Answer answer = Answer::read(&answers[4 * static_cast<std::size_t>(e)]);
+    if (answer.exponent == none) continue;
+    const int b = router.particle(e);
+    factors[e] = std::exp(answer.exponent - exponent[b]);
+    total[b] += answer.sum * factors[e];
+  }
+  for (int e = 0; e < router.n_entries(); ++e) {
+    const int b = router.particle(e);
+    if (total[b] > 0) factors[e] /= total[b];
+    else if (holder_rank_[b] == router.rank(e)) factors[e] = use_holder;
+  }
+  std::int64_t outside = 0;
+  for (int b = 0; b < n_particles_; ++b) {
+    if (holder_rank_[b] >= 0) continue;
+    ++outside;
+    if (total[b] == 0) unresolved.push_back(b);
+  }
+  n_outside_ = sum(mesh_.comm, outside);
+  return factors;
+}
+
+/// Multiply the weights by their factors; put the holding cell where it stands for the kernel.
+void Kernel::finish_weights(std::span<const double> factors) {
+  std::vector<int> start{0}, cell;
+  std::vector<double> weight;
+  cell.reserve(around_.cell.size() + factors.size());
+  weight.reserve(around_.cell.size() + factors.size());
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i] == use_holder) {
+      cell.push_back(received_holder_[i]);
+      weight.push_back(1);
+    } else if (factors[i] > 0) {
+      for (int s = around_.start[i]; s < around_.start[i + 1]; ++s) {
+        cell.push_back(around_.cell[s]);
+        weight.push_back(around_.weight[s] * factors[i]);
+      }
+    }
+    start.push_back(static_cast<int>(cell.size()));
+  }
+  around_.start.swap(start);
+  around_.cell.swap(cell);
+  around_.weight.swap(weight);
+}
+
+/// Particles that no cell holds and no kernel reaches: every rank names its nearest cell, the nearest of all (lowest cell_id if equal) takes it.
+void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved) {
+  const MPI_Comm comm = mesh_.comm;
+  const int ranks = size_of(comm), me = rank_of(comm), mine = static_cast<int>(unresolved.size());
+  std::vector<int> count(ranks), start(ranks, 0), words(ranks), word_start(ranks);
+  MPI_Allgather(&mine, 1, MPI_INT, count.data(), 1, MPI_INT, comm);
+  for (int r = 1; r < ranks; ++r) start[r] = start[r - 1] + count[r - 1];
+  for (int r = 0; r < ranks; ++r) words[r] = 3 * count[r], word_start[r] = 3 * start[r];
+  const int n = start.back() + count.back();
+  std::vector<Vec3> own(mine), all(n);
+  for (int i = 0; i < mine; ++i) own[i] = points[unresolved[i]];
+  MPI_Allgatherv(own.data(), 3 * mine, MPI_DOUBLE, all.data(), words.data(), word_start.data(), MPI_DOUBLE, comm);
+
+  std::vector<int> cell(n);
+  std::vector<double> offers(2 * n), all_offers(2 * static_cast<std::size_t>(n) * ranks);  // squared distance, cell_id
+  for (int i = 0; i < n; ++i) {
+    cell[i] = locator_->nearest(all[i]);
+    offers[2 * i] = cell[i] < 0 ? infinity : norm_squared(mesh_.cell_centre[cell[i]] - all[i]);
+    offers[2 * i + 1] = cell[i] < 0 ? infinity : static_cast<double>(mesh_.cell_id[cell[i]]);
+  }
+  MPI_Allgather(offers.data(), 2 * n, MPI_DOUBLE, all_offers.data(), 2 * n, MPI_DOUBLE, comm);
+
+  std::vector<std::vector<int>> particles_for(ranks);
+  nearest_.start.assign(1, 0);
+  nearest_.cell.clear();
+  for (int i = 0; i < n; ++i) {
+    int winner = 0;
+    const auto offer = [&](int r) { const double* o = &all_offers[2 * (static_cast<std::size_t>(r) * n + i)]; return std::pair(o[0], o[1]); };
+    for (int r = 1; r < ranks; ++r)
+      if (offer(r) < offer(winner)) winner = r;
+    if (winner == me) {
+      nearest_.cell.push_back(cell[i]);
+      nearest_.start.push_back(static_cast<int>(nearest_.cell.size()));
+    }
+    if (i < start[me] || i >= start[me] + mine) continue;
+    const int b = unresolved[i - start[me]];
+    particles_for[winner].push_back(b);
+    holder_rank_[b] = winner;
+  }
+  nearest_.weight.assign(nearest_.cell.size(), 1.0);
+  nearest_.router.plan(particles_for);
+}
+
+std::vector<double> Kernel::average(std::span<const CellField> fields) const {
+  int components = 0;
+  for (const auto& field : fields) components += field.components;
+  std::vector<double> values(static_cast<std::size_t>(n_particles_) * components, 0.0);
+  average(around_, fields, components, values);
+  if (strays_) average(nearest_, fields, components, values);
+  return values;
+}
+
+std::vector<Vec3> Kernel::average(std::span<const Vec3> field) const {
+  const CellField one{field.empty() ? nullptr : &field[0].x, 3};
+  const std::vector<double> values = average(std::span(&one, 1));
+  std::vector<Vec3> vectors(n_particles_);
+  for (int b = 0; b < n_particles_; ++b) vectors[b] = {values[3 * b], values[3 * b + 1], values[3 * b + 2]};
+  return vectors;
+}
+
+void Kernel::average(const Stencils& stencils, std::span<const CellField> fields, int components, std::vector<double>& values) const {
+  const int n = stencils.router.n_received();
+  std::vector<double> answers(static_cast<std::size_t>(n) * components, 0.0), entries;
+  for (int i = 0; i < n; ++i) {
+    double* answer = answers.data() + static_cast<std::size_t>(i) * components;
+    for (const auto& [cell_values, m] : fields) {
+      for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
+        const double* value = cell_values + static_cast<std::size_t>(stencils.cell[s]) * m;
+        for (int j = 0; j < m; ++j) answer[j] += stencils.weight[s] * value[j];
+      }
+      answer += m;
+    }
+  }
+  stencils.router.back(answers, components, entries);
+  for (int e = 0; e < stencils.router.n_entries(); ++e) {
+    double* value = values.data() + static_cast<std::size_t>(stencils.router.particle(e)) * components;
+    for (int j = 0; j < components; ++j) value[j] += entries[static_cast<std::size_t>(e) * components + j];
+  }
+}
+
+void Kernel::spread(std::span<const double> amounts, int components, std::span<double> field) const {
+  spread(around_, amounts, components, field);
+  if (strays_) spread(nearest_, amounts, components, field);
+}
+
+void Kernel::spread(const Stencils& stencils, std::span<const double> amounts, int components, std::span<double> field) const {
+  std::vector<double> received;
+  stencils.router.forward_particles(amounts, components, received);
+  for (int i = 0; i < stencils.router.n_received(); ++i) {
+    const double* amount = received.data() + static_cast<std::size_t>(i) * components;
+    for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
+      const int c = stencils.cell[s];
+      const double share = stencils.weight[s] / mesh_.cell_volume[c];
+      for (int j = 0; j < components; ++j) field[static_cast<std::size_t>(c) * components + j] += share * amount[j];
+    }
+  }
+}
+
+std::array<double, 2> Kernel::width_over_cell_size() const {
+  double least = infinity, largest = 0;
+  for (const int cell : received_holder_) {
+    if (cell < 0) continue;
+    const double ratio = width_ / std::cbrt(mesh_.cell_volume[cell]);
+    least = std::min(least, ratio), largest = std::max(largest, ratio);
+  }
+  least = minimum(mesh_.comm, least), largest = maximum(mesh_.comm, largest);
+  return {largest > 0 ? least : 0, largest};
+}
+
+}  // namespace snag

@@ -1,0 +1,88 @@
+#pragma once
+// Transfers between particles and cells, across ranks, with one set of weights for both ways.
+//
+//   w_bc = V_c g(|x_c - x_b|) / sum_c' V_c' g(|x_c' - x_b|)      weight of particle b in cell c; sum_c w_bc = 1 also near walls
+//   average (consistent):   u_b = sum_c w_bc u_c                 fluid -> particles; a constant is returned exactly
+//   spread (conservative):  f_c = 1/V_c sum_b w_bc F_b           particles -> fluid; sum_c V_c f_c = sum_b F_b
+//
+// The exponent of g is shifted by that of the nearest centre (log-sum-exp), so a kernel narrower than the cells becomes the nearest cell and
+// nothing is ever 0/0. Where no centre lies in the support, the cell that holds the particle has weight 1. A particle that no cell holds
+// (overlap with a wall, a gap) and that no kernel reaches takes the nearest centre; it is counted. Ties go to the lowest cell_id.
+// Away from walls `average` is second-order accurate in delta, and exact for linear fields on meshes that are symmetric about the particle.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "coupling/kernel_shape.hpp"
+#include "coupling/particle_router.hpp"
+#include "mesh/locator.hpp"
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+/// A cell field, components interleaved, [at least n_cells][components].
+struct CellField {
+  const double* values = nullptr;
+  int components = 1;
+};
+
+class Kernel {
+ public:
+  /// `shape` and `mesh` must outlive the kernel. `width`: delta, m; any positive number for the cell kernel.
+  Kernel(const KernelShape& shape, double width, const Mesh& mesh);
+
+  /// Cells have moved (a turning zone): rebuild the search structures.
+  void mesh_moved();
+  /// Weights of the particles of this rank at these places. Collective.
+  void locate(std::span<const Vec3> points);
+  /// Fluid -> particles, consistent: all fields in one message, [n_particles][sum of components]. Collective.
+  std::vector<double> average(std::span<const CellField> fields) const;
+  std::vector<Vec3> average(std::span<const Vec3> field) const;
+  /// Particles -> fluid, conservative: amounts [n_particles][components] are added as amount per m3 to field [n_cells][components]. Collective.
+  void spread(std::span<const double> amounts, int components, std::span<double> field) const;
+
+  double width() const { return width_; }
+  int n_particles() const { return n_particles_; }
+  /// Particles of all ranks that no cell holds, at the last locate.
+  std::int64_t n_outside() const { return n_outside_; }
+  /// Rank whose cell holds each particle of this rank (or the nearest cell, if none does and the kernel does not reach one).
+  const std::vector<int>& holder_rank() const { return holder_rank_; }
+  /// Kernel width over the cell size V^(1/3) of the cells that hold particles: least and largest of all ranks; {0, 0} without particles. Collective.
+  std::array<double, 2> width_over_cell_size() const;
+
+ private:
+  /// What the cells of this rank give to the particles it was told of.
+  struct Stencils {
+    explicit Stencils(MPI_Comm comm) : router(comm) {}
+    ParticleRouter router;
+    std::vector<int> start, cell;  // compressed rows, one a received particle
+    std::vector<double> weight;    // normalised over all ranks
+  };
+  struct Answer;
+
+  void plan_by_boxes(std::span<const Vec3> points);
+  std::vector<double> search_cells(std::span<const Vec3> points);
+  void add_weights(const Vec3& x, double support, double& exponent, double& sum_of_weights);
+  std::vector<double> weight_factors(std::span<const double> answers, std::vector<int>& unresolved);
+  void finish_weights(std::span<const double> factors);
+  void take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved);
+  void average(const Stencils& stencils, std::span<const CellField> fields, int components, std::vector<double>& values) const;
+  void spread(const Stencils& stencils, std::span<const double> amounts, int components, std::span<double> field) const;
+
+  const KernelShape& shape_;
+  double width_;
+  const Mesh& mesh_;
+  std::unique_ptr<CellLocator> locator_;
+  std::vector<std::array<double, 6>> boxes_;  // of the cells of every rank: lower, upper corner
+
+  int n_particles_ = 0;
+  std::int64_t n_outside_ = 0;
+  bool strays_ = false;          // some particle of some rank took the nearest cell
+  std::vector<int> holder_rank_;
+  std::vector<int> holder_cell_;     // local number of that cell on its rank: the hint of the next search
+  std::vector<int> received_holder_; // by received particle: the owned cell that holds it, or -1
+  Stencils around_, nearest_;    // cells in the support or holding the particle; nearest cells of the others
+};
+
+}  // namespace snag

@@ -1,0 +1,35 @@
+#pragma once
+// Drag laws of a sphere share one form:
+//
+//   F = 1/2 rho C_d(Re) A |w| w,   A = pi d^2/4,   w = u - v,   Re = rho |w| d / mu
+//     = K w,   K = pi/8 mu d (C_d Re),
+//
+// written with C_d Re = 24 f(Re), finite at rest, so that no law divides 0/0. K is also the slope for the implicit step (secant).
+#include <cmath>
+#include <numbers>
+
+#include "coupling/fluid_force.hpp"
+
+// The vector variants of pow (glibc's libmvec) are offered to the vectoriser without the rest of -ffast-math.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__)
+extern "C" __attribute__((__simd__("notinbranch"))) double pow(double, double) noexcept;
+#endif
+
+namespace snag {
+
+/// `drag_times_Re(Re)` is C_d Re.
+template <class Law>
+void add_sphere_drag(const FluidSamples& fluid, const Particles& particles, const Forces& forces, const Law& drag_times_Re) {
+  const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter;
+  const double K_factor = std::numbers::pi / 8 * mu * d;
+#pragma omp simd
+  for (int p = particles.begin; p < particles.end; ++p) {
+    const Vec3 w = fluid.velocity[p] - particles.velocity[p];
+    const double Re = rho * norm(w) * d / mu;
+    const double K = K_factor * drag_times_Re(Re);
+    forces.force.add(p, K * w);
+    forces.slope[p] += K;
+  }
+}
+
+}  // namespace snag
