@@ -1,0 +1,206 @@
+// Single-vane wastewater pump in two zones, rotor and stator, that share no node: their common surface slides.
+//
+//   rotor   disc of the sliding radius and the turning eye, less the vane      (pump_solids.cpp; dimensions in pump_plan.hpp)
+//   stator  spiral casing with outlet pipe, and the inlet pipe or a tank: two parts that only the rotor connects
+//
+// Both sides of the interface have the same sizes, so that their faceted areas agree; the rotor is meshed at an angle, because one
+// thread meshes the same cylinder twice alike and a sliding interface would be conformal without anyone noticing.
+#include <gmsh.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "mesh/generate/cad.hpp"
+#include "mesh/generate/geometry.hpp"
+#include "mesh/generate/pump_solids.hpp"
+#include "mesh/generate/sizes.hpp"
+
+namespace snag::generate {
+
+namespace {
+
+enum Volume { rotor = 1, stator };
+enum Surface { inlet = 11, outlet, impeller_walls, casing_walls, interface_rotor, interface_stator, tank_walls, plate };
+
+struct PumpSizes {
+  double wall, edge, interface, core, pipe, tank;  // m
+};
+
+const std::map<std::string, PumpSizes>& presets() {
+  static const std::map<std::string, PumpSizes> sizes = {
+      {"coarse", {12.5e-3, 4.4e-3, 11e-3, 16.5e-3, 27e-3, 60e-3}},
+      {"medium", {5.5e-3, 2.0e-3, 5.4e-3, 8.6e-3, 12.2e-3, 32e-3}},
+      {"fine", {2.9e-3, 1.0e-3, 2.9e-3, 4.65e-3, 6.8e-3, 18e-3}},
+  };
+  return sizes;
+}
+
+struct Pump final : Geometry {
+  static constexpr const char* name = "pump";
+  PumpDimensions dimensions;
+  SuctionTank tank;
+  std::string suction = "pipe", resolution = "coarse";
+  std::optional<double> wall_size, edge_size, interface_size, core_size, pipe_size, tank_size;
+
+  std::string meaning() const override { return "Single-vane wastewater pump, rotor and stator with a sliding interface; tetrahedra."; }
+  std::vector<Parameter> parameters() override;
+  Expectation build(double size_factor) override;
+
+ private:
+  /// Faces of each named surface.
+  struct Faces {
+    std::map<Surface, std::vector<int>> of;
+    std::vector<int> edges, pipes;  // noses of vane and tongue; outlet transition and pipes: subsets of the walls
+  };
+  PumpSizes sizes(double factor) const;
+  void sort_rotor(const std::vector<int>& volumes, Faces& faces) const;
+  void sort_casing(const std::vector<int>& volumes, Faces& faces) const;
+  void sort_suction(const std::vector<int>& volumes, Faces& faces) const;
+  bool is_sliding_cylinder(const Face& face) const;
+  bool is_nose(const Face& face, double radius, double height) const;
+};
+
+std::vector<Parameter> Pump::parameters() {
+  auto all = dimensions.parameters();
+  all.push_back(setting("inlet", &suction, "Where the pump takes its water from.", {"pipe", "tank"}));
+  for (auto& parameter : tank.parameters()) all.push_back(parameter);
+  all.push_back(setting("resolution", &resolution,
+                        "About 30 thousand, 200 thousand or 1 million cells; a size given replaces that of the preset.",
+                        {"coarse", "medium", "fine"}));
+  using enum Basis;
+  for (const auto& [key, target, meaning] :
+       {std::tuple{"wall_size", &wall_size, "Edge length at the walls of impeller and casing."},
+        std::tuple{"edge_size", &edge_size, "Edge length at the noses of vane and tongue."},
+        std::tuple{"interface_size", &interface_size, "Edge length on both sides of the sliding interface."},
+        std::tuple{"core_size", &core_size, "Edge length away from the walls."},
+        std::tuple{"pipe_size", &pipe_size, "Edge length in the middle of the pipes; 0.625 of it at their walls."},
+        std::tuple{"tank_size", &tank_size, "Edge length far out in the tank."}})
+    all.push_back({key, target, "m", 1e-4, 1, assumed, std::string(meaning) + " That of the resolution if absent."});
+  return all;
+}
+
+PumpSizes Pump::sizes(double factor) const {
+  const PumpSizes preset = presets().at(resolution);
+  return {factor * wall_size.value_or(preset.wall),           factor * edge_size.value_or(preset.edge),
+          factor * interface_size.value_or(preset.interface), factor * core_size.value_or(preset.core),
+          factor * pipe_size.value_or(preset.pipe),           factor * tank_size.value_or(preset.tank)};
+}
+
+bool Pump::is_sliding_cylinder(const Face& face) const {
+  const double area = 2 * std::numbers::pi * dimensions.sliding_radius() * dimensions.impeller_width;
+  return face.type == "Cylinder" && face.spans(2, 0, dimensions.impeller_width) && std::abs(face.area / area - 1) < 1e-6;
+}
+
+// Noses are parts of round bars: cylinders over the whole height whose area is below that of half the bar.
+bool Pump::is_nose(const Face& face, double radius, double height) const {
+  return face.type == "Cylinder" && face.area < 1.01 * std::numbers::pi * radius * height &&
+         std::abs(face.upper.z - face.lower.z - height) < 1e-5;
+}
+
+void Pump::sort_rotor(const std::vector<int>& volumes, Faces& faces) const {
+  const double nose = std::max(dimensions.leading_edge_thickness, dimensions.trailing_edge_thickness) / 2;
+  for (const Face& face : faces_of(volumes)) {
+    const bool slides = is_sliding_cylinder(face) || face.lies_at(2, dimensions.eye_height());
+    faces.of[slides ? interface_rotor : impeller_walls].push_back(face.tag);
+    if (!slides && is_nose(face, nose, dimensions.impeller_width)) faces.edges.push_back(face.tag);
+  }
+}
+
+void Pump::sort_casing(const std::vector<int>& volumes, Faces& faces) const {
+  const VolutePlan plan = volute_plan(dimensions);
+  const double loft_end = plan.outlet_start + dimensions.outlet_loft_length;
+  const double outlet_end = loft_end + dimensions.outlet_length.value_or(8 * dimensions.outlet_diameter);
+  for (const Face& face : faces_of(volumes)) {
+    const Surface surface = is_sliding_cylinder(face) ? interface_stator : face.lies_at(1, outlet_end) ? outlet : casing_walls;
+    faces.of[surface].push_back(face.tag);
+    if (surface != casing_walls) continue;
+    const bool in_pipe = face.lower.y > plan.outlet_start - 1e-5;
+    if (in_pipe) faces.pipes.push_back(face.tag);
+    if (!in_pipe && is_nose(face, dimensions.tongue_radius, dimensions.casing_width())) faces.edges.push_back(face.tag);
+  }
+}
+
+void Pump::sort_suction(const std::vector<int>& volumes, Faces& faces) const {
+  const bool from_tank = suction == "tank";
+  const double z_eye = dimensions.eye_height(), z_plate = tank.plate(dimensions), z_cover = tank.cover(dimensions);
+  const double pipe_end = z_eye + dimensions.inlet_length.value_or(3 * dimensions.inlet_diameter);
+  for (const Face& face : faces_of(volumes)) {
+    Surface surface = casing_walls;
+    if (face.lies_at(2, z_eye)) surface = interface_stator;
+    if (!from_tank && face.lies_at(2, pipe_end)) surface = inlet;
+    if (from_tank && face.lies_at(1, tank.depth - tank.axis_height)) surface = inlet;
+    const bool wide =
+        face.upper.x - face.lower.x > tank.width - 1e-4 || face.lies_at(0, tank.width / 2) || face.lies_at(0, -tank.width / 2);
+    const bool on_plate = face.lower.z > z_plate - 1e-5 && face.upper.z < z_plate + tank.plate_thickness + 1e-5;
+    if (from_tank && surface == casing_walls && wide && !face.lies_at(2, z_cover)) surface = tank_walls;
+    if (from_tank && surface == casing_walls && on_plate) surface = plate;
+    faces.of[surface].push_back(face.tag);
+    if (surface == casing_walls && !(from_tank && face.lies_at(2, z_cover))) faces.pipes.push_back(face.tag);
+  }
+}
+
+std::vector<int> without(std::vector<int> all, const std::vector<int>& excluded) {
+  std::erase_if(all, [&](int tag) { return std::ranges::find(excluded, tag) != excluded.end(); });
+  return all;
+}
+
+std::vector<int> joined_lists(std::vector<int> a, const std::vector<int>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Expectation Pump::build(double size_factor) {
+  const bool from_tank = suction == "tank";
+  const double inlet_length = dimensions.inlet_length.value_or((from_tank ? 0.3 : 3) * dimensions.inlet_diameter);
+  const auto casing = casing_solid(dimensions), wheel = rotor_solid(dimensions);
+  const auto supply = from_tank ? tank_solid(dimensions, tank, inlet_length) : inlet_pipe_solid(dimensions, inlet_length);
+  remove_helpers();
+
+  Faces faces;
+  sort_rotor(wheel, faces);
+  sort_casing(casing, faces);
+  sort_suction(supply, faces);
+  name_group(3, rotor, "rotor", wheel);
+  name_group(3, stator, "stator", joined_lists(casing, supply));
+  name_group(2, inlet, "inlet", faces.of[inlet]);
+  name_group(2, outlet, "outlet", faces.of[outlet]);
+  name_group(2, impeller_walls, "impeller_walls", faces.of[impeller_walls]);
+  name_group(2, casing_walls, "casing_walls", faces.of[casing_walls]);
+  name_group(2, interface_rotor, "interface_rotor", faces.of[interface_rotor]);
+  name_group(2, interface_stator, "interface_stator", faces.of[interface_stator]);
+  if (from_tank) name_group(2, tank_walls, "tank_walls", faces.of[tank_walls]);
+  if (from_tank) name_group(2, plate, "plate", faces.of[plate]);
+
+  Expectation expectation;
+  expectation.volumes = {{"rotor", 1, volume_of(wheel)}, {"stator", 2, volume_of(casing) + volume_of(supply)}};
+  expectation.equal_areas = {{"interface_rotor", "interface_stator"}};
+  PumpSizes h = sizes(size_factor);
+  const double tongue_clearance = dimensions.tongue_tip_radius() - dimensions.impeller_radius();
+  if (h.edge > 0.8 * tongue_clearance) {
+    expectation.remarks.push_back(
+        fmt::format("edge_size reduced from {:.3g} to {:.3g} m: at most 0.8 of the gap at the tongue", h.edge, 0.8 * tongue_clearance));
+    h.edge = 0.8 * tongue_clearance;
+  }
+  const auto walls = without(without(joined_lists(faces.of[impeller_walls], faces.of[casing_walls]), faces.edges), faces.pipes);
+  const double growth_distance = 2.5 * h.core, background = from_tank ? h.tank : h.pipe;
+  SizeField field;
+  field.around(walls, {h.wall, h.core, 0, growth_distance});
+  field.around(faces.edges, {h.edge, h.core, 0, growth_distance});
+  field.around(joined_lists(faces.of[interface_rotor], faces.of[interface_stator]), {h.interface, h.core, 0, growth_distance});
+  field.around(faces.pipes, {0.625 * h.pipe, h.pipe, 0, 2.5 * h.pipe}, !from_tank);
+  if (from_tank) {
+    field.around(faces.of[plate], {h.core, background, 0, 8 * h.core});
+    field.formula(fmt::format("{}", background));
+  }
+  field.apply();
+  return expectation;
+}
+
+const bool registered = geometries().add<Pump>();
+
+}  // namespace
+}  // namespace snag::generate
