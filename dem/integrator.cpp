@@ -1,0 +1,113 @@
+#if defined(__AVX512F__)
+#pragma GCC target("prefer-vector-width=512")
+#endif
+#include "dem/integrator.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace snag {
+
+namespace {
+
+/// cos(sqrt u) and sin(sqrt u)/sqrt u by Taylor series: to the last digit for a half angle sqrt u up to 1.
+inline double cosine(double u) {
+  double c = 1.0 / 20922789888000;
+  c = c * u - 1.0 / 87178291200;
+  c = c * u + 1.0 / 479001600;
+  c = c * u - 1.0 / 3628800;
+  c = c * u + 1.0 / 40320;
+  c = c * u - 1.0 / 720;
+  c = c * u + 1.0 / 24;
+  c = c * u - 1.0 / 2;
+  return c * u + 1.0;
+}
+inline double sine_ratio(double u) {
+  double s = 1.0 / 355687428096000;
+  s = s * u - 1.0 / 1307674368000;
+  s = s * u + 1.0 / 6227020800;
+  s = s * u - 1.0 / 39916800;
+  s = s * u + 1.0 / 362880;
+  s = s * u - 1.0 / 5040;
+  s = s * u + 1.0 / 120;
+  s = s * u - 1.0 / 6;
+  return s * u + 1.0;
+}
+
+/// The fields of a tile's rows 0 .. ny - 1, which are contiguous, rings of the columns included.
+struct Rows {
+  explicit Rows(Tile& tile) : n(tile.ny * tile.stride / 8 * 8) {
+    for (int f = 0; f < Tile::n_fields; ++f) field[f] = tile.field(f) + tile.stride;
+    free = tile.free.data() + tile.stride;
+  }
+  int n;
+  double* field[Tile::n_fields];
+  const double* free;
+};
+
+[[gnu::always_inline]] inline void drift_one(double* const* f, int k, double dt) {
+  f[Tile::x][k] += dt * f[Tile::vx][k], f[Tile::y][k] += dt * f[Tile::vy][k], f[Tile::z][k] += dt * f[Tile::vz][k];
+  const Vec3 half = (0.5 * dt) * Vec3{f[Tile::wx][k], f[Tile::wy][k], f[Tile::wz][k]};
+  const double u = dot(half, half), c = cosine(u);
+  const Vec3 p = sine_ratio(u) * half;
+  const double w = f[Tile::qw][k];
+  const Vec3 v{f[Tile::qx][k], f[Tile::qy][k], f[Tile::qz][k]};
+  const double turned_w = c * w - dot(p, v);
+  const Vec3 turned = c * v + w * p + cross(p, v);
+  // One Newton step of 1/sqrt keeps the length at 1 to round-off.
+  const double scale = 1.5 - 0.5 * (turned_w * turned_w + dot(turned, turned));
+  f[Tile::qw][k] = scale * turned_w, f[Tile::qx][k] = scale * turned.x, f[Tile::qy][k] = scale * turned.y,
+  f[Tile::qz][k] = scale * turned.z;
+}
+
+}  // namespace
+
+void drift(Tile& tile, double dt) {
+  const Rows rows(tile);
+  double* f[Tile::n_state];
+  std::copy_n(rows.field, Tile::n_state, f);
+#pragma omp simd
+  for (int k = 0; k < rows.n; ++k) drift_one(f, k, dt);
+}
+
+void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift) {
+  const Rows rows(tile);
+  double* f[Tile::n_fields];
+  std::copy_n(rows.field, Tile::n_fields, f);
+  const double* free = rows.free;
+  const double per_mass = dt / inertia.mass, per_moment = dt / inertia.moment;
+  const Vec3 fall = dt * inertia.gravity;
+#pragma omp simd
+  for (int k = 0; k < rows.n; ++k) {
+    const double moves = free[k];
+    f[Tile::vx][k] += moves * (per_mass * f[Tile::fx][k] + fall.x);
+    f[Tile::vy][k] += moves * (per_mass * f[Tile::fy][k] + fall.y);
+    f[Tile::vz][k] += moves * (per_mass * f[Tile::fz][k] + fall.z);
+    f[Tile::wx][k] += moves * per_moment * f[Tile::tx][k];
+    f[Tile::wy][k] += moves * per_moment * f[Tile::ty][k];
+    f[Tile::wz][k] += moves * per_moment * f[Tile::tz][k];
+    drift_one(f, k, dt_drift);
+  }
+}
+
+Box bounding_box(const Tile& tile) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  double lower[3], upper[3];
+  const double* exists = tile.exists.data();
+  for (int c = 0; c < 3; ++c) {
+    const double* x = tile.field(Tile::x + c);
+    double low = far, high = -far;
+    for (int j = 0; j < tile.ny; ++j) {
+      const int first = tile.index(0, j), end = first + tile.nx;
+#pragma omp simd reduction(min : low) reduction(max : high)
+      for (int k = first; k < end; ++k) {
+        const bool here = exists[k] > 0.5;
+        low = std::min(low, here ? x[k] : far), high = std::max(high, here ? x[k] : -far);
+      }
+    }
+    lower[c] = low, upper[c] = high;
+  }
+  return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+}
+
+}  // namespace snag

@@ -1,0 +1,33 @@
+#pragma once
+// Motion of free spheres:  m dv/dt = F + m g,   i dw/dt = T,   dx/dt = v,   dq/dt = 1/2 (0, w) q      (m, i: mass and moment of inertia)
+//
+// Drift-kick-drift: half a step of motion, forces there, the whole kick, half a step of motion. This is leapfrog: the same orbits as
+// kick-drift-kick, symplectic, second order (dashpots, drag and friction see the velocity half a step late: first order in c dt/m, which
+// the step limit keeps small). It is preferred because each force is evaluated once and applied whole within the step: an impulse summed by
+// the coupling is what the particles received, to round-off, and nothing of the forces has to be kept for a restart or another rank.
+//
+// Rotation by the exponential map, q <- exp(dt w/2) q: exact for a constant w.
+#include "base/vec3.hpp"
+#include "dem/tile.hpp"
+
+namespace snag {
+
+/// Move the particles of a tile for `dt`, s, with their velocities. Ring and absent particles are of no matter.
+void drift(Tile& tile, double dt);
+
+struct Inertia {
+  double mass = 1;    // kg
+  double moment = 1;  // kg m2
+  Vec3 gravity;       // m/s2
+};
+/// Change velocities by the forces fx .. tz and gravity over `dt`, then drift for `dt_drift`. Particles that are not free keep their
+/// velocity.
+void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift);
+
+/// Lower and upper corner of the positions of the tile's particles (m); lower > upper if none exists.
+struct Box {
+  Vec3 lower, upper;
+};
+Box bounding_box(const Tile& tile);
+
+}  // namespace snag
