@@ -1,0 +1,129 @@
+# timeout: 300
+# processors: 2
+"""Requirement: what a user gets wrong ends on all ranks with the documented exit code and one clear message, and leaves an existing output folder as it was."""
+import re
+
+import harness
+from small_cases import CHANNEL, CHANNEL_MESH, TWO_SHEETS
+
+
+def snapshot(folder):
+    """Name, size, time of change and content of every file."""
+    return {str(p.relative_to(folder)): (p.stat().st_mtime_ns, p.read_bytes()) for p in sorted(folder.rglob("*")) if p.is_file()}
+
+
+class Mistakes(harness.CaseTest):
+    def refused(self, code, fragments, file, *arguments, out="out"):
+        """`snag run` on 2 ranks ends with `code` and one line on stderr that holds all fragments."""
+        folder = self.work / out
+        folder.mkdir(exist_ok=True)
+        (folder / "notes.txt").write_text("a user's own file")
+        before = snapshot(folder)
+        run = harness.snag(["run", file, "--out", folder, *arguments], 2, folder)
+        self.assertEqual(run.code, code, run.tail())
+        self.assertEqual(len(run.messages), 1, f"one message on stderr is wanted, these came:\n{run.stderr}")
+        print(f"  {code}: {run.messages[0]}")
+        for fragment in fragments:
+            self.assertIn(fragment, run.messages[0])
+        self.assertEqual(before, snapshot(folder), "the output folder must stay as it was")
+
+    def channel(self, replace="", by="", mesh=None):
+        text = CHANNEL.format(mesh=mesh or self.mesh(*CHANNEL_MESH), kernel="cell")
+        self.assertIn(replace, text)
+        return self.case(text.replace(replace, by, 1))
+
+    def sheets(self, replace="", by=""):
+        self.assertIn(replace, TWO_SHEETS)
+        return self.case(TWO_SHEETS.replace(replace, by, 1))
+
+    def test_missing_case_file(self):
+        self.refused(6, ["absent.toml"], self.work / "absent.toml")
+
+    def test_missing_mesh(self):
+        self.refused(6, ["absent.msh"], self.channel(mesh="absent.msh"))
+
+    def test_broken_mesh_file(self):
+        mesh = self.mesh(*CHANNEL_MESH)
+        torn = self.work / "torn.msh"
+        torn.write_bytes(mesh.read_bytes()[: mesh.stat().st_size // 2])
+        self.refused(6, ["torn.msh"], self.channel(mesh=torn))
+
+    def test_bad_mesh(self):
+        """A cell turned inside out: a node of the mesh is moved across the channel."""
+        lines = self.mesh(*CHANNEL_MESH).read_text().splitlines()
+        first = lines.index("$Nodes") + 2
+        inner = next(i for i in range(first, len(lines)) if all(0.03 < float(x) < 0.07 for x in lines[i].split()[1:]))
+        number, x, y, z = lines[inner].split()
+        lines[inner] = f"{number} {float(x) + 0.15} {y} {z}"
+        bad = self.work / "bad.msh"
+        bad.write_text("\n".join(lines) + "\n")
+        self.refused(3, ["bad.msh"], self.channel(mesh=bad))
+
+    def test_unknown_key(self):
+        self.refused(2, ["densty", "density", ":"], self.channel("density_kg_m3", "densty_kg_m3"))
+
+    def test_unknown_section(self):
+        self.refused(2, ["couplign", "coupling"], self.channel("[coupling]", "[couplign]"))
+
+    def test_unknown_force(self):
+        self.refused(2, ["free_stream_drug", "free_stream_drag"], self.channel('"free_stream_drag"', '"free_stream_drug"'))
+
+    def test_unit_of_another_dimension(self):
+        self.refused(2, ["end", "m"], self.sheets("end_s = 0.02", 'end = "20 mm"'))
+
+    def test_value_out_of_range(self):
+        self.refused(2, ["density"], self.channel("density_kg_m3 = 998.2", "density_kg_m3 = -1"))
+
+    def test_no_toml(self):
+        self.refused(2, ["case.toml:"], self.sheets("[case]", "[case"))
+
+    def test_patch_without_condition(self):
+        self.refused(2, ["outlet"], self.channel('[[boundary]]\npatch = "outlet"\nkind = "pressure_outlet"\n', ""))
+
+    def test_condition_for_unknown_patch(self):
+        self.refused(2, ["outlett", "outlet"], self.channel('patch = "outlet"', 'patch = "outlett"'))
+
+    def test_step_above_the_limit(self):
+        self.refused(2, ["step", "limit"], self.sheets("[dem]\nstep_s = 8e-6", "[dem]\nstep_s = 2e-4"))
+
+    def test_set_without_value(self):
+        self.refused(2, ["time.end_s"], self.sheets(), "--set", "time.end_s")
+
+    def test_set_of_unknown_key(self):
+        self.refused(2, ["tme", "time"], self.sheets(), "--set", "tme.end_s=1")
+
+    def test_set_of_absent_table(self):
+        self.refused(2, ["rag"], self.sheets(), "--set", "rag.7.radius_mm=1")
+
+    def test_folder_with_a_run(self):
+        case = self.sheets("end_s = 0.02", "end_s = 8e-4")
+        self.run_case(case, 2)
+        self.refused(2, ["--resume", "--overwrite"], case)
+        self.run_case(case, 2, "--overwrite")
+
+    def test_resume_without_checkpoint(self):
+        self.refused(6, ["checkpoint"], self.sheets(), "--resume")
+
+    def test_truncated_checkpoint(self):
+        case = self.case(TWO_SHEETS + "[checkpoint]\ninterval_s = 4e-4\n")
+        self.run_case(case, 2, "--set", "time.end_s=8e-4")
+        slots = sorted((self.work / "out" / "checkpoint").glob("*.h5"))
+        self.assertTrue(slots, "a checkpoint must be there")
+        for slot in slots:
+            slot.write_bytes(slot.read_bytes()[: slot.stat().st_size // 2])
+        self.refused(6, ["checkpoint"], case, "--resume", "--set", "time.end_s=8e-4")
+
+    def test_resume_of_another_case(self):
+        case = self.case(TWO_SHEETS + "[checkpoint]\ninterval_s = 4e-4\n")
+        self.run_case(case, 2, "--set", "time.end_s=8e-4")
+        self.refused(2, ["--resume"], case, "--resume", "--set", "time.end_s=8e-4", "--set", "rag.0.width_mm=60")
+
+    def test_unknown_command(self):
+        run = harness.snag(["rnu"], 2)
+        self.assertEqual(run.code, 2)
+        self.assertEqual(len(run.messages), 1, run.stderr)
+        self.assertTrue(re.search("rnu.*run", run.messages[0]), run.messages)
+
+
+if __name__ == "__main__":
+    harness.main()

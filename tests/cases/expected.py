@@ -1,0 +1,57 @@
+"""Requirement: a case of cases/ gives the numbers of its expected.toml, each within its tolerance and for the reason given there.
+
+expected.py CASE [--long]     entries with `long = true` are checked with --long only; the case then runs as it stands, else with [short] set = [...].
+"""
+import sys
+import tomllib
+
+import harness
+
+
+def looked_up(summary, path):
+    """"rags.0.elongation_ratio" in summary.json."""
+    for word in path.split("."):
+        summary = summary[int(word) if isinstance(summary, list) else word]
+    return summary
+
+
+def out_of_tolerance(entry, found):
+    """What is wrong with a number, or "" if nothing: value with absolute or relative tolerance, minimum, maximum, or an exact text."""
+    if "minimum" in entry and not found >= entry["minimum"]:
+        return f"below {entry['minimum']:g}"
+    if "maximum" in entry and not found <= entry["maximum"]:
+        return f"above {entry['maximum']:g}"
+    if "value" in entry:
+        value = entry["value"]
+        if isinstance(value, str):
+            return "" if found == value else f"not {value}"
+        tolerance = entry.get("tolerance", entry.get("tolerance_rel", 0) * abs(value))
+        return "" if abs(found - value) <= tolerance else f"not {value:g} within {tolerance:g}"
+    return ""
+
+
+class Expected(harness.CaseTest):
+    def test_numbers(self):
+        folder = harness.SOURCE_DIR / "cases" / CASE
+        expected = tomllib.loads((folder / "expected.toml").read_text())
+        entries = [e for e in expected["expect"] if LONG or not e.get("long", False)]
+        self.assertTrue(entries, "nothing is expected: the test would show nothing")
+        shortened = [] if LONG else [word for s in expected.get("short", {}).get("set", []) for word in ("--set", s)]
+        run = self.run_case(folder / "case.toml", expected.get("ranks", 2), *shortened, "--set", "output.report=false", timeout=expected.get("timeout_s", 600))
+        wrong = []
+        for entry in entries:
+            self.assertTrue(entry["why"], f"{entry['key']}: say why this value is expected")
+            self.assertTrue({"value", "minimum", "maximum"} & set(entry), f"{entry['key']}: give value, minimum or maximum")
+            found = looked_up(run.summary, entry["key"])
+            problem = out_of_tolerance(entry, found)
+            print(f"  {entry['key']} = {found}" + (f"  WRONG: {problem}" if problem else ""))
+            if problem:
+                wrong.append(f"{entry['key']} = {found}: {problem} ({entry['why']})")
+        self.assertFalse(wrong, "\n".join(wrong))
+
+
+if __name__ == "__main__":
+    LONG = "--long" in sys.argv
+    CASE = next(word for word in sys.argv[1:] if not word.startswith("-"))
+    sys.argv = sys.argv[:1]
+    harness.main()

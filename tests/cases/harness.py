@@ -1,0 +1,185 @@
+"""What every test of a whole case needs: run the program as a user does, read what it wrote, compare.
+
+A script states its requirement in one sentence in its docstring, holds one unittest.TestCase made from CaseTest, and ends with
+harness.main(). The program is that of the build folder SNAG_BINARY_DIR; a number of ranks always means `mpirun -n RANKS`.
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import numpy
+
+BINARY_DIR = pathlib.Path(os.environ["SNAG_BINARY_DIR"])
+SOURCE_DIR = pathlib.Path(os.environ["SNAG_SOURCE_DIR"])
+ENVIRONMENT = dict(
+    os.environ,
+    OMPI_ALLOW_RUN_AS_ROOT="1",
+    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+    OMPI_MCA_rmaps_base_oversubscribe="1",
+    OMPI_MCA_mpi_yield_when_idle="1",
+    OMPI_MCA_hwloc_base_binding_policy="none",
+    OMPI_MCA_btl_base_warn_component_unused="0",
+)
+# mpirun adds its own paragraphs to the stderr of a program that ends with a code other than 0.
+MPIRUN_CHATTER = re.compile(
+    r"^-{20,}$|^$|^Primary job +terminated normally|^a non-zero exit code\. *Per user-direction|^mpirun detected that one or more processes"
+    r"|^a non-zero status, thus causing|^The first process to do so was|^ +Process name:|^ +Exit code:|^\[.*\] +\d+ more process"
+    r"|^MPI_ABORT was invoked|^with errorcode|^NOTE: invoking MPI_ABORT|^You may or may not see output|^exactly when Open MPI kills them"
+)
+
+
+class Monitor:
+    """One file of monitors/: names with units, the lines as written, the values [record][column]."""
+
+    def __init__(self, file):
+        self.lines = file.read_text().splitlines()
+        self.columns = self.lines[0].split(",")
+        self.values = numpy.array([[float(v) for v in line.split(",")] for line in self.lines[1:]]).reshape(-1, len(self.columns))
+
+    def column(self, name):
+        """Values of "x" (or of "x [m]")."""
+        for i, column in enumerate(self.columns):
+            if column == name or column.split(" [")[0] == name:
+                return self.values[:, i]
+        raise KeyError(f"no column {name}; there are {self.columns}")
+
+    def physical(self):
+        """Columns that the clock and the route of a linear solver do not enter."""
+        return [c for c in self.columns if not re.search(r"iterations|residual|wall|_s \[s\]$|_per_s|rebuilt|preconditioner", c)]
+
+
+class Run:
+    """A finished run: exit code, what it printed, and its output folder."""
+
+    def __init__(self, folder, code, stdout, stderr):
+        self.folder, self.code, self.stdout, self.stderr = pathlib.Path(folder), code, stdout, stderr
+
+    @property
+    def messages(self):
+        """Lines of stderr that the program wrote, without mpirun's own."""
+        return [line for line in self.stderr.splitlines() if not MPIRUN_CHATTER.search(line)]
+
+    @property
+    def summary(self):
+        return json.loads((self.folder / "summary.json").read_text())
+
+    def monitor(self, name):
+        return Monitor(self.folder / "monitors" / f"{name}.csv")
+
+    def tail(self):
+        return "\n".join((self.stdout + "\n" + self.stderr).strip().splitlines()[-25:])
+
+
+def command(arguments, ranks=1):
+    return ["mpirun", "-n", str(ranks), str(BINARY_DIR / "snag"), *map(str, arguments)]
+
+
+def snag(arguments, ranks=1, folder=None, timeout=600):
+    """Run the program to its end; `folder` is where its output goes, for Run."""
+    process = start(arguments, ranks)
+    try:
+        stdout, stderr = process.communicate(timeout=timeout)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)  # mpirun's own process group
+        stdout, stderr = process.communicate()
+        raise AssertionError(f"snag {' '.join(map(str, arguments))} on {ranks} ranks took more than {timeout} s\n{stdout}{stderr}") from None
+    return Run(folder or ".", process.returncode, stdout, stderr)
+
+
+def start(arguments, ranks=1):
+    return subprocess.Popen(
+        command(arguments, ranks), env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+
+
+def program_processes(mpirun):
+    """Process ids of the program's ranks below an mpirun, lowest first."""
+    children = pathlib.Path(f"/proc/{mpirun.pid}/task/{mpirun.pid}/children")
+    ids = [int(word) for word in children.read_text().split()]
+    return sorted(i for i in ids if pathlib.Path(f"/proc/{i}/comm").read_text().strip() == "snag")
+
+
+def wait_for_records(monitor_file, count, process, timeout=120):
+    """Return once a monitor holds `count` records; the run must still be going."""
+    begun = time.monotonic()
+    while time.monotonic() - begun < timeout:
+        if monitor_file.exists() and monitor_file.read_text().count("\n") > count:
+            return
+        if process.poll() is not None:
+            raise AssertionError("the run ended before it could be stopped: " + "".join(process.communicate()))
+        time.sleep(0.02)
+    raise AssertionError(f"{monitor_file} had no {count} records after {timeout} s")
+
+
+def quantity(column):
+    """Columns of one vector are measured against one scale: "vx [m/s]" and "vz [m/s]" -> "v [m/s]"."""
+    name, _, unit = column.partition(" [")
+    return re.sub(r"(^|(?<=_)|(?<=v)|(?<=w))[xyz]$", "", name) + " [" + unit
+
+
+def largest_difference(a, b):
+    """Largest |a - b| of two monitors' physical columns, relative to the quantity's largest magnitude in a: {column: value}."""
+    if a.columns != b.columns or a.values.shape != b.values.shape:
+        raise AssertionError(f"monitors differ in shape: {a.columns} {a.values.shape}, {b.columns} {b.values.shape}")
+    scale = {}
+    for column in a.columns:
+        scale[quantity(column)] = max(scale.get(quantity(column), 0), numpy.abs(a.column(column)).max(initial=0))
+    differences = {}
+    for column in a.physical():
+        difference = numpy.abs(a.column(column) - b.column(column)).max(initial=0)
+        differences[column] = difference / scale[quantity(column)] if difference > 0 else 0.0
+    return differences
+
+
+class CaseTest(unittest.TestCase):
+    """Each test has a temporary folder; meshes are made once a script."""
+
+    maxDiff = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = pathlib.Path(tempfile.mkdtemp(prefix="snag-case-"))
+        cls.addClassCleanup(shutil.rmtree, cls.shared, ignore_errors=True)
+
+    def setUp(self):
+        self.work = pathlib.Path(tempfile.mkdtemp(prefix="snag-case-"))
+        self.addCleanup(shutil.rmtree, self.work, ignore_errors=True)
+
+    def mesh(self, kind, *settings):
+        """A mesh by `snag mesh KIND`, settings as "key=value"."""
+        file = self.shared / (re.sub(r"[^A-Za-z0-9]+", "-", " ".join([kind, *settings])) + ".msh")
+        if not file.exists():
+            made = snag(["mesh", kind, "--out", file, *[word for s in settings for word in ("--set", f"{kind}.{s}")]])
+            self.assertEqual(made.code, 0, made.tail())
+        return file
+
+    def case(self, text, name="case"):
+        """A case file in the temporary folder."""
+        file = self.work / f"{name}.toml"
+        file.write_text(text)
+        return file
+
+    def run_case(self, file, ranks=1, *arguments, out="out", code=0, timeout=600):
+        """Run a case file; fails unless it ends with `code`."""
+        run = snag(["run", file, "--out", self.work / out, *arguments], ranks, self.work / out, timeout)
+        self.assertEqual(run.code, code, f"exit code of {file} on {ranks} ranks\n{run.tail()}")
+        return run
+
+    def assert_monitors_agree(self, first, second, name, tolerance):
+        """Prints the largest difference, so that a creeping loss shows before it fails."""
+        differences = largest_difference(first.monitor(name), second.monitor(name))
+        worst = max(differences, key=differences.get)
+        print(f"  monitors/{name}.csv: {len(differences)} columns, largest difference {differences[worst]:.1e} in {worst}")
+        bad = {column: f"{d:.1e}" for column, d in differences.items() if not d <= tolerance}
+        self.assertFalse(bad, f"monitors/{name}.csv differs by more than {tolerance:g}")
+
+
+def main():
+    unittest.main(verbosity=2)

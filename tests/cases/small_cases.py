@@ -1,0 +1,86 @@
+"""Case files of a few seconds that several tests run."""
+
+# Two sheets of several tiles each: the lower one strikes the ground on its edge and buckles, the upper one falls on it.
+TWO_SHEETS = """
+[case]
+name = "two-sheets"
+[time]
+end_s = 0.02
+step_s = 4e-4
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[dem]
+step_s = 8e-6
+[[wall]]
+kind = "plane"
+point_m = [0, 0, 0]
+normal = [0, 0, 1]
+[[rag]]
+length_mm = 120
+width_mm = 80
+radius_mm = 1
+properties = "as_published"
+centre_m = [0, 0, 0.0535]
+axis = [0.5, 0, 0.8]
+normal = [0.8, 0, -0.5]
+velocity_m_s = [0, 0, -2]
+[[rag]]
+length_mm = 80
+width_mm = 80
+radius_mm = 1
+properties = "as_published"
+centre_m = [-0.03, 0.01, 0.070]
+axis = [0.5, 0.1, 0.8]
+normal = [0.8, 0, -0.5]
+velocity_m_s = [2, 0, -3]
+[output]
+report = false
+"""
+
+# A small rag across a slow channel of thick water, held back by its walls; {mesh} and {kernel} are filled in.
+CHANNEL = """
+[case]
+name = "coupled-channel"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 0.05
+step_s = 1e-3
+[flow]
+density_kg_m3 = 998.2
+dynamic_viscosity_Pa_s = 0.05
+initial_velocity_m_s = [0.5, 0, 0]
+pressure_tolerance = 1e-11
+pressure_tolerance_intermediate = 1e-11
+momentum_tolerance = 1e-11
+[[boundary]]
+patch = "inlet"
+kind = "velocity_inlet"
+velocity_m_s = [0.5, 0, 0]
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["bottom", "top", "side"]
+kind = "wall"
+[[wall]]
+kind = "patches"
+patches = ["bottom", "top", "side"]
+[[rag]]
+length_mm = 60
+width_mm = 40
+radius_mm = 2
+properties = "as_published"
+centre_m = [0.08, 0.05, 0.05]
+axis = [0.3, 0.2, 0.9]
+normal = [0.9, 0, -0.3]
+[coupling]
+mode = "two_way"
+kernel = "{kernel}"
+kernel_width_mm = 8
+forces = ["free_stream_drag"]
+[output]
+report = false
+single_precision = false
+"""
+CHANNEL_MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", "size_mm=10")
