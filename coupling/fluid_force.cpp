@@ -28,12 +28,9 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   rag.inertia = 0.1 * rag.mass * d * d;
 
   Tile tile;
-  tile.nx = tile.ny = 1, tile.stride = 8, tile.field_size = 24;
-  tile.values.assign(Tile::n_fields * tile.field_size, 0.0);
-  tile.exists.assign(tile.field_size, 0.0);
+  tile.allocate(1, 1);
   const int k = tile.index(0, 0);
   tile.exists[k] = 1;
-  tile.field(Tile::qw)[k] = 1;
   tile.set_vector(Tile::x, k, state.position);
   tile.set_vector(Tile::vx, k, state.velocity);
   tile.set_vector(Tile::wx, k, state.angular_velocity);

@@ -1,8 +1,8 @@
 #pragma once
 // What the water does to one particle: pure functions of the fluid there and of the particle, one effect a file of coupling/forces/.
 //
-// A force is evaluated for a whole tile at once (dem/tile.hpp), place k = begin .. end - 1; places without a particle hold harmless numbers and
-// what is written there is not used. So every force is one loop over contiguous arrays that vectorises.
+// A force is evaluated for a whole tile at once (dem/tile.hpp), place k = begin .. end - 1; places without a particle hold harmless numbers
+// and what is written there is not used. So every force is one loop over contiguous arrays that vectorises.
 #include <string>
 #include <vector>
 
@@ -35,7 +35,8 @@ struct SampleSet {
   }
 };
 
-/// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Arrays that no force asked for are null.
+/// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Fields that no force asked for
+/// are zero.
 struct FluidSamples {
   double density = 0;                            // rho, kg/m3
   double dynamic_viscosity = 0;                  // mu, Pa s
@@ -45,7 +46,8 @@ struct FluidSamples {
   VectorArray material_acceleration;             // Du/Dt, m/s2
 };
 
-/// The particles of a tile. All particles of a rag have the same size and mass; neighbours of k in the sheet are k +- 1 and k +- tile.stride.
+/// The particles of a tile. All particles of a rag have the same size and mass; neighbours of k in the sheet are k +- 1 and k +-
+/// tile.stride.
 struct Particles {
   Particles(const Rag& rag_, const Tile& tile_);
   const Rag& rag;
@@ -74,19 +76,19 @@ struct Card {
 
 /// State of one sphere in a fluid, for reference cases and tests.
 struct SphereState {
-  double fluid_density = 998.2, dynamic_viscosity = 1.003e-3;                    // kg/m3, Pa s
-  Vec3 fluid_velocity, pressure_gradient, material_acceleration;                 // m/s, Pa/m, m/s2
-  Mat3 velocity_gradient{};                                                      // 1/s
-  double diameter = 2e-3, particle_density = 1020;                               // m, kg/m3
-  Vec3 position, velocity, angular_velocity;                                     // m, m/s, rad/s
+  double fluid_density = 998.2, dynamic_viscosity = 1.003e-3;     // kg/m3, Pa s
+  Vec3 fluid_velocity, pressure_gradient, material_acceleration;  // m/s, Pa/m, m/s2
+  Mat3 velocity_gradient{};                                       // 1/s
+  double diameter = 2e-3, particle_density = 1020;                // m, kg/m3
+  Vec3 position, velocity, angular_velocity;                      // m, m/s, rad/s
 };
 
 /// A force known from outside this code: an exact limit or a published number.
 struct ReferenceCase {
   std::string what, source;
   SphereState state;
-  Vec3 force;             // N
-  double tolerance = 0;   // of |force|, 1
+  Vec3 force;            // N
+  double tolerance = 0;  // of |force|, 1
 };
 
 class FluidForce {

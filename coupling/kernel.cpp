@@ -150,8 +150,10 @@ std::vector<double> Kernel::weight_factors(std::span<const double> answers, std:
   }
   for (int e = 0; e < router.n_entries(); ++e) {
     const int b = router.particle(e);
-    if (total[b] > 0) factors[e] /= total[b];
-    else if (holder_rank_[b] == router.rank(e)) factors[e] = use_holder;
+    if (total[b] > 0)
+      factors[e] /= total[b];
+    else if (holder_rank_[b] == router.rank(e))
+      factors[e] = use_holder;
   }
   std::int64_t outside = 0;
   for (int b = 0; b < n_particles_; ++b) {
@@ -186,7 +188,8 @@ void Kernel::finish_weights(std::span<const double> factors) {
   around_.weight.swap(weight);
 }
 
-/// Particles that no cell holds and no kernel reaches: every rank names its nearest cell, the nearest of all (lowest cell_id if equal) takes it.
+/// Particles that no cell holds and no kernel reaches: every rank names its nearest cell, the nearest of all (lowest cell_id if equal)
+/// takes it.
 void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved) {
   const MPI_Comm comm = mesh_.comm;
   const int ranks = size_of(comm), me = rank_of(comm), mine = static_cast<int>(unresolved.size());
@@ -213,7 +216,10 @@ void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<
   nearest_.cell.clear();
   for (int i = 0; i < n; ++i) {
     int winner = 0;
-    const auto offer = [&](int r) { const double* o = &all_offers[2 * (static_cast<std::size_t>(r) * n + i)]; return std::pair(o[0], o[1]); };
+    const auto offer = [&](int r) {
+      const double* o = &all_offers[2 * (static_cast<std::size_t>(r) * n + i)];
+      return std::pair(o[0], o[1]);
+    };
     for (int r = 1; r < ranks; ++r)
       if (offer(r) < offer(winner)) winner = r;
     if (winner == me) {

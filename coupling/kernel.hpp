@@ -5,9 +5,9 @@
 //   average (consistent):   u_b = sum_c w_bc u_c                 fluid -> particles; a constant is returned exactly
 //   spread (conservative):  f_c = 1/V_c sum_b w_bc F_b           particles -> fluid; sum_c V_c f_c = sum_b F_b
 //
-// The exponent of g is shifted by that of the nearest centre (log-sum-exp), so a kernel narrower than the cells becomes the nearest cell and
-// nothing is ever 0/0. Where no centre lies in the support, the cell that holds the particle has weight 1. A particle that no cell holds
-// (overlap with a wall, a gap) and that no kernel reaches takes the nearest centre; it is counted. Ties go to the lowest cell_id.
+// The exponent of g is shifted by that of the nearest centre (log-sum-exp), so a kernel narrower than the cells becomes the nearest cell
+// and nothing is ever 0/0. Where no centre lies in the support, the cell that holds the particle has weight 1. A particle that no cell
+// holds (overlap with a wall, a gap) and that no kernel reaches takes the nearest centre; it is counted. Ties go to the lowest cell_id.
 // Away from walls `average` is second-order accurate in delta, and exact for linear fields on meshes that are symmetric about the particle.
 #include <cstdint>
 #include <memory>
@@ -39,7 +39,8 @@ class Kernel {
   /// Fluid -> particles, consistent: all fields in one message, [n_particles][sum of components]. Collective.
   std::vector<double> average(std::span<const CellField> fields) const;
   std::vector<Vec3> average(std::span<const Vec3> field) const;
-  /// Particles -> fluid, conservative: amounts [n_particles][components] are added as amount per m3 to field [n_cells][components]. Collective.
+  /// Particles -> fluid, conservative: amounts [n_particles][components] are added as amount per m3 to field [n_cells][components].
+  /// Collective.
   void spread(std::span<const double> amounts, int components, std::span<double> field) const;
 
   double width() const { return width_; }
@@ -48,7 +49,8 @@ class Kernel {
   std::int64_t n_outside() const { return n_outside_; }
   /// Rank whose cell holds each particle of this rank (or the nearest cell, if none does and the kernel does not reach one).
   const std::vector<int>& holder_rank() const { return holder_rank_; }
-  /// Kernel width over the cell size V^(1/3) of the cells that hold particles: least and largest of all ranks; {0, 0} without particles. Collective.
+  /// Kernel width over the cell size V^(1/3) of the cells that hold particles: least and largest of all ranks; {0, 0} without particles.
+  /// Collective.
   std::array<double, 2> width_over_cell_size() const;
 
  private:
@@ -78,11 +80,11 @@ class Kernel {
 
   int n_particles_ = 0;
   std::int64_t n_outside_ = 0;
-  bool strays_ = false;          // some particle of some rank took the nearest cell
+  bool strays_ = false;  // some particle of some rank took the nearest cell
   std::vector<int> holder_rank_;
-  std::vector<int> holder_cell_;     // local number of that cell on its rank: the hint of the next search
-  std::vector<int> received_holder_; // by received particle: the owned cell that holds it, or -1
-  Stencils around_, nearest_;    // cells in the support or holding the particle; nearest cells of the others
+  std::vector<int> holder_cell_;      // local number of that cell on its rank: the hint of the next search
+  std::vector<int> received_holder_;  // by received particle: the owned cell that holds it, or -1
+  Stencils around_, nearest_;         // cells in the support or holding the particle; nearest cells of the others
 };
 
 }  // namespace snag

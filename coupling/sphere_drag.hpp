@@ -22,13 +22,18 @@ template <class Law>
 void add_sphere_drag(const FluidSamples& fluid, const Particles& particles, const Forces& forces, const Law& drag_times_Re) {
   const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter;
   const double K_factor = std::numbers::pi / 8 * mu * d;
+  // Local copies of the pointers, component by component: through the structs they would be read again for every particle, and nothing
+  // would vectorise.
+  const VectorArray u = fluid.velocity, v = particles.velocity;
+  const VectorSum force = forces.force;
+  double* slope = forces.slope;
 #pragma omp simd
   for (int p = particles.begin; p < particles.end; ++p) {
-    const Vec3 w = fluid.velocity[p] - particles.velocity[p];
-    const double Re = rho * norm(w) * d / mu;
+    const double wx = u.x[p] - v.x[p], wy = u.y[p] - v.y[p], wz = u.z[p] - v.z[p];
+    const double Re = rho * std::sqrt(wx * wx + wy * wy + wz * wz) * d / mu;
     const double K = K_factor * drag_times_Re(Re);
-    forces.force.add(p, K * w);
-    forces.slope[p] += K;
+    force.x[p] += K * wx, force.y[p] += K * wy, force.z[p] += K * wz;
+    slope[p] += K;
   }
 }
 

@@ -24,9 +24,10 @@ struct FreeStreamDrag final : FluidForce {
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double factor = drag_factor;
     add_sphere_drag(fluid, particles, forces, [factor](double Re) {
-      const double transition = 24 * (1 + 0.15 * pow(Re, 0.687));
-      const double viscous = Re <= 0.5 ? 24 : transition;
-      return factor * (Re <= 1000 ? viscous : 0.44 * Re);
+      // Branches chosen by arithmetic: a conditional call of pow would keep the loop from vectorising.
+      const double in_transition = Re > 0.5 ? 1 : 0, in_newton = Re > 1000 ? 1 : 0;
+      const double viscous = 24 * (1 + in_transition * 0.15 * pow(Re, 0.687));
+      return factor * (viscous + in_newton * (0.44 * Re - viscous));
     });
   }
   std::vector<ReferenceCase> reference_cases() const override {

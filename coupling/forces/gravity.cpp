@@ -26,7 +26,6 @@ struct Gravity final : FluidForce {
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const Vec3 F = (particles.mass - fluid.density * particles.volume) * acceleration;
-#pragma omp simd
     for (int p = particles.begin; p < particles.end; ++p) forces.force.add(p, F);
   }
   std::vector<ReferenceCase> reference_cases() const override {
@@ -37,8 +36,11 @@ struct Gravity final : FluidForce {
     heavy.diameter = 0.1, heavy.fluid_density = 1000, heavy.particle_density = 3000;
     const double displaced = std::numbers::pi / 6 * 1e-3 * 1000;  // kg
     return {{.what = "neutrally buoyant sphere", .source = "Archimedes", .state = afloat, .force = {}, .tolerance = 1e-12},
-            {.what = "sphere three times as dense as water", .source = "Archimedes", .state = heavy,
-             .force = {0, 0, -2 * displaced * 9.81}, .tolerance = 1e-12}};
+            {.what = "sphere three times as dense as water",
+             .source = "Archimedes",
+             .state = heavy,
+             .force = {0, 0, -2 * displaced * 9.81},
+             .tolerance = 1e-12}};
   }
 };
 [[maybe_unused]] const bool registered = fluid_forces().add<Gravity>();

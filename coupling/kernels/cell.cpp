@@ -1,7 +1,7 @@
 // The cell that holds the particle's centre has weight 1:   w_bc = 1 if x_b in c, else 0.
 //
-// Right where particles are much smaller than cells; jumps when a particle crosses a face, and what a particle feels depends on the cell size.
-// Source: Jensen (2018) section 5.1.2.
+// Right where particles are much smaller than cells; jumps when a particle crosses a face, and what a particle feels depends on the cell
+// size. Source: Jensen (2018) section 5.1.2.
 #include "coupling/kernel_shape.hpp"
 
 namespace snag {

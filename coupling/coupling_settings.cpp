@@ -1,0 +1,140 @@
+#include "coupling/coupling_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+const std::string gravity = "gravity";
+
+// Below this width over diameter the averaged velocity holds most of the particle's own wake.
+constexpr double least_width_over_diameter = 1;
+// Below this width over cell size the kernel is the nearest cell in effect.
+constexpr double least_width_over_cell = 0.5;
+// Above this many cells a particle the transfers cost more than the flow.
+constexpr double most_cells_per_particle = 3000;
+
+double largest_diameter(const std::vector<Rag>& rags) {
+  double largest = 0;
+  for (const Rag& rag : rags) largest = std::max(largest, rag.hydrodynamic_diameter);
+  return largest;
+}
+
+}  // namespace
+
+Section CouplingSettings::section() {
+  return {"coupling",
+          "How water and rags feel each other.",
+          {setting("mode", &mode,
+                   "none: rags and water ignore each other; one_way: rags feel the water; two_way: and the water feels the rags.",
+                   {"none", "one_way", "two_way"}),
+           setting("kernel", &kernel, "Smoothing kernel between particles and cells.", kernel_shapes().names()),
+           {"kernel_width", &kernel_width, "m", 1e-6, 10, Basis::assumed,
+            "Rms width per axis of the kernel, for every kernel but cell; a physical length, not a cell count. Chosen: twice the largest "
+            "particle "
+            "diameter."},
+           setting("forces", &forces, "Forces of the water on a particle: " + joined(fluid_forces().names()) + ".")}};
+}
+
+double Coupling::kernel_width(const std::vector<Rag>& rags) const {
+  const double d = largest_diameter(rags);
+  return settings.kernel_width.value_or(d > 0 ? 2 * d : 1e-3);
+}
+
+Coupling read_coupling(const Table& root, bool two_way_possible) {
+  Coupling coupling;
+  CouplingSettings& settings = coupling.settings;
+  if (!two_way_possible) settings.mode = "one_way";
+  const Table table = root.table("coupling");
+  table.read(settings.section().parameters);
+  if (settings.two_way() && !two_way_possible)
+    throw Error(ExitCode::usage, table.where() + " mode is \"two_way\", but a prescribed flow feels nothing; write mode = \"one_way\"");
+
+  coupling.shape = kernel_shapes().make(settings.kernel, table.where() + " kernel");
+  table.table(settings.kernel).read(coupling.shape->parameters());
+  const Table weight = root.table(gravity);
+  std::vector<std::string> names = settings.forces;
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error(ExitCode::usage, table.where() + " forces: \"" + *name + "\" is listed twice");
+  if (weight.present() && std::find(names.begin(), names.end(), gravity) == names.end()) names.push_back(gravity);
+  for (const std::string& name : names) {
+    auto force = fluid_forces().make(name, table.where() + " forces");
+    // The acceleration of gravity stands in a table of its own, because rags without water read it too.
+    (name == gravity ? weight : table.table(name)).read(force->parameters());
+    const bool acts = settings.mode != "none" || !force->card().reacts_on_fluid;
+    if (acts) coupling.forces.push_back(std::move(force));
+  }
+  return coupling;
+}
+
+std::vector<Section> coupling_sections() {
+  // The records point into these models: they live as long as the program.
+  static CouplingSettings settings;
+  static FluidForces forces;
+  static std::vector<std::unique_ptr<KernelShape>> shapes;
+  std::vector<Section> sections{settings.section()};
+  forces.clear(), shapes.clear();
+  for (const std::string& name : fluid_forces().names()) {
+    forces.push_back(fluid_forces().make(name, "manual"));
+    const Card card = forces.back()->card();
+    sections.push_back({name == gravity ? gravity : "coupling." + name,
+                        card.equation + ". Source: " + card.source + ". Valid for: " + card.valid_for + "." +
+                            (card.reacts_on_fluid ? "" : " Does not react on the water."),
+                        forces.back()->parameters()});
+  }
+  for (const std::string& name : kernel_shapes().names()) {
+    shapes.push_back(kernel_shapes().make(name, "manual"));
+    auto parameters = shapes.back()->parameters();
+    if (!parameters.empty())
+      sections.push_back(
+          {"coupling." + name, shapes.back()->equation() + ". Source: " + shapes.back()->source() + ".", std::move(parameters)});
+  }
+  return sections;
+}
+
+std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh) {
+  double least_volume = infinity;
+  for (int c = 0; c < mesh.n_cells; ++c) least_volume = std::min(least_volume, mesh.cell_volume[c]);
+  const double total_volume = sum(mesh.comm, std::span(mesh.cell_volume.data(), mesh.n_cells));
+  const double mean_size = std::cbrt(total_volume / static_cast<double>(mesh.n_cells_global));
+  const double least_size = std::cbrt(minimum(mesh.comm, least_volume));
+  const double d = largest_diameter(rags), width = coupling.kernel_width(rags), support = coupling.shape->support_radius(width);
+
+  std::vector<std::string> warnings;
+  const auto warn = [&](auto&&... words) {
+    std::ostringstream message;
+    message.precision(3);
+    (message << ... << words);
+    warnings.push_back(message.str());
+  };
+  const bool two_way = coupling.settings.two_way();
+  if (support == 0) {
+    if (two_way && d > 0 && d > mean_size)
+      warn(
+          "[coupling] kernel \"cell\": particles of ", d * 1e3, " mm are larger than cells of ", mean_size * 1e3,
+          " mm (mean), so that what they feel is mostly their own wake and depends on the mesh; use kernel = \"gaussian\" or \"wendland\"");
+    return warnings;
+  }
+  if (two_way && width < least_width_over_diameter * d)
+    warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / d, " of the particle diameter (", d * 1e3, " mm), advised at least ",
+         least_width_over_diameter, ": below it particles feel their own wake; widen the kernel");
+  if (width < least_width_over_cell * mean_size)
+    warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / mean_size, " of the cell size (mean ", mean_size * 1e3,
+         " mm), advised at least ", least_width_over_cell,
+         ": below it the kernel is the nearest cell; widen the kernel or refine the mesh");
+  const double most_cells = 4.0 / 3.0 * std::numbers::pi * std::pow(support / least_size, 3);
+  if (most_cells > most_cells_per_particle)
+    warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the smallest cells (", least_size * 1e3,
+         " mm) around a particle, advised at most ", most_cells_per_particle, ": transfers will be slow; narrow the kernel");
+  return warnings;
+}
+
+}  // namespace snag

@@ -1,0 +1,43 @@
+#pragma once
+// What a case says of the coupling: [coupling] with a table for each force, and [gravity].
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/fluid_load.hpp"
+#include "coupling/kernel_shape.hpp"
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+struct CouplingSettings {
+  std::string mode = "two_way";  // none | one_way | two_way
+  std::string kernel = "gaussian";
+  std::optional<double> kernel_width;  // delta, m; not given: twice the largest particle diameter
+  std::vector<std::string> forces{"free_stream_drag"};
+
+  Section section();
+  bool two_way() const { return mode == "two_way"; }
+};
+
+/// The models that a case chose.
+struct Coupling {
+  CouplingSettings settings;
+  std::unique_ptr<KernelShape> shape;
+  FluidForces forces;  // in order of their names in `settings`; weight and buoyancy last where [gravity] is given
+
+  /// Kernel width in force for these rags, m.
+  double kernel_width(const std::vector<Rag>& rags) const;
+};
+
+/// Reads [coupling], [coupling.FORCE] of the forces it lists, [coupling.KERNEL], and [gravity]. Throws Error(usage) for an unknown name,
+/// one listed twice, or two_way with `two_way_possible` false (a prescribed flow feels nothing; the default is then one_way).
+Coupling read_coupling(const Table& root, bool two_way_possible = true);
+/// For the manual: [coupling], [gravity], and a table for each force and kernel that has parameters.
+std::vector<Section> coupling_sections();
+
+/// Remarks on the kernel width beside particle diameters and cell sizes, with numbers; empty if it fits. Collective, the same on every
+/// rank.
+std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh);
+
+}  // namespace snag

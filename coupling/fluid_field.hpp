@@ -1,0 +1,20 @@
+#pragma once
+// The fluid as the particles see it: averaged from the cells of the flow (coupling/kernel_field.hpp), or prescribed
+// (coupling/prescribed_field.hpp).
+#include <cstddef>
+#include <span>
+
+#include "coupling/fluid_force.hpp"
+
+namespace snag {
+
+class FluidField {
+ public:
+  virtual ~FluidField() = default;
+  /// The fluid for the step that begins, with the particles where they are now. Collective.
+  virtual void sample(std::span<const Tile> tiles, const SampleSet& needed) = 0;
+  /// Fluid at the particles of tile `index`, `elapsed` seconds into the step. Valid until the next call.
+  virtual FluidSamples at(std::size_t index, const Tile& tile, double elapsed) = 0;
+};
+
+}  // namespace snag

@@ -1,0 +1,79 @@
+#include "coupling/fluid_load.hpp"
+
+#include <algorithm>
+
+namespace snag {
+
+namespace {
+enum Sum { impulse_x, impulse_y, impulse_z, sensitivity_sum, n_sums };
+constexpr int n_outputs = 11;  // force and torque with and (force only) without reaction, slope, added mass
+}  // namespace
+
+FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::vector<Rag>& rags)
+    : forces_(forces), field_(field), rags_(rags) {
+  for (const auto& force : forces_) {
+    const Card card = force->card();
+    needed_ = needed_ | card.samples;
+    reacts_.push_back(card.reacts_on_fluid);
+  }
+}
+
+void FluidLoad::begin_step(std::span<const Tile> tiles) {
+  field_.sample(tiles, needed_);
+  elapsed_.assign(tiles.size(), 0.0);
+  sums_.reset(tiles, n_sums);
+}
+
+void FluidLoad::add(std::size_t index, Tile& tile, double step) {
+  const Rag& rag = rags_[tile.rag];
+  const std::size_t size = tile.exists.size();
+  scratch_.assign(n_outputs * size, 0.0);
+  const auto array = [&](int f) { return scratch_.data() + f * size; };
+  const VectorSum torque{array(6), array(7), array(8)};
+  const Forces reacting{{array(0), array(1), array(2)}, torque, array(9), array(10)};
+  const Forces silent{{array(3), array(4), array(5)}, torque, array(9), array(10)};
+  // The middle of the sub-step is where the integrator evaluates forces.
+  const FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
+  const Particles particles(rag, tile);
+  for (std::size_t i = 0; i < forces_.size(); ++i) forces_[i]->add(fluid, particles, reacts_[i] ? reacting : silent);
+  elapsed_[index] += step;
+
+  const double m = rag.mass;
+  const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(9), *added_mass = array(10);
+  double* Q = sums_.field(index, sensitivity_sum);
+  for (int j = 0; j < tile.ny; ++j) {
+    const int first = tile.index(0, j), end = first + tile.nx;
+    for (int i = 0; i < 3; ++i) {
+      const double *R = array(i), *N = array(3 + i), *T = array(6 + i);
+      double *f = tile.field(Tile::fx + i), *t = tile.field(Tile::tx + i), *J = sums_.field(index, impulse_x + i);
+#pragma omp simd
+      for (int k = first; k < end; ++k) {
+        const bool here = exists[k] > 0, moves = free[k] > 0;
+        const double kicked = m * (f[k] + R[k] + N[k]) / (m + added_mass[k] + 0.5 * step * slope[k]);  // m a
+        const double total = moves ? kicked : f[k] + R[k] + N[k];
+        J[k] += here ? step * (total - f[k] - N[k]) : 0;
+        f[k] = here ? total : f[k];
+        t[k] += here ? T[k] : 0;
+      }
+    }
+#pragma omp simd
+    for (int k = first; k < end; ++k) Q[k] += exists[k] > 0 ? step * slope[k] : 0;
+  }
+}
+
+Vec3 FluidLoad::impulse(std::size_t index, int k) const {
+  return {sums_.field(index, impulse_x)[k], sums_.field(index, impulse_y)[k], sums_.field(index, impulse_z)[k]};
+}
+
+double FluidLoad::sensitivity(std::size_t index, int k) const { return sums_.field(index, sensitivity_sum)[k]; }
+
+double FluidLoad::max_stiffness(std::span<const Tile> tiles) const {
+  double largest = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const double* Q = sums_.field(t, sensitivity_sum);
+    largest = std::max(largest, *std::max_element(Q, Q + tiles[t].exists.size()) / rags_[tiles[t].rag].mass);
+  }
+  return largest;
+}
+
+}  // namespace snag

@@ -1,0 +1,75 @@
+#include "coupling/prescribed_field.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double water_viscosity = 1.003e-3;  // Pa s, at 20 degrees Celsius
+enum Field { velocity = 0, gradient = 3, pressure_gradient = 12, acceleration = 15, n_fields = 18 };
+
+}  // namespace
+
+Section PrescribedFlow::section() {
+  return {
+      "flow",
+      "A flow given as a formula, without a mesh: u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(omega_i t + phase_i).",
+      {setting("kind", &kind, "How the water is known.", {"prescribed"}),
+       {"density", &density, "kg/m3", 1e-3, 1e5, Basis::literature, "Density of the fluid; water at 20 degrees Celsius."},
+       {"dynamic_viscosity", &dynamic_viscosity, "Pa s", 1e-9, 1e4, Basis::literature, "Viscosity; water at 20 degrees if none is given."},
+       {"kinematic_viscosity", &kinematic_viscosity, "m2/s", 1e-12, 10, Basis::literature, "Viscosity over density, instead."},
+       {"velocity", &velocity, "m/s", -1e3, 1e3, Basis::assumed, "Uniform part of the velocity."},
+       {"gradient", &gradient, "1/s", -1e6, 1e6, Basis::assumed, "Velocity gradient, row i: du_i/dx, du_i/dy, du_i/dz."},
+       {"amplitude", &amplitude, "m/s", -1e3, 1e3, Basis::assumed, "Amplitude of the oscillating part."},
+       {"omega", &omega, "1/s", 0, 1e6, Basis::assumed, "Angular frequency of the oscillating part."},
+       {"phase", &phase, "rad", -10, 10, Basis::assumed, "Phase of the oscillating part at t = 0."}}};
+}
+
+double PrescribedFlow::viscosity() const {
+  if (dynamic_viscosity && kinematic_viscosity)
+    throw Error(ExitCode::usage, "[flow]: dynamic_viscosity and kinematic_viscosity are both given; leave one of them out");
+  if (kinematic_viscosity) return *kinematic_viscosity * density;
+  return dynamic_viscosity.value_or(water_viscosity);
+}
+
+void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
+  needed_ = needed;
+  arrays_.reset(tiles, n_fields);
+}
+
+FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed) {
+  const double t = time_ + elapsed;
+  Vec3 uniform, rate;  // the part of u that is the same everywhere, and its time derivative
+  for (int i = 0; i < 3; ++i) {
+    const double angle = flow_.omega[i] * t + flow_.phase[i];
+    uniform[i] = flow_.velocity[i] + flow_.amplitude[i] * std::sin(angle);
+    rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(angle);
+  }
+  const auto vector = [&](int f) { return VectorSum{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
+  const auto set = [](const VectorSum& to, int k, const Vec3& v) { to.x[k] = v.x, to.y[k] = v.y, to.z[k] = v.z; };
+  const VectorSum u_at = vector(velocity), p_at = vector(pressure_gradient), a_at = vector(acceleration);
+  const std::array G_at{vector(gradient), vector(gradient + 3), vector(gradient + 6)};
+  const Mat3& G = flow_.gradient;
+  for (int k = tile.index(0, 0); k < tile.index(tile.nx, tile.ny - 1); ++k) {
+    const Vec3 u = uniform + G * tile.vector(Tile::x, k);
+    set(u_at, k, u);
+    if (needed_.velocity_gradient)
+      for (int i = 0; i < 3; ++i) set(G_at[i], k, G[i]);
+    if (!needed_.material_acceleration && !needed_.pressure_gradient) continue;
+    const Vec3 acceleration_here = rate + G * u;
+    set(a_at, k, acceleration_here);
+    set(p_at, k, -flow_.density * acceleration_here);
+  }
+  const auto array = [](const VectorSum& v) { return VectorArray{v.x, v.y, v.z}; };
+  return {.density = flow_.density,
+          .dynamic_viscosity = viscosity_,
+          .velocity = array(u_at),
+          .velocity_gradient = {array(G_at[0]), array(G_at[1]), array(G_at[2])},
+          .pressure_gradient = array(p_at),
+          .material_acceleration = array(a_at)};
+}
+
+}  // namespace snag

@@ -1,0 +1,42 @@
+#pragma once
+// A flow that is given as a formula and feels nothing: single spheres and fibres without a mesh.
+//
+//   u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(omega_i t + phase_i)
+//   Du/Dt = du/dt + G u,    grad p = -rho Du/Dt + mu lap u = -rho Du/Dt      (beside the hydrostatic)
+//
+// Evaluated where the particles are at every sub-step.
+#include "coupling/fluid_field.hpp"
+#include "coupling/particle_list.hpp"
+
+namespace snag {
+
+/// [flow] with kind = "prescribed".
+struct PrescribedFlow {
+  std::string kind = "prescribed";
+  double density = 998.2;                                        // kg/m3
+  std::optional<double> dynamic_viscosity, kinematic_viscosity;  // Pa s, m2/s: one of them, or water at 20 degrees
+  Vec3 velocity;                                                 // m/s
+  Mat3 gradient{};                                               // 1/s
+  Vec3 amplitude, omega, phase;                                  // m/s, rad/s, rad
+
+  Section section();
+  /// Throws Error(usage) if both viscosities are given.
+  double viscosity() const;  // mu, Pa s
+};
+
+class PrescribedField final : public FluidField {
+ public:
+  explicit PrescribedField(const PrescribedFlow& flow) : flow_(flow), viscosity_(flow.viscosity()) {}
+  /// Time at the start of the step that comes, s.
+  void set_time(double time) { time_ = time; }
+  void sample(std::span<const Tile> tiles, const SampleSet& needed) override;
+  FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
+
+ private:
+  PrescribedFlow flow_;
+  double viscosity_, time_ = 0;
+  SampleSet needed_;
+  TileArrays arrays_;
+};
+
+}  // namespace snag
