@@ -1,0 +1,18 @@
+#pragma once
+// Largest stable step of leapfrog for the bonds of a flat piece at rest.
+#include <string>
+
+#include "dem/rag.hpp"
+
+namespace snag {
+
+struct StepLimit {
+  double step = 0;     // s
+  std::string reason;  // "bonds of rag 1: normal stiffness lengthwise"
+};
+
+/// Limit by the bonds of one piece; `damping_rate`: further damping of the translation (drag: slope/m), 1/s. Infinite for a piece without
+/// bonds and damping. For a stretched or bent cloth stiffnesses shift by some ten per cent: use it with a safety factor.
+StepLimit stable_bond_step(const Rag& rag, double damping_rate = 0);
+
+}  // namespace snag

@@ -1,0 +1,169 @@
+// From settings to a piece: lattice, mass, hydrodynamic volume and bonds of its particles.
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "dem/rag_settings.hpp"
+
+namespace snag {
+
+namespace {
+
+using Shape = RagSettings::Shape;
+constexpr double pi = std::numbers::pi;
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// Jensen (2018) Tables 3.3 (lengthwise) and 3.4 (crosswise); r_p in m, stiffness in N/m3, strength in Pa.
+constexpr int n_published = 3;
+constexpr double published_radius[n_published] = {1.0e-3, 1.5e-3, 2.0e-3};
+constexpr BondProperties published[2][n_published] = {
+    {{7.65e8, 5.0e6, 3.86e7, 5.47e5, 0}, {3.40e8, 1.0e6, 7.86e6, 3.65e5, 0}, {1.91e8, 5.0e5, 3.15e6, 2.74e5, 0}},
+    {{4.23e8, 5.0e6, 1.03e7, 2.23e5, 0}, {1.88e8, 1.0e6, 1.59e6, 1.49e5, 0}, {1.06e8, 5.0e5, 4.05e5, 1.12e5, 0}},
+};
+
+int whole_particles(double length, double radius) { return std::max(1, static_cast<int>(std::lround(length / (2 * radius)))); }
+
+void set_lattice(const RagSettings& s, RagPiece& piece) {
+  Rag& rag = piece.rag;
+  rag.radius = s.radius;
+  if (s.shape == Shape::rag) rag.n_columns = whole_particles(s.length, s.radius), rag.n_rows = whole_particles(s.width, s.radius);
+  if (s.shape == Shape::disc) {
+    rag.n_columns = rag.n_rows = whole_particles(s.diameter, s.radius);
+    piece.mask_radius = s.diameter / 2;
+  }
+  if (s.shape == Shape::fibre) {
+    if (s.n_points > 0) rag.radius = s.length / (2 * s.n_points);
+    rag.n_columns = s.n_points > 0 ? s.n_points : whole_particles(s.length, s.radius);
+  }
+  if (s.shape == Shape::particle) rag.radius = s.diameter / 2;
+}
+
+void set_mass(const RagSettings& s, Rag& rag) {
+  const double d = 2 * rag.radius, sphere = pi / 6 * d * d * d;
+  rag.hydrodynamic_diameter = d;
+  switch (s.shape) {
+    case Shape::particle:
+      rag.hydrodynamic_volume = sphere, rag.mass = s.density * sphere;
+      break;
+    case Shape::fibre:
+      if (s.diameter > 0) rag.hydrodynamic_diameter = s.diameter;
+      rag.hydrodynamic_volume = pi / 4 * rag.hydrodynamic_diameter * rag.hydrodynamic_diameter * d;
+      rag.mass = s.density * rag.hydrodynamic_volume;
+      break;
+    case Shape::rag:
+    case Shape::disc:
+      rag.hydrodynamic_volume = s.thickness * d * d;
+      rag.mass = s.as_published ? 538 * (1e-3 / rag.radius) * sphere : s.mass_per_area * d * d;
+      break;
+  }
+  rag.inertia = 0.4 * rag.mass * rag.radius * rag.radius;
+}
+
+/// Bonds that give a chain the stretching and bending stiffness of a round beam: S A = E A_f/l0, S_nb I = E I_f/l0; S_t from the shear
+/// modulus E/(2 (1 + nu)) in the same way (torsion then goes with the sphere's J, (2 r_p/d)^2 times that of the beam).
+BondProperties beam_bond(const RagSettings& s, const Rag& rag) {
+  const double l0 = 2 * rag.radius, ratio = rag.hydrodynamic_diameter / l0;
+  BondProperties bond;
+  bond.normal_stiffness = s.youngs_modulus * ratio * ratio / l0;
+  bond.bending_stiffness = s.youngs_modulus * std::pow(ratio, 4) / l0;
+  bond.tangential_stiffness = bond.normal_stiffness / (2 * (1 + s.poisson_ratio));
+  return bond;
+}
+
+void set_bonds(const RagSettings& s, const std::string& where, Rag& rag) {
+  rag.bond_damping = s.bond_damping, rag.rotation_friction = s.rotation_friction, rag.contact_radius_ratio = s.contact_radius_ratio;
+  rag.breakage = s.breakage;
+  rag.shear_modulus = s.shear_modulus, rag.poisson_ratio = s.poisson_ratio;
+  if (s.shape == Shape::particle) return;
+  if (s.properties == "beam") {
+    rag.bond = {beam_bond(s, rag), {}};
+  } else if (s.properties == "given") {
+    rag.bond = {s.along, s.across};
+    const bool needs_across = s.shape != Shape::fibre;
+    if (s.along.normal_stiffness <= 0 || (needs_across && s.across.normal_stiffness <= 0))
+      throw Error(ExitCode::usage, where +
+                                       ": properties = \"given\" without a positive normal stiffness; give normal_stiffness_lengthwise" +
+                                       std::string(needs_across ? " and normal_stiffness_crosswise" : ""));
+  } else {
+    try {
+      rag.bond = {published_bond(rag.radius, 0), published_bond(rag.radius, 1)};
+    } catch (const Error& error) {
+      throw Error(error.code, where + ": " + error.what());
+    }
+  }
+}
+
+}  // namespace
+
+BondProperties published_bond(double radius, int direction) {
+  const double slack = 1e-9;
+  if (radius < published_radius[0] * (1 - slack) || radius > published_radius[n_published - 1] * (1 + slack))
+    throw Error(ExitCode::usage, "published bond properties: radius of " + text_of(radius) +
+                                     " m is outside 1.0 to 2.0 mm, the range of the tables; use such a radius or properties = \"given\"");
+  const int i = radius < published_radius[1] ? 0 : 1;
+  const BondProperties &a = published[direction][i], &b = published[direction][i + 1];
+  const double t = std::log(radius / published_radius[i]) / std::log(published_radius[i + 1] / published_radius[i]);
+  const auto between = [t](double from, double to) { return from == to || t == 0 ? from : t == 1 ? to : from * std::pow(to / from, t); };
+  return {.normal_stiffness = between(a.normal_stiffness, b.normal_stiffness),
+          .tangential_stiffness = between(a.tangential_stiffness, b.tangential_stiffness),
+          .bending_stiffness = between(a.bending_stiffness, b.bending_stiffness),
+          .normal_strength = between(a.normal_strength, b.normal_strength)};
+}
+
+RagPiece make_piece(const RagSettings& s, const std::string& where, const std::filesystem::path& folder) {
+  RagPiece piece;
+  piece.rag.name = s.name;
+  set_lattice(s, piece);
+  set_mass(s, piece.rag);
+  set_bonds(s, where, piece.rag);
+  piece.centre = s.position, piece.velocity = s.velocity, piece.spin = s.spin;
+  // A chain needs one direction only: any other that is not parallel completes the frame.
+  const Vec3 aside = std::abs(s.lengthwise.x) < 0.9 * norm(s.lengthwise) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  try {
+    piece.orientation = rotation_to(s.lengthwise, s.shape == Shape::fibre ? aside : s.crosswise);
+  } catch (const Error& error) {
+    throw Error(error.code, where + ": " + error.what());
+  }
+  if (!s.pose_file.empty()) piece.poses = read_pose_file(folder / s.pose_file, piece.rag);
+  return piece;
+}
+
+std::vector<ParticlePose> read_pose_file(const std::filesystem::path& file, const Rag& rag) {
+  std::ifstream in(file);
+  const auto fail = [&](int line, const std::string& what) {
+    throw Error(ExitCode::io, file.string() + ":" + std::to_string(line) + ": " + what);
+  };
+  if (!in) fail(0, "pose file cannot be opened; give a path relative to the case file");
+  const std::size_t n = static_cast<std::size_t>(rag.n_columns) * rag.n_rows;
+  std::vector<ParticlePose> poses(n);
+  std::vector<bool> given(n, false);
+  std::string line;
+  std::getline(in, line);
+  std::size_t count = 0;
+  for (int number = 2; std::getline(in, line); ++number) {
+    if (line.empty()) continue;
+    for (char& c : line) c = c == ',' ? ' ' : c;
+    std::istringstream fields(line);
+    std::int64_t id = -1;
+    Vec3 x;
+    Quaternion q;
+    if (!(fields >> id >> x.x >> x.y >> x.z >> q.w >> q.x >> q.y >> q.z)) fail(number, "eight numbers id,x,y,z,qw,qx,qy,qz are needed");
+    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    if (id < 0 || static_cast<std::size_t>(id) >= n || given[id])
+      fail(number, "id " + std::to_string(id) + " is out of 0 .. " + std::to_string(n - 1) + " or given twice");
+    if (!(std::abs(length - 1) < 1e-3)) fail(number, "quaternion of length " + text_of(length) + ", a unit quaternion is needed");
+    poses[id] = {x, {q.w / length, q.x / length, q.y / length, q.z / length}};
+    given[id] = true, ++count;
+  }
+  if (count != n) fail(0, std::to_string(count) + " particles given, the lattice has " + std::to_string(n) + " places");
+  return poses;
+}
+
+}  // namespace snag
