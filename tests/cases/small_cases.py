@@ -19,19 +19,15 @@ normal = [0, 0, 1]
 length_mm = 120
 width_mm = 80
 radius_mm = 1
-properties = "as_published"
 centre_m = [0, 0, 0.0535]
-axis = [0.5, 0, 0.8]
-normal = [0.8, 0, -0.5]
+lengthwise = [0.5, 0, 0.8]
 velocity_m_s = [0, 0, -2]
 [[rag]]
 length_mm = 80
 width_mm = 80
 radius_mm = 1
-properties = "as_published"
-centre_m = [-0.03, 0.01, 0.070]
-axis = [0.5, 0.1, 0.8]
-normal = [0.8, 0, -0.5]
+centre_m = [-0.008, 0.01, 0.055]
+lengthwise = [0.5, 0.1, 0.8]
 velocity_m_s = [2, 0, -3]
 [output]
 report = false
@@ -61,19 +57,17 @@ velocity_m_s = [0.5, 0, 0]
 patch = "outlet"
 kind = "pressure_outlet"
 [[boundary]]
-patches = ["bottom", "top", "side"]
+patches = ["bottom", "top", "side_z0", "side_z1"]
 kind = "wall"
 [[wall]]
 kind = "patches"
-patches = ["bottom", "top", "side"]
+patches = ["bottom", "top", "side_z0", "side_z1"]
 [[rag]]
 length_mm = 60
 width_mm = 40
 radius_mm = 2
-properties = "as_published"
 centre_m = [0.08, 0.05, 0.05]
-axis = [0.3, 0.2, 0.9]
-normal = [0.9, 0, -0.3]
+lengthwise = [0.3, 0.2, 0.9]
 [coupling]
 mode = "two_way"
 kernel = "{kernel}"
@@ -83,4 +77,4 @@ forces = ["free_stream_drag"]
 report = false
 single_precision = false
 """
-CHANNEL_MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", "size_mm=10")
+CHANNEL_MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="tetrahedra"', "size_mm=16", "wall_ratio=1")
