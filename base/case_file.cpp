@@ -352,7 +352,9 @@ std::vector<Table> Table::tables(const std::string& name) const {
 
 void Table::read(const std::vector<Parameter>& parameters) const {
   for (const Parameter& parameter : parameters) {
-    node_->known.push_back(known_spelling(parameter));
+    // A table may be read more than once (a condition for several patches): what was made of it counts once.
+    const bool again = std::find(node_->known.begin(), node_->known.end(), known_spelling(parameter)) != node_->known.end();
+    if (!again) node_->known.push_back(known_spelling(parameter));
     std::string found_key;
     for (const auto& [key, value] : node_->values) {
       const auto unit = unit_in_key(key, parameter);
@@ -367,7 +369,7 @@ void Table::read(const std::vector<Parameter>& parameters) const {
     if (found_key.empty() && parameter.required)
       throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
     const std::string text = std::visit(Resolve{}, parameter.target);
-    if (!text.empty()) node_->resolved.emplace_back(known_spelling(parameter), text);
+    if (!text.empty() && !again) node_->resolved.emplace_back(known_spelling(parameter), text);
   }
 }
 
