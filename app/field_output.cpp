@@ -1,0 +1,102 @@
+#include "app/field_output.hpp"
+
+#include <array>
+
+#include "mesh/wall_surface.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+std::uint8_t vtk_type(CellShape shape) {
+  switch (shape) {
+    case CellShape::tetrahedron:
+      return 10;
+    case CellShape::hexahedron:
+      return 12;
+    case CellShape::prism:
+      return 13;
+    case CellShape::pyramid:
+      return 14;
+  }
+  return 0;
+}
+
+VtkPiece grid_of(const Mesh& mesh) {
+  VtkPiece piece;
+  piece.points = mesh.node;
+  piece.connectivity.assign(mesh.cell_node.begin(), mesh.cell_node.end());
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    piece.offsets.push_back(mesh.cell_node_start[c + 1]);
+    piece.types.push_back(vtk_type(mesh.cell_shape[c]));
+  }
+  return piece;
+}
+
+VtkArray array_of(const std::string& name, const std::vector<double>& values, int n, bool single) {
+  return {name, 1, {values.begin(), values.begin() + n}, single};
+}
+
+VtkArray array_of(const std::string& name, const std::vector<Vec3>& values, int n, bool single) {
+  VtkArray array{name, 3, {}, single};
+  array.values.reserve(3 * static_cast<std::size_t>(n));
+  for (int c = 0; c < n; ++c) array.values.insert(array.values.end(), {values[c].x, values[c].y, values[c].z});
+  return array;
+}
+
+std::string numbered(const std::string& stem, std::int64_t number) {
+  std::string digits = std::to_string(number);
+  return stem + "_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+}
+
+}  // namespace
+
+FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time)
+    : folder_(std::move(folder)),
+      mesh_(mesh),
+      single_precision_(single_precision),
+      piece_(grid_of(mesh)),
+      collection_(folder_ / "water.pvd", resume, from_time) {}
+
+void FieldOutput::write(const Flow& flow) {
+  const int n = mesh_.n_cells, rank = rank_of(mesh_.comm), size = size_of(mesh_.comm);
+  piece_.cell_arrays = {array_of("velocity [m/s]", flow.velocity, n, single_precision_),
+                        array_of("pressure [Pa]", flow.pressure, n, single_precision_),
+                        array_of("solid_fraction [1]", flow.solid_fraction, n, single_precision_),
+                        array_of("reaction [N/m3]", flow.reaction, n, single_precision_),
+                        {"rank [1]", 1, std::vector<double>(n, rank), true}};
+  piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
+  const std::string stem = numbered("water", flow.time_step);
+  std::vector<std::string> pieces;
+  for (int r = 0; r < size; ++r) pieces.push_back(stem + "_" + std::to_string(r) + ".vtu");
+  together(mesh_.comm, [&] {
+    write_vtk(folder_ / pieces[rank], VtkKind::unstructured_grid, piece_);
+    if (rank != 0) return;
+    write_parallel_vtk(folder_ / (stem + ".pvtu"), VtkKind::unstructured_grid, piece_, pieces);
+    collection_.add(flow.time, stem + ".pvtu");
+  });
+}
+
+void write_walls(const std::filesystem::path& file, const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const Patch& patch : mesh.patches) names.push_back(patch.name);
+  const WallSurface surface = wall_surface(mesh, names);
+  together(mesh.comm, [&] {
+    if (rank_of(mesh.comm) != 0) return;
+    VtkPiece piece;
+    VtkArray part{"patch [1]", 1, {}, true};
+    for (const WallTriangle& triangle : surface.triangles) {
+      for (const Vec3& node : triangle.node) {
+        piece.connectivity.push_back(static_cast<std::int64_t>(piece.points.size()));
+        piece.points.push_back(node);
+      }
+      piece.offsets.push_back(static_cast<std::int64_t>(piece.points.size()));
+      part.values.push_back(triangle.part);
+    }
+    piece.cell_arrays.push_back(std::move(part));
+    write_vtk(file, VtkKind::polygons, piece);
+  });
+}
+
+}  // namespace snag

@@ -1,0 +1,14 @@
+#pragma once
+// The mesh generator is a program of its own beside this one (only it is linked to the gmsh library).
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace snag {
+
+/// Run snag-mesh with these arguments on rank 0; its exit code on every rank. Collective over all ranks; throws Error(io) if it cannot be
+/// started.
+ExitCode generate_mesh(std::vector<std::string> arguments);
+
+}  // namespace snag

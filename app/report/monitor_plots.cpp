@@ -1,0 +1,177 @@
+#include "app/report/monitor_plots.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/series.hpp"
+
+namespace snag {
+
+namespace {
+
+/// Columns that belong into one plot, and what a reader calls them.
+struct KnownPlot {
+  const char* monitor;   // name of the file without .csv
+  const char* title;
+  std::vector<const char*> columns;
+};
+
+/// In the order of the page: the machine, the rags, the exchange, the solvers, the cost.
+const std::vector<KnownPlot>& known_plots() {
+  static const std::vector<KnownPlot> plots = {
+      {"pump", "Head of the pump", {"head"}},
+      {"pump", "Flow rate through the pump", {"flow"}},
+      {"pump", "Torque on the impeller", {"torque"}},
+      {"pump", "Shaft power", {"shaft_power", "hydraulic_power"}},
+      {"pump", "Efficiency", {"efficiency"}},
+      {"rags", "Where the rag is: its centroid", {"x", "y", "z"}},
+      {"rags", "Velocity of the rag's centroid", {"vx", "vy", "vz"}},
+      {"rags", "Elongation ratio: long side over short side of the rag", {"elongation_ratio"}},
+      {"rags", "Distance between the ends of the rag", {"end_to_end"}},
+      {"rags", "Largest strain of a bond", {"bond_strain_max"}},
+      {"rags", "Largest tension of a bond", {"bond_tension_max"}},
+      {"rags", "Broken bonds", {"broken_bonds"}},
+      {"rags", "Contacts with walls and between particles", {"contacts"}},
+      {"rags", "Deepest overlap in a contact", {"max_overlap"}},
+      {"coupling", "Force of the water on all rags", {"force_on_rags_x", "force_on_rags_y", "force_on_rags_z"}},
+      {"coupling", "Momentum lost in the exchange, relative to what was exchanged", {"momentum_exchange_rel"}},
+      {"coupling", "Largest part of a cell that is cloth", {"solid_fraction_max"}},
+      {"residuals", "Courant number", {"courant_max", "courant_mean"}},
+      {"residuals", "Residuals of the water's equations", {"momentum_residual", "pressure_residual"}},
+      {"residuals", "Continuity: volume not accounted for", {"continuity_local", "continuity_global"}},
+      {"residuals", "Iterations of the pressure solver", {"pressure_iterations"}},
+      {"timing", "Wall-clock time by part", {"flow_s", "dem_s", "coupling_s", "output_s"}},
+  };
+  return plots;
+}
+
+struct Column {
+  std::string name, unit;
+};
+
+Column column_of(const std::string& header) {
+  const auto at = header.rfind(" [");
+  if (at == std::string::npos || !header.ends_with(']')) return {header, "1"};
+  return {header.substr(0, at), header.substr(at + 2, header.size() - at - 3)};
+}
+
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// "force" of force_x, force_y, force_z, otherwise the name itself.
+std::string stem(const std::string& name) {
+  const auto n = name.size();
+  return n > 2 && name[n - 2] == '_' && name[n - 1] >= 'x' && name[n - 1] <= 'z' ? name.substr(0, n - 2) : name;
+}
+
+class Monitor {
+ public:
+  Monitor(std::string name, const SeriesTable& table) : name_(std::move(name)), table_(table) {
+    for (const auto& header : table_.columns) columns_.push_back(column_of(header));
+    left_.insert(table_.columns.begin() + 1, table_.columns.end());
+    std::erase_if(left_, [](const std::string& header) {
+      const auto column = column_of(header).name;
+      return column == "time_step" || column == "rag" || column == "step";
+    });
+    const auto rag = std::find_if(columns_.begin(), columns_.end(), [](const Column& column) { return column.name == "rag"; });
+    if (rag == columns_.end()) {
+      records_[0].resize(table_.values[0].size());
+      for (std::size_t i = 0; i < records_[0].size(); ++i) records_[0][i] = i;
+    } else {
+      const auto& ids = table_.values[static_cast<std::size_t>(rag - columns_.begin())];
+      for (std::size_t i = 0; i < ids.size(); ++i) records_[static_cast<long>(ids[i])].push_back(i);
+    }
+  }
+
+  /// The plot of those of the columns that exist; without lines if none does.
+  LinePlot plot(const std::string& title, const std::vector<std::string>& names) {
+    LinePlot result{title, axis_label({"time", columns_[0].unit}), "", {}};
+    for (std::size_t c = 1; c < columns_.size(); ++c) {
+      if (std::find(names.begin(), names.end(), columns_[c].name) == names.end() || !left_.erase(table_.columns[c])) continue;
+      result.y_label = axis_label({names.size() == 1 ? spaced(columns_[c].name) : common_name(names), columns_[c].unit});
+      for (const auto& [rag, records] : records_) result.lines.push_back(line(c, rag, records, names.size() > 1));
+    }
+    return result;
+  }
+
+  /// Names of columns that no plot has shown yet, those of a vector together.
+  std::vector<std::vector<std::string>> rest() const {
+    std::vector<std::vector<std::string>> groups;
+    for (std::size_t c = 1; c < columns_.size(); ++c) {
+      if (!left_.contains(table_.columns[c])) continue;
+      const auto& name = columns_[c].name;
+      if (stem(name) != name && !groups.empty() && stem(groups.back().front()) == stem(name))
+        groups.back().push_back(name);
+      else
+        groups.push_back({name});
+    }
+    return groups;
+  }
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+  SeriesTable table_;
+  std::vector<Column> columns_;
+  std::set<std::string> left_;                          // headers not shown yet
+  std::map<long, std::vector<std::size_t>> records_;   // by rag
+
+  static std::string axis_label(const Column& column) { return column.unit == "1" ? column.name : column.name + " [" + column.unit + "]"; }
+  static std::string common_name(const std::vector<std::string>& names) {
+    return stem(names[0]) != names[0] ? spaced(stem(names[0])) : "";
+  }
+  PlotLine line(std::size_t c, long rag, const std::vector<std::size_t>& records, bool named) const {
+    PlotLine result;
+    if (named) result.label = spaced(columns_[c].name);
+    if (records_.size() > 1) result.label += (named ? ", rag " : "rag ") + std::to_string(rag);
+    for (const auto i : records) {
+      result.x.push_back(table_.values[0][i]);
+      result.y.push_back(table_.values[c][i]);
+    }
+    return result;
+  }
+};
+
+std::vector<Monitor> monitors_of(const std::filesystem::path& folder, std::vector<std::string>& problems) {
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<Monitor> monitors;
+  for (const auto& file : files) {
+    try {
+      const SeriesTable table = read_series(file);
+      if (table.columns.empty() || table.values[0].empty())
+        problems.push_back(file.filename().string() + " holds no record");
+      else
+        monitors.emplace_back(file.stem().string(), table);
+    } catch (const Error& error) {
+      problems.emplace_back(error.what());
+    }
+  }
+  return monitors;
+}
+
+}  // namespace
+
+MonitorPlots monitor_plots(const std::filesystem::path& folder) {
+  MonitorPlots result;
+  auto monitors = monitors_of(folder, result.problems);
+  const auto keep = [&](LinePlot plot) {
+    if (!plot.lines.empty()) result.plots.push_back(std::move(plot));
+  };
+  for (const auto& known : known_plots())
+    for (auto& monitor : monitors)
+      if (monitor.name() == known.monitor) keep(monitor.plot(known.title, {known.columns.begin(), known.columns.end()}));
+  for (auto& monitor : monitors)
+    for (const auto& group : monitor.rest())
+      keep(monitor.plot(spaced(monitor.name()) + ": " + spaced(group.size() > 1 ? stem(group[0]) : group[0]), group));
+  return result;
+}
+
+}  // namespace snag

@@ -1,0 +1,19 @@
+#pragma once
+// The plots of a report: known monitors under plain titles, and every other column that is there.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/report/line_plot.hpp"
+
+namespace snag {
+
+struct MonitorPlots {
+  std::vector<LinePlot> plots;
+  std::vector<std::string> problems;   // files that could not be read, and why
+};
+
+/// Plots of all *.csv files of a folder (none if it is absent). Columns of a vector (_x, _y, _z) share a plot, rags are lines of it.
+MonitorPlots monitor_plots(const std::filesystem::path& folder);
+
+}  // namespace snag

@@ -1,0 +1,388 @@
+#!/usr/bin/env python3
+"""Pictures of a run, without a screen: the rag in its surroundings at several instants, and the water's speed on slices.
+
+    xvfb-run -a /usr/bin/python3 render.py DIR --out DIR/pictures
+
+Reads fields/*.pvd, rags/*.pvd and walls/walls.vtp of DIR as far as they exist; writes PNG files and pictures.json, a list of
+{file, group, caption}, rewritten after each picture so that what was made before a failure is kept.
+"""
+import argparse
+import json
+import pathlib
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  (text)
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the renderer registers itself)
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkPlane
+from vtkmodules.vtkFiltersCore import vtkArrayCalculator, vtkCellDataToPointData, vtkCutter, vtkFeatureEdges, vtkCleanPolyData, vtkPolyDataNormals
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter
+
+N_INSTANTS = 9
+# Anchors of two colour scales that print well and do not rely on red and green: light to dark blue, black over red to yellow.
+BLUES = ["#f3f8fd", "#c8dcf0", "#8fbfe0", "#4f9bcb", "#2070b4", "#08306b"]
+FIRE = ["#2b0a3d", "#7a1c6b", "#c43c4e", "#f27d15", "#fcc52c", "#fcffa4"]
+
+
+def colour_table(anchors, low, high):
+    """256 colours between the anchors, for values from low to high."""
+    rgb = np.array([[int(a[i:i + 2], 16) / 255 for i in (1, 3, 5)] for a in anchors])
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    for k in range(256):
+        at = k / 255 * (len(anchors) - 1)
+        table.SetTableValue(k, *(float(np.interp(at, range(len(anchors)), rgb[:, c])) for c in range(3)), 1)
+    table.SetRange(low, high if high > low else low + 1e-30 + abs(low) * 1e-6)
+    table.Build()
+    return table
+
+
+def read(file):
+    """A data set from a VTK XML file, or None if it is not there or cannot be read."""
+    readers = {".vtu": vtkXMLUnstructuredGridReader, ".pvtu": vtkXMLPUnstructuredGridReader, ".vtp": vtkXMLPolyDataReader,
+               ".pvtp": vtkXMLPPolyDataReader}
+    if not file.exists() or file.suffix not in readers:
+        return None
+    reader = readers[file.suffix]()
+    reader.SetFileName(str(file))
+    reader.Update()
+    found = reader.GetOutput()
+    return found if reader.GetErrorCode() == 0 and found.GetNumberOfPoints() > 0 else None
+
+
+class Series:
+    """Entries (time, file) of the first collection of a folder that has any."""
+
+    def __init__(self, folder):
+        self.entries = []
+        for index in sorted(folder.glob("*.pvd")):
+            self.entries = sorted((float(e.get("timestep")), folder / e.get("file")) for e in ElementTree.parse(index).iter("DataSet"))
+            if self.entries:
+                break
+
+    def nearest(self, time):
+        return min(self.entries, key=lambda entry: abs(entry[0] - time)) if self.entries else None
+
+    def spread(self, n):
+        """At most n entries, evenly spread, first and last among them."""
+        n = min(n, len(self.entries))
+        return [self.entries[round(i * (len(self.entries) - 1) / max(1, n - 1))] for i in range(n)]
+
+
+def array_named(attributes, name):
+    """The array `name` or `name [unit]` of point or cell data, or None."""
+    for i in range(attributes.GetNumberOfArrays()):
+        label = attributes.GetArrayName(i)
+        if label == name or label.startswith(name + " ["):
+            return attributes.GetArray(i)
+    return None
+
+
+def bounds_of(box, other=None):
+    """Box (xmin, xmax, ymin, ymax, zmin, zmax) around one or two boxes, as an array [3][2]."""
+    box = np.array(box, float).reshape(3, 2)
+    return box if other is None else np.stack([np.minimum(box[:, 0], other[:, 0]), np.maximum(box[:, 1], other[:, 1])], axis=1)
+
+
+def slice_of(grid, origin, normal):
+    """The water's speed on a plane: poly data with the point array `speed`, or None where the plane misses the water."""
+    plane = vtkPlane()
+    plane.SetOrigin(*origin)
+    plane.SetNormal(*normal)
+    cutter = vtkCutter()
+    cutter.SetInputData(grid)
+    cutter.SetCutFunction(plane)
+    cutter.Update()
+    velocity = array_named(cutter.GetOutput().GetCellData(), "velocity")
+    last = cutter
+    if velocity is not None:
+        last = vtkCellDataToPointData()
+        last.SetInputConnection(cutter.GetOutputPort())
+    else:
+        velocity = array_named(cutter.GetOutput().GetPointData(), "velocity")
+    if velocity is None or cutter.GetOutput().GetNumberOfPoints() == 0:
+        return None
+    speed = vtkArrayCalculator()
+    speed.SetInputConnection(last.GetOutputPort())
+    speed.SetAttributeTypeToPointData()
+    speed.AddVectorVariable("u", velocity.GetName())
+    speed.SetFunction("mag(u)")
+    speed.SetResultArrayName("speed")
+    speed.Update()
+    return speed.GetOutput()
+
+
+class Stage:
+    """One off-screen window; `show` draws actors and writes a picture."""
+
+    def __init__(self, out):
+        self.out, self.made = out, []
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(4)
+
+    def show(self, name, group, caption, scene, size=(720, 560)):
+        renderer = vtkRenderer()
+        renderer.SetBackground(1, 1, 1)
+        self.window.SetSize(*size)
+        self.window.AddRenderer(renderer)
+        for actor in scene["actors"]:
+            renderer.AddActor(actor)
+        for k, (title, table) in enumerate(scene["bars"]):
+            renderer.AddActor2D(colour_bar(title, table, k, len(scene["bars"])))
+        label = vtkTextActor()
+        label.SetInput(scene["text"])
+        label.GetTextProperty().SetFontSize(22)
+        label.GetTextProperty().SetColor(0.1, 0.1, 0.1)
+        label.SetPosition(14, size[1] - 38)
+        renderer.AddActor2D(label)
+        look(renderer, scene["box"], scene["towards"], size)
+        self.window.Render()
+        picture = vtkWindowToImageFilter()
+        picture.SetInput(self.window)
+        picture.ReadFrontBufferOff()
+        writer = vtkPNGWriter()
+        writer.SetFileName(str(self.out / name))
+        writer.SetInputConnection(picture.GetOutputPort())
+        writer.Write()
+        self.window.RemoveRenderer(renderer)
+        self.made.append({"file": name, "group": group, "caption": caption})
+        (self.out / "pictures.json").write_text(json.dumps(self.made, indent=1))
+
+
+def colour_bar(title, table, k, n):
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle(title)
+    bar.SetOrientationToHorizontal()
+    bar.SetNumberOfLabels(4)
+    bar.SetLabelFormat("%.3g")
+    bar.SetUnconstrainedFontSize(True)
+    for text, font in ((bar.GetTitleTextProperty(), 15), (bar.GetLabelTextProperty(), 14)):
+        text.SetColor(0.1, 0.1, 0.1)
+        text.SetFontSize(font)
+        text.BoldOff()
+        text.ItalicOff()
+        text.ShadowOff()
+    width = 0.42
+    bar.SetPosition(0.5 * (k + 0.5) + (0.25 if n == 1 else 0) - width / 2, 0.015)
+    bar.SetPosition2(width, 0.105)
+    return bar
+
+
+def look(renderer, box, towards, size):
+    """Parallel view along `towards`, tilted a little, that holds the box above the colour bars."""
+    camera = renderer.GetActiveCamera()
+    centre, extent = box.mean(axis=1), box[:, 1] - box[:, 0]
+    side = int(np.argmax(np.where(np.arange(3) == towards, -1, extent)))       # longest direction lies across the picture
+    up = np.zeros(3)
+    up[3 - towards - side] = 1
+    sight = np.zeros(3)
+    sight[towards] = 1
+    if np.cross(up, sight)[side] < 0:                                          # the axis across the picture grows to the right
+        sight = -sight
+    reach = float(np.linalg.norm(extent)) + 1e-12
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(*centre)
+    camera.SetPosition(*(centre + 3 * reach * sight))
+    camera.SetViewUp(*up)
+    camera.Azimuth(-18)
+    camera.Elevation(16)
+    camera.OrthogonalizeViewUp()
+    right, above = camera_axes(camera)
+    corners = np.array([[box[0, i], box[1, j], box[2, k]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]) - centre
+    wide, tall = np.ptp(corners @ right), np.ptp(corners @ above)
+    bars = 0.15                                                                # part of the height that the bars take
+    scale = 1.04 * max(tall / (1 - bars - 0.06), wide * size[1] / size[0])
+    camera.SetParallelScale(0.5 * scale)
+    shift = 0.5 * (bars - 0.06) * scale * above
+    camera.SetFocalPoint(*(centre - shift))
+    camera.SetPosition(*(np.array(camera.GetPosition()) - shift))
+    renderer.ResetCameraClippingRange()
+
+
+def camera_axes(camera):
+    above = np.array(camera.GetViewUp())
+    sight = np.array(camera.GetDirectionOfProjection())
+    right = np.cross(sight, above)
+    return right / np.linalg.norm(right), above / np.linalg.norm(above)
+
+
+def actor_of(poly, colour=(0.6, 0.6, 0.6), opacity=1.0):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(poly)
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*colour)
+    actor.GetProperty().SetOpacity(opacity)
+    actor.GetProperty().SetPointSize(5)
+    actor.GetProperty().SetLineWidth(2)
+    return actor
+
+
+def coloured(actor, array, attributes, table):
+    """Colours an actor by an array of its points or cells."""
+    mapper = actor.GetMapper()
+    mapper.ScalarVisibilityOn()
+    (mapper.SetScalarModeToUsePointFieldData if attributes == "points" else mapper.SetScalarModeToUseCellFieldData)()
+    mapper.SelectColorArray(array)
+    mapper.SetLookupTable(table)
+    mapper.UseLookupTableScalarRangeOn()
+    return actor
+
+
+def wall_actors(walls):
+    """Walls as a faint veil with their edges."""
+    if walls is None:
+        return []
+    joined = vtkCleanPolyData()
+    joined.SetInputData(walls)
+    edges = vtkFeatureEdges()
+    edges.SetInputConnection(joined.GetOutputPort())
+    edges.SetFeatureAngle(35)
+    edges.NonManifoldEdgesOff()
+    edges.ColoringOff()
+    edges.Update()
+    lines = actor_of(edges.GetOutput(), (0.25, 0.28, 0.32), 0.55)
+    lines.GetProperty().SetLineWidth(1.2)
+    veil = actor_of(joined.GetOutput(), (0.55, 0.6, 0.66), 0.07)
+    veil.GetProperty().LightingOff()
+    return [veil, lines]
+
+
+def rag_actors(rag, tables):
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(rag)
+    normals.SplittingOff()
+    normals.Update()
+    sheet = normals.GetOutput() if rag.GetNumberOfPolys() > 0 else rag
+    actor = actor_of(sheet, (0.78, 0.42, 0.1))
+    for attributes, arrays in (("points", sheet.GetPointData()), ("cells", sheet.GetCellData())):
+        tension = array_named(arrays, "tension")
+        if tension is not None and "tension" in tables:
+            coloured(actor, tension.GetName(), attributes, tables["tension"])
+            break
+    actor.GetProperty().SetAmbient(0.35)
+    actor.GetProperty().SetDiffuse(0.7)
+    return [actor]
+
+
+class Run:
+    """What there is of a run, and the ranges and views that all its pictures share."""
+
+    def __init__(self, folder):
+        self.water, self.rags = Series(folder / "fields"), Series(folder / "rags")
+        self.walls = read(folder / "walls" / "walls.vtp")
+        self.grids = {}
+        self.domain = None if self.walls is None else bounds_of(self.walls.GetBounds())
+        last = self.grid(self.water.entries[-1][1]) if self.water.entries else None
+        if last is not None:
+            self.domain = bounds_of(last.GetBounds(), self.domain)
+        self.tables = {}
+        self.travel = self.look_at_rags()
+        if self.domain is None:
+            self.domain = self.travel
+        if last is not None:
+            velocity = array_named(last.GetCellData(), "velocity") or array_named(last.GetPointData(), "velocity")
+            if velocity is not None:
+                speeds = np.linalg.norm(vtk_to_numpy(velocity), axis=1)
+                self.tables["speed"] = colour_table(BLUES, 0, float(np.percentile(speeds[np.isfinite(speeds)], 99.5)))
+
+    def grid(self, file):
+        if file not in self.grids:
+            self.grids = {file: read(file)}     # one at a time: a field may be large
+        return self.grids[file]
+
+    def look_at_rags(self):
+        """Box that the rags pass through at the instants shown; sets the range of their tension."""
+        box, low, high = None, 0.0, 0.0
+        for _, file in self.rags.spread(N_INSTANTS):
+            rag = read(file)
+            if rag is None:
+                continue
+            box = bounds_of(rag.GetBounds(), box)
+            tension = array_named(rag.GetPointData(), "tension") or array_named(rag.GetCellData(), "tension")
+            if tension is not None and tension.GetNumberOfTuples() > 0:
+                low = min(low, float(np.nanpercentile(vtk_to_numpy(tension), 1)))
+                high = max(high, float(np.nanpercentile(vtk_to_numpy(tension), 99)))
+        if high > low:
+            self.tables["tension"] = colour_table(FIRE, low, high)
+        return box
+
+    def view_of_rags(self):
+        """The travelled box with room around it, inside the domain."""
+        if self.travel is None:
+            return self.domain
+        room = 0.6 * max(float(np.max(self.travel[:, 1] - self.travel[:, 0])), 1e-9)
+        box = self.travel + np.array([-room, room])
+        inside = np.stack([np.maximum(box[:, 0], self.domain[:, 0]), np.minimum(box[:, 1], self.domain[:, 1])], axis=1)
+        return np.where((inside[:, 1] > inside[:, 0])[:, None], inside, self.domain)
+
+    def bars(self, with_rag):
+        names = [("Speed of the water [m/s]", "speed")] + ([("Tension of the bonds [N]", "tension")] if with_rag else [])
+        return [(title, self.tables[key]) for title, key in names if key in self.tables]
+
+    def slice_actors(self, file, origin, axis):
+        grid = self.grid(file) if "speed" in self.tables else None
+        cut = slice_of(grid, origin, np.eye(3)[axis]) if grid is not None else None
+        if cut is None:
+            return []
+        actor = coloured(actor_of(cut), "speed", "points", self.tables["speed"])
+        actor.GetProperty().LightingOff()
+        return [actor]
+
+
+def draw(run, stage):
+    extent = run.domain[:, 1] - run.domain[:, 0]
+    thin = int(np.argmin(extent))
+    middle = run.domain.mean(axis=1)
+    walls = wall_actors(run.walls)
+    letter = "xyz"
+    shown = run.rags.spread(N_INSTANTS)
+    for i, (time, file) in enumerate(shown):
+        rag = read(file)
+        water = run.water.nearest(time)
+        actors = walls + (rag_actors(rag, run.tables) if rag is not None else [])
+        note = "" if rag is not None else " (no rag in the domain)"
+        if water is not None:
+            actors = run.slice_actors(water[1], middle, thin) + actors
+        scene = {"actors": actors, "bars": run.bars(True), "text": f"t = {time:.4g} s{note}", "box": run.view_of_rags(), "towards": thin}
+        stage.show(f"rag_{i + 1}.png", "rag", f"t = {time:.4g} s{note}", scene)
+    if not run.water.entries:
+        return
+    time, file = run.water.entries[-1]
+    last_rag = read(shown[-1][1]) if shown else None
+    centre = middle if last_rag is None else np.array(last_rag.GetBounds()).reshape(3, 2).mean(axis=1)
+    views = [(thin, middle, "the middle of the domain")]
+    if last_rag is not None:
+        views.append((int(np.argmax(extent)), centre, "the rag's place"))
+    for axis, origin, where in views:
+        rag = rag_actors(last_rag, run.tables) if last_rag is not None else []
+        actors = run.slice_actors(file, origin, axis) + walls + rag
+        scene = {"actors": actors, "bars": run.bars(bool(rag)), "text": f"t = {time:.4g} s", "box": run.domain, "towards": axis}
+        caption = f"Speed of the water at t = {time:.4g} s on the plane {letter[axis]} = {origin[axis]:.4g} m, through {where}"
+        stage.show(f"speed_{letter[axis]}.png", "speed", caption, scene, (1000, 700))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path, required=True)
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    stage = Stage(options.out)
+    run = Run(options.folder)
+    if run.domain is None:
+        sys.exit("no fields, rags or walls to draw")
+    draw(run, stage)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,24 @@
+#pragma once
+// A run from the case file to the report.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace snag {
+
+struct RunOptions {
+  std::filesystem::path case_file;
+  std::filesystem::path out;           // empty: results/NAME
+  std::vector<std::string> overrides;  // --set
+  bool resume = false, overwrite = false;
+};
+
+/// Run a case to its end, or to a request to stop. Collective over all ranks.
+ExitCode run_case(const RunOptions& options);
+
+/// Everything short of a time step: schema, mesh, conditions, stable steps, kernel and cells, cost. Collective over all ranks.
+ExitCode check_case(const RunOptions& options);
+
+}  // namespace snag

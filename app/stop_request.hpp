@@ -1,0 +1,28 @@
+#pragma once
+// A run may be told to stop: by a signal (SIGTERM, SIGINT, SIGUSR1; batch systems send them) or by a file named `stop` in its output
+// folder.
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+
+namespace snag {
+
+class StopRequest {
+ public:
+  /// Handles the signals from now on; `folder` is looked at for the file. A `stop` file left by an earlier run is removed. Collective.
+  StopRequest(MPI_Comm comm, std::filesystem::path folder);
+  ~StopRequest();
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+  /// True on all ranks as soon as one was told. Collective.
+  bool asked() const;
+  /// What told it: "signal 15", "file stop".
+  std::string reason() const;
+
+ private:
+  MPI_Comm comm_;
+  std::filesystem::path file_;
+};
+
+}  // namespace snag

@@ -1,0 +1,90 @@
+#include "app/summary.hpp"
+
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/version.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+
+nlohmann::ordered_json rag_json(const RagSummary& rag) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (const auto& event : rag.events) events.push_back({{"t_s", event.time}, {"what", event.what}});
+  return {{"id", rag.id},
+          {"name", rag.name},
+          {"particles", rag.particles},
+          {"bonds", rag.bonds},
+          {"broken_bonds", rag.broken_bonds},
+          {"outcome", rag.outcome},
+          {"retention_time_s", nullptr},  // of a pump; null where there is none
+          {"time_to_enter_s", nullptr},
+          {"recirculations", nullptr},
+          {"stuck_on_tongue_s", nullptr},
+          {"stuck_on_impeller_s", nullptr},
+          {"wall_contact_s", rag.wall_contact},
+          {"elongation_ratio", rag.elongation_ratio},
+          {"projected_area_m2", rag.projected_area},
+          {"max_wall_overlap_over_radius", rag.max_wall_overlap_over_radius},
+          {"max_overlap_over_radius", rag.max_overlap_over_radius},
+          {"bond_strain_p99", rag.bond_strain_p99},
+          {"max_bond_tension_N", rag.max_bond_tension},
+          {"corrected_positions", rag.corrected_positions},
+          {"events", events}};
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& file, const Summary& s) {
+  nlohmann::ordered_json rags = nlohmann::ordered_json::array();
+  for (const RagSummary& rag : s.rags) rags.push_back(rag_json(rag));
+  const auto& p = s.performance;
+  const nlohmann::ordered_json json = {{"version", version_number},
+                                       {"git", version_git},
+                                       {"case", s.case_name},
+                                       {"case_sha256", s.case_sha256},
+                                       {"ranks", s.ranks},
+                                       {"wall_s", s.wall},
+                                       {"exit", s.exit},
+                                       {"simulated_s", s.simulated},
+                                       {"time_steps", s.time_steps},
+                                       {"mesh",
+                                        {{"cells", s.mesh.cells},
+                                         {"interior_faces", s.mesh.interior_faces},
+                                         {"facets", s.mesh.facets},
+                                         {"min_quality", s.mesh.min_quality}}},
+                                       {"performance",
+                                        {{"flow_cell_steps_per_s", rate(p.cell_steps, p.flow)},
+                                         {"dem_particle_steps_per_s", rate(p.particle_steps, p.dem)},
+                                         {"flow_s", p.flow},
+                                         {"dem_s", p.dem},
+                                         {"coupling_s", p.coupling},
+                                         {"output_s", p.output},
+                                         {"peak_memory_bytes", p.peak_memory}}},
+                                       {"rags", rags},
+                                       {"conservation",
+                                        {{"mass_imbalance_rel", s.conservation.mass_imbalance},
+                                         {"momentum_exchange_rel", s.conservation.momentum_exchange},
+                                         {"interface_closure_rel", s.conservation.interface_closure},
+                                         {"particles_lost", s.conservation.particles_lost},
+                                         {"bonds_lost", s.conservation.bonds_lost},
+                                         {"particles_beyond_walls", s.conservation.particles_beyond_walls}}}};
+  write_atomically(file, json.dump(2) + "\n");
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return sum(MPI_COMM_WORLD, static_cast<std::int64_t>(usage.ru_maxrss) * 1024);
+}
+
+}  // namespace snag

@@ -1,0 +1,55 @@
+#pragma once
+// summary.json: what came out of a run, for people, scripts and the report. Keys are stable, numbers in SI.
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec3.hpp"
+
+namespace snag {
+
+struct RagSummary {
+  int id = 0;
+  std::string name;
+  std::int64_t particles = 0, bonds = 0, broken_bonds = 0;
+  std::string outcome;  // exited | recirculating | stuck_on_tongue | stuck_on_impeller | upstream | in_domain
+  double wall_contact = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0, max_overlap_over_radius = 0,
+         bond_strain_p99 = 0, max_bond_tension = 0;
+  std::int64_t corrected_positions = 0;
+  struct Event {
+    double time = 0;
+    std::string what;
+  };
+  std::vector<Event> events;
+};
+
+struct Summary {
+  std::string case_name, case_sha256;
+  int ranks = 1, exit = 0;
+  double wall = 0, simulated = 0;  // s
+  std::int64_t time_steps = 0;
+  struct {
+    std::int64_t cells = 0, interior_faces = 0, facets = 0;
+    double min_quality = 0;
+  } mesh;
+  struct {
+    double flow = 0, dem = 0, coupling = 0, output = 0;  // s of wall clock
+    double cell_steps = 0, particle_steps = 0;
+    std::int64_t peak_memory = 0;  // bytes, all ranks
+  } performance;
+  std::vector<RagSummary> rags;
+  struct {
+    double mass_imbalance = 0, momentum_exchange = 0, interface_closure = 0;  // relative
+    std::int64_t particles_lost = 0, bonds_lost = 0, particles_beyond_walls = 0;
+  } conservation;
+};
+
+/// Throws Error(io).
+void write_summary(const std::filesystem::path& file, const Summary& summary);
+
+/// Peak resident memory of all ranks, bytes. Collective.
+std::int64_t peak_memory();
+
+}  // namespace snag
