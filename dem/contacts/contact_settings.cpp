@@ -1,0 +1,37 @@
+#include "dem/contacts/contact_settings.hpp"
+
+namespace snag {
+
+std::vector<Parameter> ContactSettings::parameters() {
+  const auto number = [](const char* key, double* target, double minimum, double maximum, Basis basis, const char* meaning) {
+    return Parameter{.key = key, .target = target, .minimum = minimum, .maximum = maximum, .basis = basis, .meaning = meaning};
+  };
+  return {
+      setting("between_particles", &between_particles, "Contacts of particles with each other; without, cloth passes through cloth."),
+      number("restitution", &restitution, 1e-6, 1, Basis::literature,
+             "Speed after a normal impact over speed before, between particles (Jensen 2018, Table 3.2)."),
+      number("static_friction", &static_friction, 0, 10, Basis::literature,
+             "Coulomb coefficient between particles (Jensen 2018, Table 3.2)."),
+      number("rolling_friction", &rolling_friction, 0, 1, Basis::literature,
+             "Rolling torque over normal force and equivalent radius, between particles (Jensen 2018, Table 3.2)."),
+      number("wall_restitution", &wall_restitution, 1e-6, 1, Basis::literature,
+             "The same as restitution, with walls (Jensen 2018, Table 3.2)."),
+      number("wall_friction", &wall_friction, 0, 10, Basis::literature, "Coulomb coefficient with walls (Jensen 2018, Table 3.2)."),
+      number("wall_rolling_friction", &wall_rolling_friction, 0, 1, Basis::literature,
+             "Rolling friction with walls; none is published, Table 3.2 of Jensen (2018) has it between particles only."),
+      number("wall_stiffness_factor", &wall_stiffness_factor, 1e-3, 1e4, Basis::assumed,
+             "Multiplies the contact moduli E* and G* with walls, of two bodies of the particle's material at 1; stiffer walls need "
+             "shorter steps."),
+      number("skin_over_radius", &skin_over_radius, 1e-3, 10, Basis::assumed,
+             "Margin of the lists of near particles over the largest radius; changes the speed of the program, never a result."),
+      Parameter{.key = "impact_speed",
+                .target = &impact_speed,
+                .unit = "m/s",
+                .minimum = 1e-6,
+                .maximum = 1000,
+                .basis = Basis::assumed,
+                .meaning = "Fastest impact that the step must resolve: sets the Hertz impact time."},
+  };
+}
+
+}  // namespace snag

@@ -1,0 +1,253 @@
+#include "dem/contacts/contact_solver.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.hpp"
+#include "dem/contacts/contact_list.hpp"
+#include "dem/contacts/pair_forces.hpp"
+#include "dem/contacts/wall_contacts.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double rayleigh_fraction = 1.0 / 3;
+
+double largest_radius(const std::vector<Rag>& rags) {
+  double largest = 0;
+  for (const Rag& rag : rags) largest = std::max(largest, rag.radius);
+  return largest;
+}
+
+std::vector<double> radii(const std::vector<Rag>& rags) {
+  std::vector<double> all;
+  for (const Rag& rag : rags) all.push_back(rag.radius);
+  return all;
+}
+
+void check_rag(const Rag& rag) {
+  const auto demand = [&](bool holds, const char* what, double value, const char* rule) {
+    if (!holds)
+      throw Error(ExitCode::usage,
+                  "rag \"" + rag.name + "\": " + what + " = " + std::to_string(value) + ", contacts need " + rule + "; correct it");
+  };
+  demand(rag.radius > 0, "radius", rag.radius, "a positive one");
+  demand(rag.mass > 0, "mass", rag.mass, "a positive one");
+  demand(rag.inertia > 0, "inertia", rag.inertia, "a positive one");
+  demand(rag.shear_modulus > 0, "shear_modulus", rag.shear_modulus, "a positive one");
+  demand(rag.poisson_ratio > -1 && rag.poisson_ratio <= 0.5, "poisson_ratio", rag.poisson_ratio, "-1 < nu <= 0.5");
+}
+
+}  // namespace
+
+struct ContactSolver::State {
+  State(const ContactSettings& s, const std::vector<Rag>& r, const WallSet* w)
+      : settings(s), rags(&r), skin(s.skin_over_radius * largest_radius(r)), particles(r), list(radii(r), skin), forces(r, s) {
+    if (w && !w->empty()) walls.emplace(r, s, *w);
+    measures.max_wall_overlap_over_radius.assign(r.size(), 0);
+    measures.beyond_walls.assign(r.size(), 0);
+  }
+
+  void update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts);
+  void add_wall_forces(double step);
+  void sort_slips();
+
+  ContactSettings settings;
+  const std::vector<Rag>* rags;
+  double skin = 0, time = 0;
+  bool unpacked = false;  // something waits to be put into the lists
+  ContactParticles particles;
+  ContactList list;
+  PairForces forces;
+  std::optional<WallContacts> walls;
+  ContactMeasures measures;
+  std::vector<WallLoad> no_loads;
+
+  // The touching pairs by their lower and by their higher id, made when the first tile is packed after a step.
+  bool slips_sorted = false;
+  std::vector<StoredSlip> by_low, by_high;
+};
+
+ContactSolver::ContactSolver(const ContactSettings& settings, const std::vector<Rag>& rags, const WallSet* walls) {
+  for (const Rag& rag : rags) check_rag(rag);
+  state_ = std::make_unique<State>(settings, rags, walls);
+}
+ContactSolver::~ContactSolver() = default;
+ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
+ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
+
+void ContactSolver::set_time(double time) { state_->time = time; }
+
+void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) {
+  const bool same_tiles = particles.holds(owned, ghosts);
+  if (same_tiles && !unpacked && !particles.moved(0.5 * skin) && !particles.bonds_changed()) {
+    if (walls && walls->due(time)) walls->list(particles, time);
+    return;
+  }
+  list.store(list.touching(particles));
+  if (!same_tiles) particles.assign(owned, ghosts);
+  particles.mark_positions();
+  if (settings.between_particles) list.build(particles);
+  if (walls && unpacked) walls->sort_unpacked();
+  if (walls) walls->list(particles, time);
+  unpacked = false;
+  measures.n_not_finite = particles.n_not_finite;
+  ++measures.n_lists;
+}
+
+void ContactSolver::add_forces(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step) {
+  State& s = *state_;
+  s.update_lists(owned, ghosts);
+  s.slips_sorted = false;
+  s.measures.n_contacts = 0;
+  if (!s.list.pairs.empty()) {
+    s.particles.gather_positions();
+    s.particles.gather_motion();
+    const PairMeasures pairs = s.forces.add(s.particles, s.list, step);
+    s.particles.scatter_loads();
+    s.measures.n_contacts = pairs.n_contacts;
+    s.measures.max_overlap_over_radius = std::max(s.measures.max_overlap_over_radius, pairs.max_overlap_over_radius);
+  }
+  if (s.walls) s.add_wall_forces(step);
+  s.time += step;
+}
+
+void ContactSolver::State::add_wall_forces(double step) {
+  walls->add(particles, time, step);
+  measures.n_wall_contacts = walls->n_contacts;
+  measures.max_wall_overlap_over_radius = walls->max_overlap_over_radius;
+  measures.beyond_walls.assign(rags->size(), 0);
+  auto row = particles.rows.begin();
+  for (const std::int64_t id : walls->beyond) {
+    while (id >= row->id + row->count) ++row;
+    ++measures.beyond_walls[row->tile->rag];
+  }
+}
+
+double ContactSolver::cutoff() const { return 2 * largest_radius(*state_->rags) + state_->skin; }
+double ContactSolver::skin() const { return state_->skin; }
+
+namespace {
+
+struct StepLimit {
+  double step = infinity;
+  std::string reason = "no contact";
+  void lower(double limit, const std::string& why) {
+    if (limit < step) step = limit, reason = why;
+  }
+};
+
+StepLimit step_limit(const std::vector<Rag>& rags, const std::vector<ContactPair>& pairs, const std::vector<ContactPair>& walls,
+                     double speed) {
+  StepLimit limit;
+  for (const Rag& rag : rags)
+    limit.lower(rayleigh_fraction * rayleigh_time(rag), "Rayleigh time of the particles of rag \"" + rag.name + "\"");
+  const std::string impact = " at impact_speed = " + std::to_string(speed) + " m/s";
+  for (const ContactPair& pair : pairs)
+    limit.lower(stable_contact_step(pair, speed), "contact of particles of radius " + std::to_string(pair.smaller_radius) + " m" + impact);
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    limit.lower(stable_contact_step(walls[i], speed), "contact of rag \"" + rags[i].name + "\" with a wall" + impact);
+  return limit;
+}
+
+}  // namespace
+
+double ContactSolver::stable_step() const {
+  const State& s = *state_;
+  return step_limit(*s.rags, s.forces.pairs(), s.walls ? s.walls->pairs : std::vector<ContactPair>{}, s.settings.impact_speed).step;
+}
+
+std::string ContactSolver::stable_step_reason() const {
+  const State& s = *state_;
+  return step_limit(*s.rags, s.forces.pairs(), s.walls ? s.walls->pairs : std::vector<ContactPair>{}, s.settings.impact_speed).reason;
+}
+
+namespace {
+
+bool before_by_high(const StoredSlip& a, const StoredSlip& b) { return a.high != b.high ? a.high < b.high : a.low < b.low; }
+
+/// Calls visit(first id, end of ids) for each row of a tile.
+template <class Visit>
+void for_rows(const Tile& tile, const Rag& rag, const Visit& visit) {
+  for (int j = 0; j < tile.ny; ++j) {
+    const std::int64_t first = rag.first_particle + std::int64_t(tile.row + j) * rag.n_columns + tile.column;
+    visit(first, first + tile.nx);
+  }
+}
+
+constexpr std::size_t pair_length = 5, wall_length = 8;  // doubles of a packed slip; ids are exact as doubles up to 2^53
+
+}  // namespace
+
+void ContactSolver::State::sort_slips() {
+  if (slips_sorted) return;
+  by_low = list.touching(particles);
+  by_low.insert(by_low.end(), list.stored().begin(), list.stored().end());  // unpacked, not yet in the list
+  std::sort(by_low.begin(), by_low.end());
+  by_low.erase(std::unique(by_low.begin(), by_low.end(), [](const StoredSlip& a, const StoredSlip& b) { return !(a < b) && !(b < a); }),
+               by_low.end());
+  by_high = by_low;
+  if (walls && unpacked) walls->sort_unpacked();
+  std::sort(by_high.begin(), by_high.end(), before_by_high);
+  slips_sorted = true;
+}
+
+/// [number of pairs, of walls, of particles beyond walls, (low id, high id, slip) ..., (id, wall, normal, slip) ..., id ...]
+std::vector<double> ContactSolver::pack(const Tile& tile) const {
+  State& s = *state_;
+  s.sort_slips();
+  std::vector<double> pairs, walls, beyond;
+  const auto put_pair = [&pairs](const StoredSlip& c) {
+    pairs.insert(pairs.end(), {double(c.low), double(c.high), c.slip.x, c.slip.y, c.slip.z});
+  };
+  for_rows(tile, (*s.rags)[tile.rag], [&](std::int64_t first, std::int64_t end) {
+    for (auto c = std::lower_bound(s.by_low.begin(), s.by_low.end(), StoredSlip{first, 0, {}}); c != s.by_low.end() && c->low < end; ++c)
+      put_pair(*c);
+    for (auto c = std::lower_bound(s.by_high.begin(), s.by_high.end(), StoredSlip{0, first, {}}, before_by_high);
+         c != s.by_high.end() && c->high < end; ++c)
+      if (c->low < first || c->low >= end) put_pair(*c);
+    if (!s.walls) return;
+    const auto earlier = [](const WallSlip& c, std::int64_t id) { return c.id < id; };
+    for (auto c = std::lower_bound(s.walls->slips.begin(), s.walls->slips.end(), first, earlier); c != s.walls->slips.end() && c->id < end;
+         ++c)
+      walls.insert(walls.end(), {double(c->id), double(c->body), c->normal.x, c->normal.y, c->normal.z, c->slip.x, c->slip.y, c->slip.z});
+    for (auto id = std::lower_bound(s.walls->beyond.begin(), s.walls->beyond.end(), first); id != s.walls->beyond.end() && *id < end; ++id)
+      beyond.push_back(double(*id));
+  });
+  std::vector<double> all{double(pairs.size() / pair_length), double(walls.size() / wall_length), double(beyond.size())};
+  for (const auto* part : {&pairs, &walls, &beyond}) all.insert(all.end(), part->begin(), part->end());
+  return all;
+}
+
+void ContactSolver::unpack(const Tile& tile, std::span<const double> values) {
+  State& s = *state_;
+  const std::size_t n_pairs = values.size() < 3 ? 0 : std::size_t(values[0]), n_walls = values.size() < 3 ? 0 : std::size_t(values[1]);
+  if (values.size() < 3 || values.size() != 3 + pair_length * n_pairs + wall_length * n_walls + std::size_t(values[2]))
+    throw Error(ExitCode::invariant, "contact history of a tile of rag \"" + (*s.rags)[tile.rag].name +
+                                         "\": " + std::to_string(values.size()) +
+                                         " numbers, not as many as were packed; the message or checkpoint is damaged");
+  std::vector<StoredSlip> pairs;
+  const double* v = values.data() + 3;
+  for (std::size_t i = 0; i < n_pairs; ++i, v += pair_length) pairs.push_back({std::int64_t(v[0]), std::int64_t(v[1]), {v[2], v[3], v[4]}});
+  s.list.store(std::move(pairs));
+  s.unpacked = true, s.slips_sorted = false;
+  if (!s.walls) return;
+  for (std::size_t i = 0; i < n_walls; ++i, v += wall_length)
+    s.walls->slips.push_back({std::int64_t(v[0]), int(v[1]), {v[2], v[3], v[4]}, {v[5], v[6], v[7]}});
+  for (; v < values.data() + values.size(); ++v) s.walls->beyond.push_back(std::int64_t(*v));
+}
+
+const ContactMeasures& ContactSolver::measures() const { return state_->measures; }
+const std::vector<WallLoad>& ContactSolver::wall_loads() const { return state_->walls ? state_->walls->loads : state_->no_loads; }
+
+void ContactSolver::reset_measures() {
+  State& s = *state_;
+  s.measures.max_overlap_over_radius = 0;
+  std::fill(s.measures.max_wall_overlap_over_radius.begin(), s.measures.max_wall_overlap_over_radius.end(), 0.0);
+  if (!s.walls) return;
+  std::fill(s.walls->max_overlap_over_radius.begin(), s.walls->max_overlap_over_radius.end(), 0.0);
+  for (WallLoad& load : s.walls->loads) load.particle_time = load.normal_impulse = 0, load.impulse = {};
+}
+
+}  // namespace snag

@@ -1,0 +1,136 @@
+// A contact of particles 1 (lower id) and 2, with centres x and distance d:
+//
+//   n = (x_2 - x_1)/d,  overlap = r_1 + r_2 - d,  contact point at x_1 + l_1 n = x_2 - l_2 n,  l_i = d r_i/(r_1 + r_2)
+//   u = v_1 + w_1 x l_1 n - v_2 + w_2 x l_2 n                                   relative velocity at the contact point
+//   force  F on 1, -F on 2;   torque  l_1 n x F + M on 1,  l_2 n x F - M on 2    (M: rolling friction)
+//
+// The torques about any point sum to (x_1 - x_2) x F + (l_1 + l_2) n x F = 0: linear and angular momentum are kept to round-off.
+#include "dem/contacts/pair_forces.hpp"
+
+#include <cmath>
+
+namespace snag {
+
+namespace {
+constexpr int block_size = 64;  // contacts: the arrays of a block stay in the first-level cache
+constexpr int lanes = 8;  // doubles of the widest vector: blocks are padded to it, so that every contact goes through the same instructions
+}  // namespace
+
+struct PairForces::Block {
+  int n = 0;
+  const ContactPair* pair = nullptr;  // all contacts of a block are of one kind
+  int index[block_size];              // into the list
+  // in: difference of positions, of velocities, rotation l_1 w_1 + l_2 w_2 (over d), relative rotation, slip; out: force, torque n x F,
+  // rolling torque
+  alignas(64) double x[3][block_size] = {}, v[3][block_size] = {}, w[3][block_size] = {}, spin[3][block_size] = {},
+                     slip[3][block_size] = {};
+  alignas(64) double force[3][block_size] = {}, arm_torque[3][block_size] = {}, rolling[3][block_size] = {}, overlap[block_size] = {};
+
+  void put(double (&field)[3][block_size], double a, double b, double c) { field[0][n] = a, field[1][n] = b, field[2][n] = c; }
+  void law(const ContactPair& kind, int c, double step);
+  void laws(double step);
+};
+
+// One contact, apart from its loop: temporaries of a loop body marked simd would be kept in memory and stop the vectoriser.
+[[gnu::always_inline]] inline void PairForces::Block::law(const ContactPair& kind, int c, double step) {
+  const Vec3 r{x[0][c], x[1][c], x[2][c]};
+  const double distance = std::sqrt(norm_squared(r) + smallest_square);
+  ContactMotion contact;
+  contact.overlap = std::max(kind.reach - distance, 0.0);
+  contact.normal = (1 / distance) * r;
+  contact.velocity = Vec3{v[0][c], v[1][c], v[2][c]} + cross(Vec3{w[0][c], w[1][c], w[2][c]}, r);
+  contact.slip = {slip[0][c], slip[1][c], slip[2][c]};
+  const ContactForce result = hertz_mindlin(kind.law, contact, step);
+  const Vec3 relative{spin[0][c], spin[1][c], spin[2][c]};
+  const Vec3 M = rolling_friction(kind.rolling, result.normal, relative - dot(relative, contact.normal) * contact.normal, step);
+  const Vec3 torque = cross(r, result.force);
+  force[0][c] = result.force.x, force[1][c] = result.force.y, force[2][c] = result.force.z;
+  arm_torque[0][c] = torque.x, arm_torque[1][c] = torque.y, arm_torque[2][c] = torque.z;
+  rolling[0][c] = M.x, rolling[1][c] = M.y, rolling[2][c] = M.z;
+  slip[0][c] = result.slip.x, slip[1][c] = result.slip.y, slip[2][c] = result.slip.z;
+  overlap[c] = contact.overlap;
+}
+
+void PairForces::Block::laws(double step) {
+  const ContactPair kind = *pair;
+  const int padded = (n + lanes - 1) / lanes * lanes;
+#pragma omp simd
+  for (int c = 0; c < padded; ++c) law(kind, c, step);
+}
+
+PairForces::PairForces(const std::vector<Rag>& rags, const ContactSettings& settings) : block_(std::make_unique<Block>()) {
+  std::vector<const Rag*> kinds;
+  const auto alike = [](const Rag& a, const Rag& b) {
+    return a.radius == b.radius && a.mass == b.mass && a.inertia == b.inertia && a.shear_modulus == b.shear_modulus &&
+           a.poisson_ratio == b.poisson_ratio;
+  };
+  for (const Rag& rag : rags) {
+    std::size_t m = 0;
+    while (m < kinds.size() && !alike(*kinds[m], rag)) ++m;
+    if (m == kinds.size()) kinds.push_back(&rag);
+    material_.push_back(static_cast<int>(m));
+  }
+  n_materials_ = static_cast<int>(kinds.size());
+  for (const Rag* a : kinds)
+    for (const Rag* b : kinds) pairs_.push_back(particle_pair(*a, *b, settings));
+}
+
+PairForces::~PairForces() = default;
+
+PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, double step) {
+  measures_ = {};
+  block_->n = 0, block_->pair = nullptr;
+  for (int i = 0; i < static_cast<int>(list.pairs.size()); ++i) {
+    const auto [p, q] = list.pairs[i];
+    const ParticlePosition &a = particles.position[p], &b = particles.position[q];
+    const ContactPair& kind = n_materials_ == 1 ? pairs_[0] : pair(particles.rag_of(p), particles.rag_of(q));
+    PairSlip& slip = list.slip[i];
+    const double dx = b.x - a.x, dy = b.y - a.y, dz = b.z - a.z;
+    if (!(dx * dx + dy * dy + dz * dz < kind.reach * kind.reach)) {
+      if (slip.touching > 0) slip = {};
+      continue;
+    }
+    if (block_->n == block_size || block_->pair != &kind) {
+      evaluate(particles, list, step);
+      block_->pair = &kind;
+    }
+    const ParticleMotion &u = particles.motion[p], &v = particles.motion[q];
+    const double f1 = kind.arm_1, f2 = kind.arm_2;
+    block_->index[block_->n] = i;
+    block_->put(block_->x, dx, dy, dz);
+    block_->put(block_->v, u.vx - v.vx, u.vy - v.vy, u.vz - v.vz);
+    block_->put(block_->w, f1 * u.wx + f2 * v.wx, f1 * u.wy + f2 * v.wy, f1 * u.wz + f2 * v.wz);
+    block_->put(block_->spin, u.wx - v.wx, u.wy - v.wy, u.wz - v.wz);
+    block_->put(block_->slip, slip.x, slip.y, slip.z);
+    ++block_->n;
+  }
+  evaluate(particles, list, step);
+  return measures_;
+}
+
+void PairForces::evaluate(ContactParticles& particles, ContactList& list, double step) {
+  Block& b = *block_;
+  if (b.n == 0) return;
+  b.laws(step);
+  double deepest = 0;
+  for (int c = 0; c < b.n; ++c) {
+    const auto [p, q] = list.pairs[b.index[c]];
+    ParticleLoad &on_1 = particles.load[p], &on_2 = particles.load[q];
+    const double f1 = b.pair->arm_1, f2 = b.pair->arm_2;
+    on_1.fx += b.force[0][c], on_1.fy += b.force[1][c], on_1.fz += b.force[2][c];
+    on_2.fx -= b.force[0][c], on_2.fy -= b.force[1][c], on_2.fz -= b.force[2][c];
+    on_1.tx += f1 * b.arm_torque[0][c] + b.rolling[0][c];
+    on_1.ty += f1 * b.arm_torque[1][c] + b.rolling[1][c];
+    on_1.tz += f1 * b.arm_torque[2][c] + b.rolling[2][c];
+    on_2.tx += f2 * b.arm_torque[0][c] - b.rolling[0][c];
+    on_2.ty += f2 * b.arm_torque[1][c] - b.rolling[1][c];
+    on_2.tz += f2 * b.arm_torque[2][c] - b.rolling[2][c];
+    list.slip[b.index[c]] = {b.slip[0][c], b.slip[1][c], b.slip[2][c], 1};
+    deepest = std::max(deepest, b.overlap[c]);
+    measures_.n_contacts += particles.owned(p);
+  }
+  measures_.max_overlap_over_radius = std::max(measures_.max_overlap_over_radius, deepest / b.pair->smaller_radius);
+  b.n = 0;
+}
+
+}  // namespace snag

@@ -1,0 +1,232 @@
+// A particle with centre x, at distance s of a wall with direction e (unit, into the fluid):
+//
+//   overlap = min(r - s, 2 r),  n = -e,  contact point c = x - s e,  l = max(s, 0)
+//   u = v + w x l n - u_wall(c),  force F on the particle by hertz_mindlin, torque l n x F + M,  -F on the wall
+//
+// The law is evaluated in the frame of the wall, where the slip is kept: so slip turns with a turning wall.
+#include "dem/contacts/wall_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace snag {
+
+namespace {
+constexpr double allowance_over_radius = 4;  // how far a moving wall may come before the list is made anew: longer lists against rarer ones
+}
+
+WallContacts::WallContacts(const std::vector<Rag>& rags, const ContactSettings& settings, const WallSet& walls)
+    : rags_(&rags), walls_(&walls) {
+  for (const Rag& rag : rags) {
+    largest_radius_ = std::max(largest_radius_, rag.radius);
+    pairs.push_back(wall_pair(rag, settings));
+  }
+  skin_ = settings.skin_over_radius * largest_radius_;
+  for (const WallBody& body : walls.bodies()) {
+    surfaces_.push_back(body.triangles.empty() ? TriangleSurface() : TriangleSurface(body.triangles, reach(body).near, reach(body).far));
+    fastest_.push_back(fastest(body));
+  }
+  poses_.resize(walls.bodies().size());
+  max_overlap_over_radius.assign(rags.size(), 0);
+  loads.assign(rags.size() * walls.parts().size(), {});
+}
+
+WallContacts::Reach WallContacts::reach(const WallBody& body) const {
+  return {largest_radius_, largest_radius_ + skin_ + (body.motion.moves() ? allowance_over_radius * largest_radius_ : 0)};
+}
+
+double WallContacts::fastest(const WallBody& body) const {
+  const Vec3 axis = unit(body.motion.axis);
+  double arm = 0;
+  for (const WallTriangle& t : body.triangles)
+    for (const Vec3& x : t.node) arm = std::max(arm, norm(cross(axis, x - body.motion.origin)));
+  return norm(body.motion.velocity) + std::abs(body.motion.speed) * (arm + reach(body).far);
+}
+
+bool WallContacts::due(double time) const {
+  for (std::size_t b = 0; b < fastest_.size(); ++b)
+    if (!walls_->bodies()[b].triangles.empty() && fastest_[b] * std::abs(time - listed_) > allowance_over_radius * largest_radius_)
+      return true;
+  return false;
+}
+
+bool WallContacts::near(std::size_t b, const Vec3& x, double radius) const {
+  const WallBody& body = walls_->bodies()[b];
+  if (!body.planes.empty() && body.motion.moves()) return true;  // planes have no end: a turning one has no greatest speed
+  for (const WallPlane& plane : body.planes)
+    if (dot(x - plane.point, plane.normal) < radius + skin_) return true;
+  return !body.triangles.empty() && surfaces_[b].may_be_near(body.motion.moves() ? poses_[b].in_wall(x) : x);
+}
+
+void WallContacts::list(const ContactParticles& particles, double time) {
+  listed_ = time;
+  candidates_.clear();
+  for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
+  for (const ParticleRow& row : particles.rows) {
+    if (!row.owned) continue;
+    for (int i = 0; i < row.count; ++i) {
+      if (!particles.present[row.first + i]) continue;
+      const Vec3 x = row.tile->vector(Tile::x, row.place + i);
+      for (std::size_t b = 0; b < poses_.size(); ++b)
+        if (near(b, x, (*rags_)[row.tile->rag].radius)) candidates_.push_back({row.first + i, static_cast<int>(b)});
+    }
+  }
+}
+
+void WallContacts::sort_unpacked() {
+  std::stable_sort(slips.begin(), slips.end(), [](const WallSlip& a, const WallSlip& b) { return a.id < b.id; });
+  slips.erase(std::unique(slips.begin(), slips.end()), slips.end());
+  std::sort(beyond.begin(), beyond.end());
+  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
+}
+
+void WallContacts::add(const ContactParticles& particles, double time, double step) {
+  step_ = step, n_contacts = 0;
+  for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
+  for (WallLoad& load : loads) load.touching = 0;
+  old_slips_.swap(slips), slips.clear();
+  old_beyond_.swap(beyond), beyond.clear();
+  old_end_ = 0;
+  std::size_t next_beyond = 0;
+  for (std::size_t i = 0; i < candidates_.size();) {
+    const Particle p = particle(particles, candidates_[i].particle);
+    touches_.clear();
+    for (; i < candidates_.size() && candidates_[i].particle == p.number; ++i) find_touches(p, candidates_[i].body);
+    keep_beyond(particles, p.id, next_beyond);
+    note_beyond(p, next_beyond);
+    if (touches_.empty()) continue;
+    old_begin_ = old_end_;
+    while (old_begin_ < old_slips_.size() && old_slips_[old_begin_].id < p.id) ++old_begin_;
+    old_end_ = old_begin_;
+    while (old_end_ < old_slips_.size() && old_slips_[old_end_].id == p.id) ++old_end_;
+    used_.assign(old_end_ - old_begin_, 0);
+    select_touches();
+    Tile& tile = *particles.rows[particles.row_of[p.number]].owned;
+    for (const Touch& touch : acting_) add_force(p, touch, tile, particles.place(p.number));
+  }
+  keep_beyond(particles, std::numeric_limits<std::int64_t>::max(), next_beyond);
+}
+
+WallContacts::Particle WallContacts::particle(const ContactParticles& particles, int number) const {
+  const ParticleRow& row = particles.rows[particles.row_of[number]];
+  const int k = row.place + number - row.first;
+  const Tile& tile = *row.tile;
+  return {number, tile.rag, row.id + number - row.first, tile.vector(Tile::x, k), tile.vector(Tile::vx, k), tile.vector(Tile::wx, k)};
+}
+
+void WallContacts::find_touches(const Particle& p, int b) {
+  const WallBody& body = walls_->bodies()[b];
+  const bool moves = body.motion.moves();
+  const Vec3 X = moves ? poses_[b].in_wall(p.x) : p.x;
+  const double radius = (*rags_)[p.rag].radius;
+  const auto add = [&](const TriangleDistance& seen, int triangle, int part) {
+    touches_.push_back({seen, moves ? poses_[b].turned(seen.direction) : seen.direction, b, triangle, part});
+  };
+  for (std::size_t k = 0; k < body.planes.size(); ++k) {
+    const WallPlane& plane = body.planes[k];
+    const double s = dot(X - plane.point, plane.normal);
+    if (s < radius) add({s, plane.normal, WallFeature::face, {-1, -1}}, static_cast<int>(k), plane.part);
+  }
+  if (body.triangles.empty()) return;
+  for (int t : surfaces_[b].near(X)) {
+    if (!(std::abs(surfaces_[b].plane_distance(t, X)) < radius)) continue;
+    const TriangleDistance seen = surfaces_[b].distance(t, X);
+    if (std::abs(seen.distance) < radius) add(seen, t, surfaces_[b].part(t));
+  }
+}
+
+/// True if an edge or corner belongs to a nearer triangle, or the direction is nearly that of a contact that acts.
+bool WallContacts::repeats(const Touch& touch, std::size_t before) const {
+  if (touch.seen.feature != WallFeature::face) {
+    for (std::size_t i = 0; i < before; ++i) {
+      if (touches_[i].body != touch.body || walls_->bodies()[touch.body].triangles.empty()) continue;
+      const std::array<int, 3>& nodes = surfaces_[touch.body].nodes(touches_[i].triangle);
+      const auto has = [&nodes](int node) { return node < 0 || std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+      if (has(touch.seen.node[0]) && has(touch.seen.node[1])) return true;
+    }
+  }
+  return std::any_of(acting_.begin(), acting_.end(), [&](const Touch& a) { return dot(a.direction, touch.direction) > smooth_cosine; });
+}
+
+void WallContacts::select_touches() {
+  std::sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) {
+    const double s = std::abs(a.seen.distance), t = std::abs(b.seen.distance);
+    if (s != t) return s < t;
+    if (a.seen.feature != b.seen.feature) return a.seen.feature < b.seen.feature;
+    return a.body != b.body ? a.body < b.body : a.triangle < b.triangle;
+  });
+  acting_.clear();
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    // Planes have no back: each of them pushes back what is beyond it.
+    const bool behind = i > 0 && touches_[i].seen.distance < 0 && walls_->bodies()[touches_[i].body].planes.empty();
+    if (!behind && !repeats(touches_[i], i)) acting_.push_back(touches_[i]);
+  }
+}
+
+/// Slip of the old contact of the particle at work with the same wall and nearly the same direction; none: zero.
+Vec3 WallContacts::old_slip(const Touch& touch) {
+  double best = smooth_cosine;
+  std::size_t found = old_end_;
+  for (std::size_t i = old_begin_; i < old_end_; ++i) {
+    const double cosine = dot(old_slips_[i].normal, touch.seen.direction);
+    if (old_slips_[i].body == touch.body && !used_[i - old_begin_] && cosine > best) best = cosine, found = i;
+  }
+  if (found == old_end_) return {};
+  used_[found - old_begin_] = 1;
+  return old_slips_[found].slip;
+}
+
+void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, int place) {
+  const ContactPair& pair = pairs[p.rag];
+  const WallPose& pose = poses_[touch.body];
+  const bool moves = walls_->bodies()[touch.body].motion.moves();
+  const double s = touch.seen.distance, radius = pair.reach;
+  const Vec3 n = -touch.direction, arm = std::max(s, 0.0) * n;
+  const Vec3 u = p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + s * n) : Vec3{});
+
+  const ContactMotion contact{std::min(radius - s, 2 * radius), -touch.seen.direction, moves ? pose.turned_back(u) : u, old_slip(touch)};
+  const ContactForce result = hertz_mindlin(pair.law, contact, step_);
+  const Vec3 F = moves ? pose.turned(result.force) : result.force;
+  const Vec3 spin = p.w - pose.spin;
+  const Vec3 torque = cross(arm, F) + rolling_friction(pair.rolling, result.normal, spin - dot(spin, n) * n, step_);
+  tile.set_vector(Tile::fx, place, tile.vector(Tile::fx, place) + F);
+  tile.set_vector(Tile::tx, place, tile.vector(Tile::tx, place) + torque);
+
+  slips.push_back({p.id, touch.body, touch.seen.direction, result.slip});
+  ++n_contacts;
+  max_overlap_over_radius[p.rag] = std::max(max_overlap_over_radius[p.rag], (radius - s) / radius);
+  WallLoad& load = loads[p.rag * walls_->parts().size() + touch.part];
+  load.particle_time += step_;
+  load.impulse -= step_ * F;
+  load.normal_impulse += step_ * std::abs(result.normal);
+  ++load.touching;
+}
+
+/// Particles found beyond a wall earlier and out of reach of it now are beyond it still; those with a smaller id than the one at work come
+/// first.
+void WallContacts::keep_beyond(const ContactParticles& particles, std::int64_t before, std::size_t& next_old) {
+  for (; next_old < old_beyond_.size() && old_beyond_[next_old] < before; ++next_old) {
+    const std::int64_t id = old_beyond_[next_old];
+    auto row =
+        std::upper_bound(particles.rows.begin(), particles.rows.end(), id, [](std::int64_t i, const ParticleRow& r) { return i < r.id; });
+    if (row == particles.rows.begin()) continue;
+    --row;
+    if (row->owned && id < row->id + row->count) beyond.push_back(id);
+  }
+}
+
+void WallContacts::note_beyond(const Particle& p, std::size_t& next_old) {
+  const bool was = next_old < old_beyond_.size() && old_beyond_[next_old] == p.id;
+  if (was) ++next_old;
+  bool past_plane = false, past_nearest = false;
+  double nearest = infinity;
+  for (const Touch& touch : touches_) {
+    const bool past = touch.seen.distance < 0;
+    past_plane = past_plane || (past && !walls_->bodies()[touch.body].planes.empty());
+    if (std::abs(touch.seen.distance) < nearest) nearest = std::abs(touch.seen.distance), past_nearest = past;
+  }
+  const bool is = touches_.empty() ? was : past_plane || past_nearest;
+  if (is) beyond.push_back(p.id);
+}
+
+}  // namespace snag
