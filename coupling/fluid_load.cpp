@@ -67,6 +67,13 @@ Vec3 FluidLoad::impulse(std::size_t index, int k) const {
 
 double FluidLoad::sensitivity(std::size_t index, int k) const { return sums_.field(index, sensitivity_sum)[k]; }
 
+std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
+  const ParticleList particles(tiles);
+  std::vector<Vec3> all(particles.size());
+  for (std::size_t b = 0; b < all.size(); ++b) all[b] = impulse(particles.tile(b), particles.place(b));
+  return all;
+}
+
 double FluidLoad::max_stiffness(std::span<const Tile> tiles) const {
   double largest = 0;
   for (std::size_t t = 0; t < tiles.size(); ++t) {

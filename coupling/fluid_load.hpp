@@ -32,6 +32,8 @@ class FluidLoad final : public TileForce {
   Vec3 impulse(std::size_t index, int k) const;
   /// Q of that particle, kg: divided by the step, the mean slope K.
   double sensitivity(std::size_t index, int k) const;
+  /// J of all particles of this rank, N s.
+  std::vector<Vec3> impulses(std::span<const Tile> tiles) const;
   /// Largest Q/m of this rank's particles: above 1 the particle would follow the water within one step of the flow.
   double max_stiffness(std::span<const Tile> tiles) const;
 

@@ -1,0 +1,147 @@
+#include "coupling/coupled_solver.hpp"
+
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+/// Adds the time of some work to `seconds`.
+template <class Work>
+void timed(double& seconds, const Work& work) {
+  const double start = MPI_Wtime();
+  work();
+  seconds += MPI_Wtime() - start;
+}
+
+}  // namespace
+
+void CoupledSolver::step(double dt) {
+  timed(seconds_.coupling, [&] {
+    if (owner_) rags_.migrate([this](const std::vector<Vec3>& centres) { return owner_->owner_of(centres); });
+    if (prescribed_field_) prescribed_field_->set_time(rags_.time());
+    load_->begin_step(rags_.tiles());  // weights w_bc; fluid -> particles, consistent
+  });
+  timed(seconds_.rags, [&] { rags_.advance(dt, load_.get()); });  // in sub-steps; sums the impulse of the fluid on each particle
+  timed(seconds_.coupling, [&] { give(dt); });                    // particles -> fluid, conservative: solid fraction, reaction, drag
+  timed(seconds_.flow, [&] { advance_flow_(dt); });
+  timed(seconds_.coupling, [&] {
+    settle(dt);  // the implicit part of the drag back to the particles; momentum is checked
+    write_report(dt);
+  });
+}
+
+CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double)> advance_flow)
+    : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
+  if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
+  kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
+  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_);
+  load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
+  exchange_ = std::make_unique<Exchange>(*kernel_, flow);
+}
+
+CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, const PrescribedFlow& flow)
+    : coupling_(std::move(coupling)), rags_(rags), advance_flow_([](double) {}) {
+  prescribed_field_ = std::make_unique<PrescribedField>(flow);
+  load_ = std::make_unique<FluidLoad>(coupling_.forces, *prescribed_field_, rags.rags());
+}
+
+void CoupledSolver::mesh_moved() {
+  if (owner_) owner_->mesh_moved();
+  if (kernel_) kernel_->mesh_moved();
+}
+
+void CoupledSolver::give(double dt) {
+  report_ = {};
+  if (!flow_) return;
+  const ParticleList& particles = kernel_field_->particles();
+  std::vector<double> volume(particles.size()), sensitivity(particles.size());
+  std::vector<Vec3> impulse(particles.size());
+  for (std::size_t b = 0; b < particles.size(); ++b) {
+    const int t = particles.tile(b), k = particles.place(b);
+    volume[b] = rags_.rags()[rags_.tiles()[t].rag].hydrodynamic_volume;
+    impulse[b] = load_->impulse(t, k);
+    sensitivity[b] = load_->sensitivity(t, k);
+  }
+  report_.max_solid_fraction = exchange_->give_volumes(volume);
+  if (coupling_.settings.two_way()) exchange_->give(impulse, sensitivity, dt);
+}
+
+void CoupledSolver::settle(double dt) {
+  if (!flow_) return;
+  kernel_field_->set_last_step(dt);
+  if (!coupling_.settings.two_way()) return;
+  const std::vector<Vec3> settled = exchange_->settle();
+  const ParticleList& particles = kernel_field_->particles();
+  for (std::size_t b = 0; b < particles.size(); ++b) {
+    Tile& tile = rags_.tiles()[particles.tile(b)];
+    const int k = particles.place(b);
+    if (tile.free[k] > 0) tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + settled[b] / rags_.rags()[tile.rag].mass);
+  }
+  const MomentumBalance balance = exchange_->balance();
+  check_momentum(balance);
+  report_.force_on_rags = balance.on_rags / dt;
+  report_.force_on_water = balance.on_water / dt;
+  report_.momentum_exchange = balance.relative();
+  report_.max_drag_number = exchange_->max_drag_number();
+}
+
+void CoupledSolver::write_report(double dt) {
+  const MPI_Comm comm = rags_.comm();
+  report_.time = rags_.time();
+  report_.max_stiffness = maximum(comm, load_->max_stiffness(rags_.tiles()));
+  if (!coupling_.settings.two_way()) report_.force_on_rags = sum(comm, std::span<const Vec3>(load_->impulses(rags_.tiles()))) / dt;
+  if (!kernel_) return;
+  const auto [least, largest] = kernel_->width_over_cell_size();
+  report_.width_over_cell_least = least, report_.width_over_cell_largest = largest;
+  report_.particles_outside = kernel_->n_outside();
+}
+
+std::vector<std::string> CoupledSolver::columns() {
+  return {"time [s]",
+          "force_on_rags_x [N]",
+          "force_on_rags_y [N]",
+          "force_on_rags_z [N]",
+          "force_on_water_x [N]",
+          "force_on_water_y [N]",
+          "force_on_water_z [N]",
+          "momentum_exchange_rel [1]",
+          "max_solid_fraction [1]",
+          "max_drag_number [1]",
+          "max_stiffness [1]",
+          "kernel_width_over_cell_least [1]",
+          "kernel_width_over_cell_largest [1]",
+          "particles_outside_cells [1]"};
+}
+
+std::vector<double> CoupledSolver::record() const {
+  const CouplingReport& r = report_;
+  return {r.time,
+          r.force_on_rags.x,
+          r.force_on_rags.y,
+          r.force_on_rags.z,
+          r.force_on_water.x,
+          r.force_on_water.y,
+          r.force_on_water.z,
+          r.momentum_exchange,
+          r.max_solid_fraction,
+          r.max_drag_number,
+          r.max_stiffness,
+          r.width_over_cell_least,
+          r.width_over_cell_largest,
+          static_cast<double>(r.particles_outside)};
+}
+
+void CoupledSolver::save(CheckpointWriter& writer) const {
+  const double last_step = kernel_field_ ? kernel_field_->last_step() : 0;
+  writer.shared("coupling/last_step", std::span(&last_step, 1));
+}
+
+void CoupledSolver::load(CheckpointReader& reader) {
+  const double last_step = reader.shared("coupling/last_step").at(0);
+  if (kernel_field_) kernel_field_->set_last_step(last_step);
+}
+
+}  // namespace snag

@@ -1,0 +1,77 @@
+#pragma once
+// Water and rags together: the coupled time step.
+#include <functional>
+
+#include "coupling/cell_owner.hpp"
+#include "coupling/coupling_settings.hpp"
+#include "coupling/exchange.hpp"
+#include "coupling/kernel_field.hpp"
+#include "coupling/prescribed_field.hpp"
+#include "dem/rag_system.hpp"
+
+namespace snag {
+
+/// What one step exchanged, for monitors; the same on every rank.
+struct CouplingReport {
+  double time = 0;                     // s
+  Vec3 force_on_rags, force_on_water;  // means over the step, N
+  double momentum_exchange = 0;        // lost of what was exchanged, 1
+  double max_solid_fraction = 0;       // 1; above 1 rags are folded closer than the kernel resolves
+  double max_drag_number = 0;          // beta dt/rho
+  double max_stiffness = 0;            // dt K/m
+  double width_over_cell_least = 0, width_over_cell_largest = 0;
+  std::int64_t particles_outside = 0;  // held by no cell
+};
+
+/// Seconds of wall clock spent on this rank.
+struct CouplingSeconds {
+  double flow = 0, rags = 0, coupling = 0;
+};
+
+class CoupledSolver {
+ public:
+  /// `advance_flow` takes the water from t to t + dt with flow.reaction and flow.drag. Arguments by reference must outlive the solver.
+  /// Collective.
+  CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double dt)> advance_flow);
+  /// Rags in a prescribed flow, one-way.
+  CoupledSolver(Coupling coupling, RagSystem& rags, const PrescribedFlow& flow);
+
+  /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit on both sides. Collective.
+  /// Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost.
+  void step(double dt);
+  /// To be called when the cells have moved.
+  void mesh_moved();
+
+  double time() const { return rags_.time(); }
+  const Coupling& coupling() const { return coupling_; }
+  const CouplingReport& report() const { return report_; }
+  const CouplingSeconds& seconds() const { return seconds_; }
+
+  /// Columns of monitors/coupling.csv, and the record of the last step.
+  static std::vector<std::string> columns();
+  std::vector<double> record() const;
+
+  /// What the next step needs of the last one. Flow and rags save themselves. Collective; throws Error(io).
+  void save(CheckpointWriter& writer) const;
+  void load(CheckpointReader& reader);
+
+ private:
+  void give(double dt);
+  void settle(double dt);
+  void write_report(double dt);
+
+  Coupling coupling_;
+  RagSystem& rags_;
+  Flow* flow_ = nullptr;  // null: prescribed
+  std::function<void(double)> advance_flow_;
+  std::unique_ptr<CellOwner> owner_;
+  std::unique_ptr<Kernel> kernel_;
+  std::unique_ptr<KernelField> kernel_field_;
+  std::unique_ptr<PrescribedField> prescribed_field_;
+  std::unique_ptr<FluidLoad> load_;
+  std::unique_ptr<Exchange> exchange_;
+  CouplingReport report_;
+  CouplingSeconds seconds_;
+};
+
+}  // namespace snag

@@ -1,0 +1,207 @@
+// Every force of the registry is held to the same rules; a new file in coupling/forces/ is tested without a line here.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+
+#include "coupling/coupling_settings.hpp"
+#include "coupling/fluid_force.hpp"
+#include "coupling/kernel_shape.hpp"
+
+namespace snag {
+namespace {
+
+/// A state without symmetry: every force has something to act on.
+SphereState slanted_state() {
+  SphereState s;
+  s.fluid_velocity = {0.3, -0.2, 0.5};
+  s.velocity = {-0.1, 0.4, 0.2};
+  s.angular_velocity = {20, -30, 10};
+  s.velocity_gradient = {Vec3{3, -20, 7}, Vec3{5, -2, 11}, Vec3{-13, 4, -1}};
+  s.pressure_gradient = {900, -400, 2000};
+  s.material_acceleration = {2, -5, 3};
+  s.position = {0.1, 0.2, 0.3};
+  return s;
+}
+
+const Mat3 turn = [] {  // by 0.7 about (1, 2, 3)
+  const Vec3 a = unit({1, 2, 3});
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  Mat3 m;
+  const Vec3 e[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int j = 0; j < 3; ++j) {
+    const Vec3 column = c * e[j] + s * cross(a, e[j]) + (1 - c) * dot(a, e[j]) * a;
+    for (int i = 0; i < 3; ++i) m[i][j] = column[i];
+  }
+  return m;
+}();
+
+Mat3 turned(const Mat3& G) {
+  Mat3 out{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) out[i][j] += turn[i][k] * G[k][l] * turn[j][l];
+  return out;
+}
+
+void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::string& what) {
+  EXPECT_LE(norm(a - b), tolerance) << what << ": (" << a.x << ", " << a.y << ", " << a.z << ") for (" << b.x << ", " << b.y << ", " << b.z
+                                    << ")";
+}
+
+template <class Work>
+void for_each_force(const Work& work) {
+  ASSERT_FALSE(fluid_forces().names().empty());
+  for (const auto& name : fluid_forces().names()) {
+    SCOPED_TRACE(name);
+    work(*fluid_forces().make(name, "test"), name);
+  }
+}
+
+// Requirement: each force gives the exact limits and published numbers that it names, and names at least one.
+TEST(Forces, ReferenceCases) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    EXPECT_FALSE(force.reference_cases().empty());
+    for (const auto& reference : force.reference_cases()) {
+      EXPECT_FALSE(reference.source.empty());
+      const auto load = load_on_sphere(force, reference.state);
+      const double scale = std::max(norm(reference.force), 1e-30);
+      expect_near(load.force, reference.force, reference.tolerance * scale + 1e-18, reference.what);
+    }
+  });
+}
+
+// Requirement: a force does not depend on the speed of the observer.
+TEST(Forces, GalileanInvariance) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    const SphereState at_rest = slanted_state();
+    SphereState moving = at_rest;
+    const Vec3 observer{1.5, -0.7, 2.2};
+    moving.fluid_velocity += observer, moving.velocity += observer;
+    const auto a = load_on_sphere(force, at_rest), b = load_on_sphere(force, moving);
+    expect_near(a.force, b.force, 1e-12 * norm(a.force), "force");
+    expect_near(a.torque, b.torque, 1e-12 * norm(a.torque), "torque");
+  });
+}
+
+// Requirement: a force turns with the set-up, parameters that are vectors included.
+TEST(Forces, Rotation) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    const SphereState s = slanted_state();
+    const auto straight = load_on_sphere(force, s);
+    SphereState t = s;
+    for (auto member : {&SphereState::fluid_velocity, &SphereState::pressure_gradient, &SphereState::material_acceleration,
+                        &SphereState::position, &SphereState::velocity, &SphereState::angular_velocity})
+      t.*member = turn * (s.*member);
+    t.velocity_gradient = turned(s.velocity_gradient);
+    for (const auto& parameter : force.parameters())
+      if (auto* vector = std::get_if<Vec3*>(&parameter.target)) **vector = turn * **vector;
+    const auto load = load_on_sphere(force, t);
+    expect_near(load.force, turn * straight.force, 1e-12 * norm(straight.force), "force");
+    expect_near(load.torque, turn * straight.torque, 1e-12 * norm(straight.torque), "torque");
+    EXPECT_NEAR(load.slope, straight.slope, 1e-12 * straight.slope);
+  });
+}
+
+// Requirement: the slope given for the implicit step is what a stable step needs: not negative, finite at rest, and F = K w for a drag.
+TEST(Forces, SlopeIsFiniteAndNotNegative) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    SphereState s = slanted_state();
+    for (const double speed : {0.0, 1e-12, 1e-3, 1.0, 30.0}) {
+      s.velocity = s.fluid_velocity + Vec3{speed, 0, 0};
+      const auto load = load_on_sphere(force, s);
+      EXPECT_TRUE(std::isfinite(load.slope) && load.slope >= 0) << "speed " << speed;
+      EXPECT_TRUE(std::isfinite(norm(load.force))) << "speed " << speed;
+      EXPECT_GE(load.added_mass, 0);
+    }
+  });
+}
+
+// Requirement: defaults lie in their ranges, every number has a unit that is known, and a meaning.
+TEST(Forces, ParametersAreComplete) {
+  for_each_force([](FluidForce& force, const std::string& name) {
+    EXPECT_EQ(force.card().name, name);
+    EXPECT_FALSE(force.card().equation.empty());
+    EXPECT_FALSE(force.card().source.empty());
+    for (const auto& parameter : force.parameters()) {
+      SCOPED_TRACE(parameter.key);
+      EXPECT_FALSE(parameter.meaning.empty());
+      EXPECT_LT(parameter.minimum, parameter.maximum);
+      const auto in_range = [&](double x) { EXPECT_TRUE(x >= parameter.minimum && x <= parameter.maximum) << x; };
+      if (auto* number = std::get_if<double*>(&parameter.target)) in_range(**number);
+      if (auto* vector = std::get_if<Vec3*>(&parameter.target))
+        for (int i = 0; i < 3; ++i) in_range((**vector)[i]);
+      EXPECT_NO_THROW(key_with_unit(parameter));
+    }
+  });
+}
+
+std::size_t n_sources(const std::string& folder) {
+  const char* root = std::getenv("SNAG_SOURCE_DIR");
+  EXPECT_NE(root, nullptr) << "run by ctest, or set SNAG_SOURCE_DIR";
+  if (!root) return 0;
+  const auto files = std::filesystem::directory_iterator(std::filesystem::path(root) / folder);
+  return static_cast<std::size_t>(std::count_if(begin(files), end(files), [](const auto& f) { return f.path().extension() == ".cpp"; }));
+}
+
+// Requirement: no model is dropped by the linker: a registry holds what its folder holds.
+TEST(Forces, RegistryHoldsTheFolder) {
+  EXPECT_EQ(fluid_forces().names().size(), n_sources("coupling/forces"));
+  EXPECT_EQ(kernel_shapes().names().size(), n_sources("coupling/kernels"));
+}
+
+// Requirement: the free-stream law is the published one, with its jump of 9 % at Re = 0.5 and its constant above 1000.
+TEST(Forces, FreeStreamBranches) {
+  const auto law = fluid_forces().make("free_stream_drag", "test");
+  const auto C_d = [&](double Re) {
+    const auto reference = drag_at(Re, 1, 0, "");
+    return load_on_sphere(*law, reference.state).force.x / reference.force.x;
+  };
+  EXPECT_NEAR(C_d(0.4), 60, 1e-9);
+  EXPECT_NEAR(C_d(0.5 * (1 + 1e-9)) / C_d(0.5 * (1 - 1e-9)), 1 + 0.15 * std::pow(0.5, 0.687), 1e-7);
+  EXPECT_NEAR(C_d(500), 24.0 / 500 * (1 + 0.15 * std::pow(500, 0.687)), 1e-12);
+  EXPECT_NEAR(C_d(1001), 0.44, 1e-12);
+}
+
+// Requirement: a misspelt force is refused with the nearest name; the records of a chosen force are read; gravity acts where its table is
+// given.
+TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
+  const auto read = [](const std::string& text) { return read_coupling(CaseFile::parse(text).root()); };
+  const auto coupling = read(
+      "[gravity]\nacceleration_m_s2 = [0, -9.81, 0]\n[coupling]\nforces = [\"free_stream_drag\"]\n[coupling.free_stream_drag]\ndrag_factor "
+      "= 2\n");
+  ASSERT_EQ(coupling.forces.size(), 2u);
+  const auto state = drag_at(1e4, 0.88, 0, "");
+  EXPECT_NEAR(load_on_sphere(*coupling.forces[0], state.state).force.x, state.force.x, 1e-12 * state.force.x);
+  SphereState heavy;
+  heavy.particle_density = heavy.fluid_density + 1000;
+  const auto weight = load_on_sphere(*coupling.forces[1], heavy).force;
+  EXPECT_EQ(weight.x, 0);
+  EXPECT_NEAR(weight.y, -std::numbers::pi / 6 * 8e-9 * 1000 * 9.81, 1e-12);
+
+  try {
+    read("[coupling]\nforces = [\"free_stream_drug\"]\n");
+    ADD_FAILURE() << "an unknown force must be refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("did you mean \"free_stream_drag\""), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(read("[coupling]\nforces = [\"gravity\", \"gravity\"]\n"), Error);
+  EXPECT_EQ(read("[coupling]\nmode = \"none\"\n").forces.size(), 0u);
+  EXPECT_THROW(read_coupling(CaseFile::parse("[coupling]\nmode = \"two_way\"\n").root(), false), Error);
+}
+
+// Requirement: every key of the coupling is in the manual's sections.
+TEST(CouplingSettings, SectionsHoldEveryModel) {
+  const auto sections = coupling_sections();
+  const auto has = [&](const std::string& name) {
+    return std::any_of(sections.begin(), sections.end(), [&](const Section& s) { return s.name == name; });
+  };
+  for (const char* name : {"coupling", "gravity", "coupling.free_stream_drag", "coupling.schiller_naumann"}) EXPECT_TRUE(has(name)) << name;
+}
+
+}  // namespace
+}  // namespace snag

@@ -1,0 +1,236 @@
+// ranks: 1 2 3 5
+// Transfers between particles and cells: consistent one way, conservative the other, the same on any number of ranks.
+#include "coupling/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "coupling/cell_owner.hpp"
+#include "mesh/structured.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+namespace {
+
+const MPI_Comm world = MPI_COMM_WORLD;
+const Vec3 lower{-0.1, 0.2, 0}, upper{0.5, 0.6, 0.8};
+constexpr double h = 0.05;  // cell size of box()
+
+Mesh box(MPI_Comm comm) { return structured_box(comm, lower, upper, {12, 8, 16}); }
+
+/// Points in the box, many of them near walls, edges and corners.
+std::vector<Vec3> scattered_points(int n) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(0, 1);
+  std::vector<Vec3> points(n);
+  for (Vec3& x : points)
+    for (int i = 0; i < 3; ++i) {
+      double s = share(random);
+      if (share(random) < 0.3) s = s < 0.5 ? 0.02 * s : 1 - 0.02 * s;
+      x[i] = lower[i] + s * (upper[i] - lower[i]);
+    }
+  return points;
+}
+
+/// Every size-th point: so that most particles lie in cells of other ranks.
+template <class T>
+std::vector<T> dealt(const std::vector<T>& all) {
+  std::vector<T> mine;
+  for (std::size_t b = rank_of(world); b < all.size(); b += size_of(world)) mine.push_back(all[b]);
+  return mine;
+}
+
+double wave(const Vec3& x) { return std::sin(5 * x.x + 1) * std::cos(4 * x.y) + x.z * x.z; }
+
+std::vector<double> field_of(const Mesh& mesh, double (*f)(const Vec3&)) {
+  std::vector<double> field(mesh.n_all_cells());
+  for (int c = 0; c < mesh.n_all_cells(); ++c) field[c] = f(mesh.cell_centre[c]);
+  return field;
+}
+
+std::vector<double> averaged(const Kernel& kernel, const std::vector<double>& field) {
+  const CellField one{field.data(), 1};
+  return kernel.average(std::span(&one, 1));
+}
+
+std::vector<double> sizes(std::size_t n) {
+  std::vector<double> amounts(n);
+  for (std::size_t b = 0; b < n; ++b) amounts[b] = 1 + 0.1 * static_cast<double>(b % 7);
+  return amounts;
+}
+
+class Kernels : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<KernelShape> shape = kernel_shapes().make(GetParam(), "test");
+};
+
+// Requirement: the average of a constant is that constant, at walls and outside the mesh too, for wide and narrow kernels.
+TEST_P(Kernels, ConstantIsReproduced) {
+  const Mesh mesh = box(world);
+  auto points = scattered_points(200);
+  points.push_back(lower - Vec3{0.01, 0.01, 0});
+  points.push_back(upper + Vec3{1, 0, 3});
+  const std::vector<double> constant(mesh.n_all_cells(), 3.7);
+  for (const double width : {h / 100, h, 3 * h}) {
+    Kernel kernel(*shape, width, mesh);
+    kernel.locate(dealt(points));
+    for (const double value : averaged(kernel, constant)) EXPECT_NEAR(value, 3.7, 1e-14 * 3.7 * 4) << "width " << width;
+  }
+}
+
+// Requirement: what is spread is kept to round-off, whatever lies at walls or outside.
+TEST_P(Kernels, SumIsKept) {
+  const Mesh mesh = box(world);
+  auto points = scattered_points(300);
+  points.push_back(lower - Vec3{0.01, 0.01, 0});
+  points.push_back(upper + Vec3{1, 0, 3});
+  const auto all = sizes(points.size());
+  for (const double width : {h / 100, h, 3 * h}) {
+    Kernel kernel(*shape, width, mesh);
+    kernel.locate(dealt(points));
+    std::vector<double> field(mesh.n_cells, 0.0);
+    kernel.spread(dealt(all), 1, field);
+    for (int c = 0; c < mesh.n_cells; ++c) field[c] *= mesh.cell_volume[c];
+    const double given = sum(world, std::span<const double>(dealt(all)));
+    EXPECT_NEAR(sum(world, std::span<const double>(field)), given, 1e-14 * given) << "width " << width;
+  }
+}
+
+// Requirement: averages and spread fields are those of one rank, to 1e-12, however cells and particles are dealt to the ranks.
+TEST_P(Kernels, RanksDoNotMatter) {
+  const Mesh mesh = box(world), whole = box(MPI_COMM_SELF);
+  auto points = scattered_points(150);
+  points.push_back(lower - Vec3{0.02, -0.013, 0});
+  const auto all = sizes(points.size());
+  Kernel kernel(*shape, 1.3 * h, mesh), alone(*shape, 1.3 * h, whole);
+  kernel.locate(dealt(points));
+  alone.locate(points);
+
+  const auto expected = averaged(alone, field_of(whole, wave));
+  const auto mine = averaged(kernel, field_of(mesh, wave));
+  for (std::size_t i = 0; i < mine.size(); ++i) EXPECT_NEAR(mine[i], expected[rank_of(world) + i * size_of(world)], 1e-12);
+  EXPECT_EQ(kernel.n_outside(), alone.n_outside());
+  EXPECT_EQ(kernel.n_outside(), 1);
+
+  std::vector<double> field(mesh.n_cells, 0.0), field_alone(whole.n_cells, 0.0);
+  kernel.spread(dealt(all), 1, field);
+  alone.spread(all, 1, field_alone);
+  std::map<std::int64_t, double> by_id;
+  for (int c = 0; c < whole.n_cells; ++c) by_id[whole.cell_id[c]] = field_alone[c];
+  for (int c = 0; c < mesh.n_cells; ++c) EXPECT_NEAR(field[c], by_id.at(mesh.cell_id[c]), 1e-12 * 1.6 / (h * h * h));
+}
+
+// Requirement: average and spread are the two sides of one matrix: the work that particles do is the work that the water gets.
+TEST_P(Kernels, WorkIsKept) {
+  const Mesh mesh = box(world);
+  const auto points = scattered_points(200);
+  const auto amounts = dealt(sizes(points.size()));
+  Kernel kernel(*shape, 1.7 * h, mesh);
+  kernel.locate(dealt(points));
+  const auto u = field_of(mesh, wave);
+  std::vector<double> at_particles = averaged(kernel, u), field(mesh.n_cells, 0.0);
+  kernel.spread(amounts, 1, field);
+  for (std::size_t b = 0; b < amounts.size(); ++b) at_particles[b] *= amounts[b];
+  for (int c = 0; c < mesh.n_cells; ++c) field[c] *= mesh.cell_volume[c] * u[c];
+  const double work = sum(world, std::span<const double>(at_particles));
+  EXPECT_NEAR(sum(world, std::span<const double>(field)), work, 1e-13 * std::abs(work));
+}
+
+// Requirement: a kernel much narrower than the cells is a cell: weight 1 and nothing divided 0/0.
+TEST_P(Kernels, NarrowKernelIsOneCell) {
+  const Mesh mesh = box(world);
+  const Vec3 inside{0.111, 0.413, 0.377};
+  const std::vector<Vec3> points = rank_of(world) == 0 ? std::vector{inside} : std::vector<Vec3>{};
+  const auto u = field_of(mesh, wave);
+  const auto middle = [](double x, double low) { return low + (std::floor((x - low) / h) + 0.5) * h; };
+  const double expected = wave({middle(inside.x, lower.x), middle(inside.y, lower.y), middle(inside.z, lower.z)});
+  for (const double width : {1e-9 * h, 1e-3 * h, 0.03 * h}) {
+    Kernel kernel(*shape, width, mesh);
+    kernel.locate(points);
+    for (const double value : averaged(kernel, u)) EXPECT_NEAR(value, expected, 1e-12) << "width " << width;
+  }
+}
+
+// Requirement: a particle on a face between cells (of two ranks, too) belongs to the cell of the lower number.
+TEST_P(Kernels, TieGoesToTheLowerCell) {
+  const Mesh mesh = box(world), whole = box(MPI_COMM_SELF);
+  std::vector<Vec3> points;
+  for (int k = 1; k < 16; ++k) points.push_back({0.125, 0.325, k * 0.05});
+  Kernel kernel(*shape, 1e-3 * h, mesh), alone(*shape, 1e-3 * h, whole);
+  kernel.locate(points), alone.locate(points);
+  const auto z = [](const Vec3& x) { return x.z; };
+  const auto mine = averaged(kernel, field_of(mesh, z)), expected = averaged(alone, field_of(whole, z));
+  for (std::size_t b = 0; b < points.size(); ++b) EXPECT_EQ(mine[b], expected[b]) << "z " << points[b].z;
+  EXPECT_EQ(kernel.n_outside(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Kernels, testing::ValuesIn(kernel_shapes().names()));
+
+// Requirement: the width is the rms width per axis, for every kernel: the average of x^2 about the particle is delta^2.
+TEST(KernelWidth, IsTheRootMeanSquarePerAxis) {
+  const Mesh mesh = structured_box(world, {-1, -1, -1}, {1, 1, 1}, {40, 40, 40});
+  const std::vector<Vec3> points{{0.003, -0.012, 0.021}};
+  for (const auto& name : kernel_shapes().names()) {
+    const auto shape = kernel_shapes().make(name, "test");
+    const double width = 0.15;
+    if (shape->support_radius(width) == 0) continue;
+    Kernel kernel(*shape, width, mesh);
+    kernel.locate(points);
+    std::vector<Vec3> square(mesh.n_all_cells());
+    for (int c = 0; c < mesh.n_all_cells(); ++c)
+      for (int i = 0; i < 3; ++i) square[c][i] = std::pow(mesh.cell_centre[c][i] - points[0][i], 2);
+    const Vec3 found = kernel.average(square)[0];
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(std::sqrt(found[i]), width, 0.01 * width) << name << " axis " << i;
+  }
+}
+
+// Requirement: away from walls the average of a linear field is exact to 1e-3 of its change over delta, and that of a smooth one of second
+// order in delta (delta = 1.5 h).
+TEST(KernelOrder, SecondOrderAwayFromWalls) {
+  const Vec3 x{0.013, -0.021, 0.008};
+  for (const char* name : {"gaussian", "wendland"}) {
+    const auto shape = kernel_shapes().make(name, "test");
+    std::vector<double> log_error, log_width;
+    for (const int n : {16, 24, 36}) {
+      const Mesh mesh = structured_box(world, {-1, -1, -1}, {1, 1, 1}, {n, n, n});
+      const double width = 1.5 * 2 / n;
+      Kernel kernel(*shape, width, mesh);
+      kernel.locate(std::span(&x, 1));
+      const double linear = averaged(kernel, field_of(mesh, [](const Vec3& p) { return 2 * p.x - 3 * p.y + p.z; }))[0];
+      EXPECT_NEAR(linear, 2 * x.x - 3 * x.y + x.z, 1e-3 * width) << name << ", n = " << n;
+      const auto smooth = [](const Vec3& p) { return std::cos(2 * p.x) * std::exp(p.y) + p.z * p.z; };
+      const double error = std::abs(averaged(kernel, field_of(mesh, smooth))[0] - smooth(x));
+      log_error.push_back(std::log(error)), log_width.push_back(std::log(width));
+    }
+    const double order = (log_error.back() - log_error.front()) / (log_width.back() - log_width.front());
+    if (rank_of(world) == 0)
+      std::printf("  %s: errors %.2e %.2e %.2e, order %.2f\n", name, std::exp(log_error[0]), std::exp(log_error[1]), std::exp(log_error[2]),
+                  order);
+    EXPECT_GT(order, 1.8) << name;
+    EXPECT_LT(order, 2.4) << name;
+  }
+}
+
+// Requirement: a point belongs to the rank of its cell; one outside to the rank of the nearest cell; the same answer on every rank.
+TEST(CellOwner, FindsTheRankOfTheCell) {
+  const Mesh mesh = box(world);
+  CellOwner owner(mesh);
+  auto points = scattered_points(60);
+  points.push_back(upper + Vec3{0.01, 0.02, 0.01});
+  const auto found = owner.owner_of(points);
+  std::vector<int> of_rank_0 = found;
+  MPI_Bcast(of_rank_0.data(), static_cast<int>(of_rank_0.size()), MPI_INT, 0, world);
+  EXPECT_EQ(found, of_rank_0);
+  const CellLocator locator(mesh);
+  for (std::size_t b = 0; b + 1 < points.size(); ++b) {
+    EXPECT_EQ(found[b] == rank_of(world), locator.find(points[b]) >= 0);
+  }
+  EXPECT_EQ(owner.owner_of(points), found) << "hints of the last search must not change the answer";
+}
+
+}  // namespace
+}  // namespace snag
