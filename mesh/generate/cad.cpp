@@ -76,6 +76,18 @@ void remove_helpers() {
   }
 }
 
+void remove_helper_points() {
+  DimTags volumes, boundary, points, helpers;
+  gmsh::model::getEntities(volumes, 3);
+  gmsh::model::getBoundary(volumes, boundary, false, false, true);
+  gmsh::model::getEntities(points, 0);
+  const auto bounding = tags(boundary);
+  const std::set<int> needed(bounding.begin(), bounding.end());
+  for (const auto& point : points)
+    if (!needed.contains(point.second)) helpers.push_back(point);
+  gmsh::model::removeEntities(helpers);
+}
+
 void name_group(int dimension, int tag, const std::string& name, const std::vector<int>& entities) {
   if (entities.empty()) {
     throw Error(ExitCode::mesh, "snag-mesh: no face or volume was recognised as \"" + name +

@@ -30,6 +30,8 @@ double volume_of(const std::vector<int>& volumes);
 
 /// Remove every face, curve and point that bounds no volume (helper points, wires of lofts), and synchronise.
 void remove_helpers();
+/// The same for the points of gmsh's own kernel (centres of arcs); to be called after synchronising.
+void remove_helper_points();
 
 /// A physical group with tag and name. Throws Error(mesh) if no entity is in it: a surface was not recognised.
 void name_group(int dimension, int tag, const std::string& name, const std::vector<int>& entities);

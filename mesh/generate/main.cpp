@@ -72,7 +72,8 @@ void set_options() {
       {"General.Terminal", 0},     {"General.NumThreads", 1},  // more threads would make other meshes each time
       {"Mesh.MaxNumThreads1D", 1}, {"Mesh.MaxNumThreads2D", 1}, {"Mesh.MaxNumThreads3D", 1},
       {"Mesh.Algorithm", 6},       {"Mesh.Algorithm3D", 1},  // frontal Delaunay of faces, Delaunay of volumes
-      {"Mesh.Optimize", 0},        {"Mesh.SaveAll", 0},
+      {"Mesh.Optimize", 0},        {"Mesh.SaveAll", 0},         {"Mesh.IgnorePeriodicity", 1},  // names say what is periodic; readers
+                                                                                                // differ in what they make of the section
   };
   for (const auto& [name, value] : options) gmsh::option::setNumber(name, value);
 }

@@ -186,7 +186,8 @@ Expectation Pump::build(double size_factor) {
     h.edge = 0.8 * tongue_clearance;
   }
   const auto walls = without(without(joined_lists(faces.of[impeller_walls], faces.of[casing_walls]), faces.edges), faces.pipes);
-  const double growth_distance = 2.5 * h.core, background = from_tank ? h.tank : h.pipe;
+  // Growth is slow on coarse meshes and quick on fine ones: in between the core's size and the casing's radius.
+  const double growth_distance = std::sqrt(h.core * dimensions.tongue_tip_radius()), background = from_tank ? h.tank : h.pipe;
   SizeField field;
   field.around(walls, {h.wall, h.core, 0, growth_distance});
   field.around(faces.edges, {h.edge, h.core, 0, growth_distance});

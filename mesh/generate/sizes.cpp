@@ -2,8 +2,8 @@
 
 #include <gmsh.h>
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "mesh/generate/cad.hpp"
 
@@ -11,8 +11,9 @@ namespace snag::generate {
 
 namespace {
 
-// gmsh samples a face on a parametric grid of n x n points; half the outline stands for its longer side.
-int samples(int face, double spacing) {
+// gmsh samples a face on a parametric grid of n x n points; half the outline stands for its longer side. Points may be 1.7 sizes
+// apart: sizes grow slowly. Few different n, so that many faces can share one field: the search for the nearest point is what costs.
+int samples(int face, double size) {
   DimTags curves;
   gmsh::model::getBoundary({{2, face}}, curves, false, false, false);
   double outline = 0;
@@ -21,17 +22,22 @@ int samples(int face, double spacing) {
     gmsh::model::occ::getMass(1, std::abs(tag), length);
     outline += length;
   }
-  return std::clamp(static_cast<int>(std::ceil(0.5 * outline / spacing)), 8, 400);
+  const double wanted = 0.5 * outline / (1.7 * size);
+  int n = 8;
+  while (n < wanted && n < 512) n *= 2;
+  return n;
 }
 
 }  // namespace
 
 void SizeField::around(const std::vector<int>& faces, const Growth& growth, bool background) {
   namespace field = gmsh::model::mesh::field;
-  for (const int face : faces) {
+  std::map<int, std::vector<double>> by_samples;
+  for (const int face : faces) by_samples[samples(face, growth.near)].push_back(face);
+  for (const auto& [n, group] : by_samples) {
     const int distance = field::add("Distance");
-    field::setNumbers(distance, "SurfacesList", {static_cast<double>(face)});
-    field::setNumber(distance, "NumPointsPerCurve", samples(face, growth.near));
+    field::setNumbers(distance, "SurfacesList", group);
+    field::setNumber(distance, "NumPointsPerCurve", n);
     const int threshold = field::add("Threshold");
     field::setNumber(threshold, "InField", distance);
     field::setNumber(threshold, "SizeMin", growth.near);

@@ -174,14 +174,15 @@ MeshReport verified(const Expectation& expectation) {
 }
 
 std::string table(const MeshReport& report) {
-  std::string text =
-      fmt::format("{:<22}{:>12}{:>8}{:>16}{:>14}{:>12}\n", "volume", "cells", "parts", "volume [m3]", "of the shape", "closure");
+  std::string text = fmt::format("{:<22}{:>12}{:>8}{:>16}{:>16}{:>14}{:>12}\n", "volume", "cells", "parts", "volume [m3]", "of the shape",
+                                 "mesh/shape-1", "closure");
   for (const auto& volume : report.volumes) {
     std::int64_t n = 0;
     std::string kinds;
     for (const auto& [kind, count] : volume.cells) n += count, kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, kind);
     text +=
-        fmt::format("{:<22}{:>12}{:>8}{:>16.7e}{:>14}{:>12.1e}  {}\n", volume.name, n, volume.n_components, volume.volume,
+        fmt::format("{:<22}{:>12}{:>8}{:>16.7e}{:>16}{:>14}{:>12.1e}  {}\n", volume.name, n, volume.n_components, volume.volume,
+                    volume.exact_volume > 0 ? fmt::format("{:.7e}", volume.exact_volume) : "",
                     volume.exact_volume > 0 ? fmt::format("{:+.2e}", volume.volume / volume.exact_volume - 1) : "", volume.closure, kinds);
   }
   text += fmt::format("{:<22}{:>12}{:>24}\n", "surface", "faces", "area [m2]");
