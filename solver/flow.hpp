@@ -17,15 +17,23 @@ struct Flow {
   double density = 998.2;               // kg/m3
   double dynamic_viscosity = 1.003e-3;  // Pa s
   double time = 0;                      // s
+  double time_step_size = 0;            // of the last step, s
   std::int64_t time_step = 0;           // steps done
 
   // [n_all_cells], ghosts up to date after every step
-  std::vector<Vec3> velocity, velocity_old, velocity_older;  // u at t, t - dt, t - 2 dt; m/s
-  std::vector<double> pressure;                              // p, Pa (relative)
-  std::vector<Mat3> velocity_gradient;                       // G_ij = du_i/dx_j, 1/s
-  std::vector<Vec3> pressure_gradient;                       // Pa/m
+  std::vector<Vec3> velocity, velocity_old, velocity_older;    // u at t, t - dt, t - 2 dt; m/s
+  std::vector<double> pressure;                                // p, Pa (relative)
+  std::vector<Mat3> velocity_gradient, velocity_gradient_old;  // G_ij = du_i/dx_j, 1/s
+  std::vector<Vec3> pressure_gradient;                         // Pa/m
   // [n_faces]
   std::vector<double> flux, flux_old;  // volume flux along S, m3/s
+  std::vector<double> mesh_flux;       // volume that the face sweeps along S, m3/s: zero where the mesh stands still
+  std::vector<double> face_viscosity;  // mu, of turbulence too, Pa s
+  bool variable_viscosity = false;     // adds div(mu grad u^T), which is zero for constant mu
+  // [n_faces - n_interior], boundary face f at f - n_interior
+  std::vector<double> boundary_pressure;  // p at the face, Pa
+  std::vector<Vec3> boundary_friction;    // viscous force of the fluid on the face as it stood in the momentum equation, N
+  std::vector<Vec3> boundary_convection;  // momentum carried out through the face, likewise, N
 
   // from the rags, [n_cells]
   std::vector<Vec3> reaction;          // f

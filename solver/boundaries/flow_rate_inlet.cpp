@@ -1,0 +1,46 @@
+// Inlet with a given volume flow Q over the patch, uniform along its mean normal:   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q
+// exactly
+#include "base/error.hpp"
+#include "parallel/sum.hpp"
+#include "solver/boundary.hpp"
+
+namespace snag {
+namespace {
+
+struct FlowRateInlet final : Boundary {
+  static constexpr const char* name = "flow_rate_inlet";
+  double flow_rate = 0;
+  Vec3 area;  // sum S of the patch, m2
+
+  Section section() override {
+    return {.name = name,
+            .meaning = "Uniform velocity along the mean normal of a plane patch that gives a volume flow; negative draws fluid out.",
+            .parameters = {{.key = "flow_rate",
+                            .target = &flow_rate,
+                            .unit = "m3/s",
+                            .meaning = "Volume flow into the domain, over the whole patch.",
+                            .required = true}}};
+  }
+  Fixes fixes() const override { return Fixes::velocity; }
+  void prepare(const Mesh& mesh, const Patch& patch) override {
+    std::vector<Vec3> S(mesh.face_vector.begin() + patch.first, mesh.face_vector.begin() + patch.end());
+    std::vector<double> size;
+    for (const Vec3& s : S) size.push_back(norm(s));
+    area = sum(mesh.comm, std::span<const Vec3>(S));
+    if (norm(area) <= 1e-6 * sum(mesh.comm, std::span<const double>(size)))
+      throw Error(ExitCode::usage,
+                  "[[boundary]] \"" + patch.name + "\": a closed or empty surface has no mean normal; give the inlet a patch of its own");
+  }
+  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
+    const Vec3 velocity = -flow_rate / norm_squared(area) * area;
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const int b = f - flow.mesh.n_interior;
+      values.velocity[b] = velocity;
+      values.flux[b] = dot(velocity, flow.mesh.face_vector[f]);
+    }
+  }
+};
+const bool registered = boundaries().add<FlowRateInlet>();
+
+}  // namespace
+}  // namespace snag

@@ -1,0 +1,39 @@
+// Inlet with a given velocity:   u = U,  or  u = - U_n n  with n the normal out of the domain;   flux = u.S
+#include <optional>
+
+#include "base/error.hpp"
+#include "solver/boundary.hpp"
+
+namespace snag {
+namespace {
+
+struct VelocityInlet final : Boundary {
+  static constexpr const char* name = "velocity_inlet";
+  Vec3 velocity;
+  std::optional<double> normal_speed;
+
+  Section section() override {
+    return {.name = name,
+            .meaning = "Uniform velocity.",
+            .parameters = {{"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the fluid."},
+                           {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed,
+                            "Speed into the domain along the normal, instead."}}};
+  }
+  Fixes fixes() const override { return Fixes::velocity; }
+  void prepare(const Mesh&, const Patch& patch) override {
+    if (normal_speed && norm(velocity) > 0)
+      throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": velocity and normal_speed are both given; give one of them");
+  }
+  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const int b = f - flow.mesh.n_interior;
+      const Vec3& S = flow.mesh.face_vector[f];
+      values.velocity[b] = normal_speed ? -*normal_speed * unit(S) : velocity;
+      values.flux[b] = dot(values.velocity[b], S);
+    }
+  }
+};
+const bool registered = boundaries().add<VelocityInlet>();
+
+}  // namespace
+}  // namespace snag

@@ -1,0 +1,74 @@
+#pragma once
+// Boundary conditions of the flow: one kind, one file in solver/boundaries/, chosen for each patch by the [[boundary]] tables of the case.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/registry.hpp"
+#include "solver/flow.hpp"
+
+namespace snag {
+
+/// What a patch fixes; all else follows from it.
+///   velocity:  u and the flux are given, p is extrapolated from inside (walls, inlets)
+///   pressure:  p is given, du/dn = 0; fluid that enters comes along the normal (outlets)
+///   symmetry:  u.n = 0, no friction, dp/dn = 0
+enum class Fixes { velocity, pressure, symmetry };
+
+/// Values at the boundary faces, face f at f - n_interior.
+struct BoundaryValues {
+  std::vector<Vec3> velocity;    // where velocity is fixed, m/s
+  std::vector<double> flux;      // where velocity is fixed, out of the domain, m3/s
+  std::vector<double> pressure;  // where pressure is fixed, Pa
+};
+
+/// A boundary condition on one patch.
+class Boundary {
+ public:
+  virtual ~Boundary() = default;
+  /// Its keys in a [[boundary]] table; the records point into this object.
+  virtual Section section() = 0;
+  virtual Fixes fixes() const = 0;
+  /// Once, before the first step: what depends on the mesh. Collective.
+  virtual void prepare(const Mesh&, const Patch&) {}
+  /// Values of the patch at a time. Local; called every step, after the mesh has moved.
+  virtual void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const = 0;
+};
+
+Registry<Boundary>& boundaries();
+
+/// A condition and the patch it is for.
+struct PatchBoundary {
+  std::string patch;
+  std::string where;  // the table of the case file, for messages
+  std::unique_ptr<Boundary> boundary;
+};
+
+/// All [[boundary]] tables. Throws Error(usage) for an unknown kind or a table that names no patch.
+std::vector<PatchBoundary> read_boundaries(const Table& root);
+/// The tables as sections for the manual: the keys that all kinds share, then one section a kind. The records' targets are not valid.
+std::vector<Section> boundary_sections();
+
+/// The conditions of all patches of a mesh, and their values at a time.
+class BoundarySet {
+ public:
+  /// Throws Error(usage) for a patch without a condition, with two, and for a condition of an unknown patch. Collective.
+  BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions);
+  /// Collective; throws Error(usage) if nothing fixes the pressure and what flows in does not flow out.
+  void update(const Flow& flow, double time);
+
+  const BoundaryValues& values() const { return values_; }
+  Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
+  const std::string& where(int patch) const { return conditions_[patch].where; }
+  /// True if some patch fixes the pressure.
+  bool fixes_pressure() const { return fixes_pressure_; }
+
+ private:
+  void check_net_flux() const;
+  const Mesh& mesh_;
+  std::vector<PatchBoundary> conditions_;  // in the order of the patches
+  BoundaryValues values_;
+  bool fixes_pressure_ = false;
+};
+
+}  // namespace snag

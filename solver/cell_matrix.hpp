@@ -1,0 +1,32 @@
+#pragma once
+// Sparse matrix of a transport equation on the cells: one row an owned cell, one off-diagonal entry a face; and its Gauss-Seidel solution.
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+/// Off-diagonal entries in compressed rows. The diagonal is kept by each equation: one number a cell, or three where components differ.
+struct CellMatrix {
+  explicit CellMatrix(const Mesh& mesh);
+
+  std::vector<int> row_start, column;                   // [n_cells + 1], [n_entries]; columns are local cells, ghosts too
+  std::vector<double> value;                            // [n_entries + 1]: the last takes what faces would add to rows of other ranks
+  std::vector<int> place_of_owner, place_of_neighbour;  // [n_interior] entry (owner, neighbour) and (neighbour, owner)
+};
+
+struct SweepReport {
+  double initial = 0, final = 0;  // residuals over the norm of the right-hand side
+  int sweeps = 0;
+  bool converged = true;
+};
+
+/// Solve (diagonal + matrix) x = b by forward Gauss-Seidel, ghosts exchanged before each sweep, residual tested every second sweep; x
+/// [n_all_cells] holds the first guess. The residual is that of each row when it is visited. `tolerance` is relative to |b|. Value: double
+/// or Vec3. Collective.
+template <class Value>
+SweepReport gauss_seidel(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal, std::span<const Value> b,
+                         std::vector<Value>& x, double tolerance, int max_sweeps);
+
+}  // namespace snag

@@ -1,0 +1,222 @@
+// Pressure correction; the equations stand in the header.
+//
+// Non-orthogonal part of (S.grad p')_f: m_f T.[grad p']_f from the solution before, repeated n_non_orthogonal times. The flux is corrected
+// with the very terms of the last solve: each cell's imbalance is the residual of that linear equation, whatever the mesh.
+#include "solver/continuity.hpp"
+
+#include <cmath>
+
+#include "parallel/sum.hpp"
+#include "solver/face.hpp"
+
+namespace snag {
+
+namespace {
+
+// Of the fluxes through a cell's faces: no solve can be asked for less than their rounding.
+constexpr double rounding = 1e-15;
+
+std::vector<Side> pressure_sides(const Mesh& mesh, const BoundarySet& boundary) {
+  std::vector<Side> sides;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const Fixes fixes = boundary.fixes(static_cast<int>(p));
+    sides.push_back(fixes == Fixes::velocity ? Side::none : fixes == Fixes::pressure ? Side::value : Side::zero_normal);
+  }
+  return sides;
+}
+
+}  // namespace
+
+Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings)
+    : mesh_(mesh),
+      settings_(settings),
+      squares_(mesh, pressure_sides(mesh, boundary)),
+      poisson_(mesh, settings.multigrid, !boundary.fixes_pressure()),
+      mobility_(mesh.n_all_cells()),
+      coefficient_(mesh.n_faces),
+      preconditioner_(mesh.n_faces),
+      correction_(mesh.n_all_cells()),
+      boundary_correction_(mesh.n_faces - mesh.n_interior),
+      slope_(mesh.n_all_cells()),
+      gradient_(mesh.n_all_cells()),
+      imbalance_(mesh.n_all_cells()),
+      right_side_(mesh.n_all_cells()) {}
+
+void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
+  flow.boundary_pressure = boundary.values().pressure;
+  mesh_.halo.exchange(flow.pressure);
+  squares_.gradient(flow.pressure, flow.boundary_pressure, slope_);
+  fill_boundary(mesh_, squares_, flow.pressure, slope_, flow.boundary_pressure);
+  gauss_gradient(mesh_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
+}
+
+void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient) {
+  inertia_ = 1;
+  std::fill(mobility_.begin(), mobility_.end(), 1.0);
+  predict_flux(flow, boundary, gradient, false);
+  std::fill(boundary_correction_.begin(), boundary_correction_.end(), 0.0);
+  solve(flow, boundary);
+  correct_cells(flow, false);
+}
+
+ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, double inertia, const std::vector<Mat3>& gradient) {
+  set_mobility(flow, inertia);
+  predict_flux(flow, boundary, gradient, true);
+  for (std::size_t b = 0; b < boundary_correction_.size(); ++b)
+    boundary_correction_[b] = boundary.values().pressure[b] - flow.boundary_pressure[b];
+  const ContinuityReport report = solve(flow, boundary);
+  correct_cells(flow, true);
+  return report;
+}
+
+void Continuity::set_mobility(const Flow& flow, double inertia) {
+  inertia_ = inertia;
+  for (int c = 0; c < mesh_.n_cells; ++c) mobility_[c] = 1 / (inertia + flow.drag[c]);
+  mesh_.halo.exchange(mobility_);
+}
+
+void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
+  const auto& u = flow.velocity;
+  const auto& g = flow.pressure_gradient;
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double w = mesh_.weight[f];
+    const Vec3& S = mesh_.face_vector[f];
+    double flux = dot(blend(w, u[P], u[N]) + blend(w, gradient[P], gradient[N]) * skewness(mesh_, f), S);
+    if (with_pressure) {
+      const Vec3& d = mesh_.delta[f];
+      const double c = conductance(S, d), m = w * mobility_[P] + (1 - w) * mobility_[N];
+      const double compact = c * (flow.pressure[N] - flow.pressure[P]) + dot(S - c * d, blend(w, g[P], g[N]));
+      flux += dot(blend(w, mobility_[P] * g[P], mobility_[N] * g[N]), S) - m * compact;
+    }
+    flow.flux[f] = flux;
+  }
+  boundary_flux(flow, boundary, gradient, with_pressure);
+}
+
+void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    const Fixes fixes = boundary.fixes(static_cast<int>(p));
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const int P = mesh_.owner[f], b = f - mesh_.n_interior;
+      if (fixes == Fixes::velocity) {
+        flow.flux[f] = boundary.values().flux[b];
+      } else if (fixes == Fixes::symmetry) {
+        flow.flux[f] = flow.mesh_flux[f];
+      } else {
+        const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
+        flow.flux[f] = dot(flow.velocity[P] + gradient[P] * along_face(d, unit(S)), S);
+        const double c = conductance(S, d);
+        // S.g - [c (p_b - p_P) + T.g] = c (d.g - (p_b - p_P))
+        if (with_pressure) flow.flux[f] += mobility_[P] * c * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P]));
+      }
+    }
+  }
+}
+
+void Continuity::set_coefficients(const BoundarySet& boundary) {
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const double w = mesh_.weight[f];
+    const double m = w * mobility_[mesh_.owner[f]] + (1 - w) * mobility_[mesh_.neighbour[f]];
+    coefficient_[f] = inertia_ * m * conductance(mesh_.face_vector[f], mesh_.delta[f]);
+  }
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    const bool fixed = boundary.fixes(static_cast<int>(p)) == Fixes::pressure;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
+      coefficient_[f] = fixed ? inertia_ * mobility_[mesh_.owner[f]] * conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
+  }
+}
+
+ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
+  set_coefficients(boundary);
+  if (poisson_.rebuild_is_due()) preconditioner_ = coefficient_;
+  poisson_.assemble(coefficient_);
+
+  std::fill(imbalance_.begin(), imbalance_.end(), 0.0);
+  double magnitude = 0;
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    imbalance_[mesh_.owner[f]] += flow.flux[f];
+    imbalance_[mesh_.neighbour[f]] -= flow.flux[f];
+    magnitude += flow.flux[f] * flow.flux[f];
+  }
+  double squares[2] = {0, magnitude};
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f)
+    imbalance_[mesh_.owner[f]] += flow.flux[f], squares[1] += flow.flux[f] * flow.flux[f];
+  for (int c = 0; c < mesh_.n_cells; ++c) squares[0] += imbalance_[c] * imbalance_[c];
+  MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+
+  ContinuityReport report{.initial = std::sqrt(squares[0])};
+  std::fill(correction_.begin(), correction_.end(), 0.0);
+  std::fill(gradient_.begin(), gradient_.end(), Vec3{});
+  const double floor = rounding * std::sqrt(squares[1]);
+  for (int k = 0; k <= settings_.n_non_orthogonal; ++k) {
+    if (k > 0) {
+      squares_.gradient(correction_, boundary_correction_, slope_);
+      fill_boundary(mesh_, squares_, correction_, slope_, boundary_correction_);
+      gauss_gradient(mesh_, correction_, boundary_correction_, slope_, gradient_);
+    }
+    add_cross_flux();
+    const double tolerance = k == settings_.n_non_orthogonal ? settings_.tolerance : settings_.tolerance_intermediate;
+    const PoissonReport last = poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, floor) * inertia_);
+    report.iterations += last.iterations, ++report.solves;
+    report.rebuilt = report.rebuilt || last.rebuilt;
+    report.final = last.final / inertia_;
+  }
+  correct_flux(flow);
+  return report;
+}
+
+/// Right side of the pressure equation: inertia (- imbalance + what the last gradient of p' carries across non-orthogonal faces).
+void Continuity::add_cross_flux() {
+  for (int c = 0; c < mesh_.n_cells; ++c) right_side_[c] = -inertia_ * imbalance_[c];
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
+    const double w = mesh_.weight[f], c = conductance(S, d), m = w * mobility_[P] + (1 - w) * mobility_[N];
+    const double cross = inertia_ * m * dot(S - c * d, blend(w, gradient_[P], gradient_[N]));
+    right_side_[P] += cross;
+    right_side_[N] -= cross;
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    if (coefficient_[f] == 0) continue;
+    const int P = mesh_.owner[f];
+    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
+    right_side_[P] += coefficient_[f] * boundary_correction_[f - mesh_.n_interior] +
+                      inertia_ * mobility_[P] * dot(S - conductance(S, d) * d, gradient_[P]);
+  }
+}
+
+/// flux -= m_f (c (p'_N - p'_P) + T.grad p'), with the grad p' of the last right side.
+void Continuity::correct_flux(Flow& flow) {
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
+    const double w = mesh_.weight[f], c = conductance(S, d), m = w * mobility_[P] + (1 - w) * mobility_[N];
+    flow.flux[f] -= m * (c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, gradient_[P], gradient_[N])));
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    if (coefficient_[f] == 0) continue;
+    const int P = mesh_.owner[f];
+    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
+    const double c = conductance(S, d);
+    flow.flux[f] -= mobility_[P] * (c * (boundary_correction_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
+  }
+}
+
+void Continuity::correct_cells(Flow& flow, bool with_pressure) {
+  squares_.gradient(correction_, boundary_correction_, slope_);
+  fill_boundary(mesh_, squares_, correction_, slope_, boundary_correction_);
+  gauss_gradient(mesh_, correction_, boundary_correction_, slope_, gradient_);
+  for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_[c] * gradient_[c];
+  if (!with_pressure) return;
+  for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.pressure[c] += correction_[c], flow.pressure_gradient[c] += gradient_[c];
+  for (std::size_t b = 0; b < boundary_correction_.size(); ++b) flow.boundary_pressure[b] += boundary_correction_[b];
+}
+
+void Continuity::restore(std::vector<double> coefficients, double fresh_cost, bool rebuild_due) {
+  preconditioner_ = std::move(coefficients);
+  poisson_.assemble(preconditioner_);
+  poisson_.restore(fresh_cost, rebuild_due);
+}
+
+}  // namespace snag

@@ -1,0 +1,72 @@
+#pragma once
+// Continuity: fluxes without divergence from the predicted velocity, and the pressure that makes them so.
+//
+//   flux~ = [u* + m grad p]_f.S - m_f (S.grad p)_f               m = 1/(a0 rho/dt + beta): mobility, m3 s/kg
+//   div(m grad p') = div(flux~),    flux = flux~ - m_f (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
+//
+// [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference damps pressure that alternates from cell
+// to cell, and it is formed from cell values alone, so that a face needs no history. Cell gradients of pressure are of the Gauss form: the
+// sum of V grad p over the cells is the pressure on the boundary. Fluxes and velocities share p', so that u balances momentum with the new
+// pressure exactly.
+#include <optional>
+
+#include "solver/boundary.hpp"
+#include "solver/gradient.hpp"
+#include "solver/poisson.hpp"
+
+namespace snag {
+
+struct ContinuitySettings {
+  int n_non_orthogonal = 1;
+  double tolerance = 1e-6, tolerance_intermediate = 1e-2;
+  std::string multigrid = "boomeramg";
+};
+
+struct ContinuityReport {
+  double initial = 0, final = 0;  // norm of the mass imbalance of all cells before and after, m3/s
+  int iterations = 0, solves = 0;
+  bool rebuilt = false;
+};
+
+class Continuity {
+ public:
+  Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings);
+
+  /// Pressure gradient and boundary pressure of flow.pressure as it is given (a start). Collective.
+  void start_pressure(Flow& flow, const BoundarySet& boundary);
+  /// Make the given velocity and its fluxes divergence-free; the pressure stays. Collective.
+  void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient);
+  /// One pressure correction; `inertia` = a0 rho/dt, kg/(m3 s); `gradient` of velocity, for skewness. Collective.
+  ContinuityReport correct(Flow& flow, const BoundarySet& boundary, double inertia, const std::vector<Mat3>& gradient);
+
+  Poisson& poisson() { return poisson_; }
+  /// Coefficients that the preconditioner was last set up with, [n_faces].
+  const std::vector<double>& preconditioner_coefficients() const { return preconditioner_; }
+  /// Set the preconditioner up again from stored coefficients (a resume). Collective.
+  void restore(std::vector<double> coefficients, double fresh_cost, bool rebuild_due);
+
+ private:
+  void set_mobility(const Flow& flow, double inertia);
+  void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
+  void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
+  void set_coefficients(const BoundarySet& boundary);
+  ContinuityReport solve(Flow& flow, const BoundarySet& boundary);
+  void add_cross_flux();
+  void correct_flux(Flow& flow);
+  void correct_cells(Flow& flow, bool with_pressure);
+
+  const Mesh& mesh_;
+  ContinuitySettings settings_;
+  LeastSquares squares_;
+  Poisson poisson_;
+  double inertia_ = 1;
+  std::vector<double> mobility_;     // [n_all_cells]
+  std::vector<double> coefficient_;  // inertia m_f c: near c, whatever the step, so that the preconditioner lasts; [n_faces]
+  std::vector<double> preconditioner_;
+  std::vector<double> correction_;  // p'
+  std::vector<double> boundary_correction_;
+  std::vector<Vec3> slope_, gradient_;  // of p': least squares, Gauss
+  std::vector<double> imbalance_, right_side_;
+};
+
+}  // namespace snag

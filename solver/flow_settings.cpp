@@ -1,0 +1,49 @@
+#include "solver/flow_settings.hpp"
+
+#include "base/error.hpp"
+
+namespace snag {
+
+namespace {
+constexpr double water_viscosity = 1.003e-3;  // Pa s at 20 C (IAPWS)
+}
+
+Section FlowSettings::section() {
+  Section flow{.name = "flow", .meaning = "Water and numerics of the flow solver.", .parameters = {}};
+  flow.parameters = {
+      {"density", &density, "kg/m3", 1e-6, 1e6, Basis::literature, "Density of the fluid; water at 20 C."},
+      {"dynamic_viscosity", &dynamic_viscosity, "Pa s", 0, infinity, Basis::literature,
+       "Viscosity; water at 20 C (1.003e-3) if neither this nor kinematic_viscosity is given."},
+      {"kinematic_viscosity", &kinematic_viscosity, "m2/s", 0, infinity, Basis::literature,
+       "Viscosity over density, instead of dynamic_viscosity."},
+      setting("convection", &convection, "Convection scheme; linear_upwind is second order and robust, upwind first order.",
+              {"linear_upwind", "upwind", "central", "limited_linear"}),
+      setting("limiter", &limiter, "Limiter of the gradients that linear_upwind extrapolates with.",
+              {"venkatakrishnan", "barth_jespersen", "none"}),
+      {"outer_correctors", &outer_correctors, "1", 1, 50, Basis::assumed,
+       "Repetitions of momentum and pressure in a step; 1 extrapolates the convecting flux in time, more make large steps robust."},
+      {"n_non_orthogonal", &n_non_orthogonal, "1", 0, 20, Basis::assumed,
+       "Repetitions of the pressure equation for non-orthogonal meshes."},
+      {"momentum_tolerance", &momentum_tolerance, "1", 1e-15, 0.1, Basis::assumed,
+       "Residual of the momentum equation over its right-hand side."},
+      {"pressure_tolerance", &pressure_tolerance, "1", 1e-15, 0.1, Basis::assumed,
+       "Residual of the last pressure equation of a step over the mass imbalance before it."},
+      {"pressure_tolerance_intermediate", &pressure_tolerance_intermediate, "1", 1e-15, 0.5, Basis::assumed,
+       "The same for the pressure equations before the last."},
+      setting("multigrid", &multigrid, "Preconditioner of the pressure equation.", {"boomeramg", "gamg"}),
+      {"initial_velocity", &initial_velocity, "m/s", -infinity, infinity, Basis::assumed,
+       "Uniform velocity at the start, made divergence-free before the first step."},
+      {"body_force", &body_force, "N/m3", -infinity, infinity, Basis::assumed, "Uniform force on the fluid, for periodic channels."},
+  };
+  return flow;
+}
+
+double FlowSettings::viscosity() const {
+  if (dynamic_viscosity && kinematic_viscosity)
+    throw Error(ExitCode::usage, "[flow]: dynamic_viscosity (" + std::to_string(*dynamic_viscosity) + " Pa s) and kinematic_viscosity (" +
+                                     std::to_string(*kinematic_viscosity) + " m2/s) are both given; give one of them");
+  if (dynamic_viscosity) return *dynamic_viscosity;
+  return kinematic_viscosity ? *kinematic_viscosity * density : water_viscosity;
+}
+
+}  // namespace snag

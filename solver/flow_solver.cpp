@@ -1,0 +1,167 @@
+// One step t -> t + dt, second order: BDF2 in time, momentum with the old pressure, then pressure and fluxes, repeated outer_correctors
+// times.
+#include "solver/flow_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr int first_step_correctors = 3;  // the first step starts from a pressure that is only a guess
+constexpr double exploded = 1e6;          // momentum residual over its right-hand side
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+std::vector<Side> velocity_sides(const Mesh& mesh, const BoundarySet& boundary) {
+  std::vector<Side> sides;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const Fixes fixes = boundary.fixes(static_cast<int>(p));
+    sides.push_back(fixes == Fixes::velocity ? Side::value : fixes == Fixes::pressure ? Side::zero_normal : Side::mirror);
+  }
+  return sides;
+}
+
+MomentumSettings momentum_settings(const FlowSettings& settings) {
+  MomentumSettings chosen{.tolerance = settings.momentum_tolerance};
+  chosen.convection = settings.convection == "upwind"           ? Convection::upwind
+                      : settings.convection == "central"        ? Convection::central
+                      : settings.convection == "limited_linear" ? Convection::limited_linear
+                                                                : Convection::linear_upwind;
+  chosen.limiter = settings.limiter == "none"              ? Limiter::none
+                   : settings.limiter == "barth_jespersen" ? Limiter::barth_jespersen
+                                                           : Limiter::venkatakrishnan;
+  return chosen;
+}
+
+ContinuitySettings continuity_settings(const FlowSettings& settings) {
+  return {.n_non_orthogonal = settings.n_non_orthogonal,
+          .tolerance = settings.pressure_tolerance,
+          .tolerance_intermediate = settings.pressure_tolerance_intermediate,
+          .multigrid = settings.multigrid};
+}
+
+bool finite(double value) { return std::isfinite(value); }
+bool finite(const Vec3& value) { return std::isfinite(value.x + value.y + value.z); }
+
+std::string place(const Vec3& x) { return "(" + std::to_string(x.x) + ", " + std::to_string(x.y) + ", " + std::to_string(x.z) + ") m"; }
+
+}  // namespace
+
+FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary)
+    : flow(mesh),
+      settings_(settings),
+      boundary_(mesh, std::move(boundary)),
+      squares_(mesh, velocity_sides(mesh, boundary_)),
+      momentum_(mesh, momentum_settings(settings)),
+      continuity_(mesh, boundary_, continuity_settings(settings)) {
+  flow.density = settings.density;
+  flow.dynamic_viscosity = settings.viscosity();
+  flow.body_force = settings.body_force;
+  std::fill(flow.velocity.begin(), flow.velocity.end(), settings.initial_velocity);
+  std::fill(flow.face_viscosity.begin(), flow.face_viscosity.end(), flow.dynamic_viscosity);
+}
+
+StepReport FlowSolver::advance(double dt) {
+  if (!started_) start();
+  StepReport report;
+  const double begun = seconds();
+  time_ = bdf(dt, flow.time_step > 0 ? flow.time_step_size : 0);
+  begin_step(time_);
+  const int n_outer = flow.time_step > 0 ? settings_.outer_correctors : std::max(settings_.outer_correctors, first_step_correctors);
+  for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, time_, report);
+  flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
+  measure(dt, report);
+  report.seconds_rest = seconds() - begun - report.seconds_momentum - report.seconds_pressure;
+  return report;
+}
+
+/// The velocity as it was given becomes divergence-free, as an impulsive start makes it.
+void FlowSolver::start() {
+  boundary_.update(flow, flow.time);
+  flow.mesh.halo.exchange(flow.velocity);
+  update_gradient();
+  continuity_.start_pressure(flow, boundary_);
+  continuity_.project(flow, boundary_, flow.velocity_gradient);
+  update_gradient();
+  started_ = true;
+}
+
+/// Shift the history, values of the boundary at the new time, first guesses.
+void FlowSolver::begin_step(const TimeScheme& time) {
+  std::swap(flow.velocity_older, flow.velocity_old);
+  std::swap(flow.velocity_old, flow.velocity);
+  std::swap(flow.flux_old, flow.flux);
+  boundary_.update(flow, flow.time + time.dt);
+  momentum_.guess_from_history(flow, boundary_, time);
+  std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
+}
+
+void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& report) {
+  OuterReport& did = report.outer.emplace_back();
+  const double begun = seconds();
+  if (outer > 0) momentum_.guess_from_last(flow);
+  did.momentum = momentum_.predict(flow, boundary_, time);
+  if (!finite(did.momentum.final) || did.momentum.final > exploded) check_finite("momentum equation");
+  const double predicted = seconds();
+  try {
+    did.continuity = continuity_.correct(flow, boundary_, time.now * flow.density / time.dt, momentum_.gradient_guess());
+  } catch (const Error& error) {
+    if (error.code == ExitCode::diverged) check_finite(error.what());
+    throw;
+  }
+  const double corrected = seconds();
+  update_gradient();
+  report.seconds_momentum += predicted - begun, report.seconds_pressure += corrected - predicted;
+}
+
+void FlowSolver::update_gradient() { squares_.gradient(flow.velocity, boundary_.values().velocity, flow.velocity_gradient); }
+
+void FlowSolver::measure(double dt, StepReport& report) const {
+  const Mesh& mesh = flow.mesh;
+  std::vector<double> net(mesh.n_all_cells()), through(mesh.n_all_cells());
+  double out = 0;
+  for (int f = 0; f < mesh.n_interior; ++f) {
+    const double relative = std::abs(flow.flux[f] - flow.mesh_flux[f]);
+    net[mesh.owner[f]] += flow.flux[f], through[mesh.owner[f]] += relative;
+    net[mesh.neighbour[f]] -= flow.flux[f], through[mesh.neighbour[f]] += relative;
+  }
+  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) {
+    net[mesh.owner[f]] += flow.flux[f], through[mesh.owner[f]] += std::abs(flow.flux[f] - flow.mesh_flux[f]);
+    out += flow.flux[f];
+  }
+  std::array<double, 2> largest{}, total{0, out};
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const double courant = 0.5 * dt * through[c] / mesh.cell_volume[c];
+    largest = {std::max(largest[0], std::abs(net[c]) * dt / mesh.cell_volume[c]), std::max(largest[1], courant)};
+    total[0] += courant;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, total.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  report.continuity_local = largest[0], report.courant_max = largest[1];
+  report.courant_mean = total[0] / static_cast<double>(mesh.n_cells_global), report.continuity_global = total[1];
+  if (!finite(total[0] + total[1])) check_finite("end of the step");
+}
+
+/// Throws Error(diverged) for the first cell that holds no finite velocity or pressure; the same on every rank.
+void FlowSolver::check_finite(const std::string& where) const {
+  const std::string step = "step " + std::to_string(flow.time_step + 1) + " (t = " + std::to_string(flow.time) + " s), " + where;
+  const std::string remedy = "; take smaller steps or more outer_correctors, or look at the mesh there (snag mesh --info)";
+  together(flow.mesh.comm, [&] {
+    for (int c = 0; c < flow.mesh.n_cells; ++c) {
+      const char* field = !finite(flow.velocity[c]) ? "velocity" : !finite(flow.pressure[c]) ? "pressure" : nullptr;
+      if (field)
+        throw Error(ExitCode::diverged, step + ": " + field + " is not finite in cell " + std::to_string(flow.mesh.cell_id[c]) + " at " +
+                                            place(flow.mesh.cell_centre[c]) + remedy);
+    }
+  });
+  throw Error(ExitCode::diverged, step + ": the residual of the momentum equation exploded" + remedy);
+}
+
+}  // namespace snag

@@ -1,0 +1,81 @@
+#pragma once
+// The flow solver: one time step of the incompressible equations of solver/flow.hpp on any mesh.
+#include <string>
+#include <vector>
+
+#include "solver/boundary.hpp"
+#include "solver/continuity.hpp"
+#include "solver/flow_settings.hpp"
+#include "solver/momentum.hpp"
+
+namespace snag {
+
+class CheckpointReader;
+class CheckpointWriter;
+
+struct OuterReport {
+  SweepReport momentum;
+  ContinuityReport continuity;
+};
+
+/// What one step did.
+struct StepReport {
+  std::vector<OuterReport> outer;
+  double continuity_local = 0;   // largest |sum of fluxes| of a cell times dt over its volume
+  double continuity_global = 0;  // net flux out of the domain, m3/s
+  double courant_mean = 0, courant_max = 0;
+  double seconds_momentum = 0, seconds_pressure = 0, seconds_rest = 0;
+};
+
+/// Terms of the momentum balance of the whole domain in the last step, N.
+struct MomentumBalance {
+  Vec3 change;      // d/dt of the fluid's momentum
+  Vec3 convection;  // carried out through the boundary
+  Vec3 pressure;    // sum p S of the boundary: force of the fluid on it
+  Vec3 friction;    // viscous force of the fluid on the boundary
+  Vec3 body;        // body force on the fluid
+  Vec3 given;       // by the rags: sum V (f - beta u)
+  Vec3 residual() const { return change + convection + pressure + friction - body - given; }
+};
+
+class FlowSolver {
+ public:
+  /// Throws Error(usage) if the conditions do not suit the mesh. Collective, as are all functions below.
+  FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary);
+
+  /// State of the water. Before the first step velocity and pressure may be set (owned cells); the coupling sets reaction, drag and
+  /// solid_fraction.
+  Flow flow;
+
+  /// Advance by dt, second order in space and time. Throws Error(diverged) that names step, field and place.
+  StepReport advance(double dt);
+
+  /// Force per time that the rags gave to the water in the last step: sum V (reaction - drag u) with the velocity at its end, N.
+  Vec3 momentum_given() const;
+  MomentumBalance momentum_balance() const;
+
+  /// Everything a resume needs; the same numbers to the bit on the same ranks. Names begin with "flow/".
+  void save(CheckpointWriter& checkpoint) const;
+  void load(CheckpointReader& checkpoint);
+
+  const BoundarySet& boundary() const { return boundary_; }
+  const LeastSquares& velocity_squares() const { return squares_; }
+
+ private:
+  void start();
+  void begin_step(const TimeScheme& time);
+  void correct_once(int outer, const TimeScheme& time, StepReport& report);
+  void update_gradient();
+  void measure(double dt, StepReport& report) const;
+  void check_finite(const std::string& where) const;
+
+  FlowSettings settings_;
+  BoundarySet boundary_;
+  LeastSquares squares_;
+  Momentum momentum_;
+  Continuity continuity_;
+  TimeScheme time_;
+  bool started_ = false;
+};
+
+}  // namespace snag

@@ -1,0 +1,187 @@
+// Least-squares and Gauss gradients; the equations stand in the header.
+#include "solver/gradient.hpp"
+
+#include <Eigen/Dense>
+
+#include "parallel/sum.hpp"
+#include "solver/face.hpp"
+
+namespace snag {
+
+namespace {
+
+// Eigenvalues of M below this leave a direction open: each face adds 1 to the trace, a regular tetrahedron has 4/3 in every direction.
+constexpr double open_eigenvalue = 0.05;
+
+inline void add_product(Vec3& g, double a, const Vec3& e) { g += a * e; }
+inline void add_product(Mat3& g, const Vec3& a, const Vec3& e) { g[0] += a.x * e, g[1] += a.y * e, g[2] += a.z * e; }
+
+// Normal derivative times distance at a mirror: u.n goes to zero at the face.
+inline double mirrored(double, const Vec3&) { return 0; }
+inline Vec3 mirrored(const Vec3& u, const Vec3& n) { return -dot(u, n) * n; }
+
+inline std::span<double> flat(std::vector<Vec3>& g) { return {g.empty() ? nullptr : &g[0].x, 3 * g.size()}; }
+inline std::span<double> flat(std::vector<Mat3>& g) { return {g.empty() ? nullptr : &g[0][0].x, 9 * g.size()}; }
+template <class Gradient>
+void exchange(const Mesh& mesh, std::vector<Gradient>& g) {
+  mesh.halo.exchange(flat(g), static_cast<int>(sizeof(Gradient) / sizeof(double)));
+}
+
+inline Vec3 product(const Mat3& m, const Vec3& g) { return m * g; }
+inline Mat3 product(const Mat3& m, const Mat3& g) { return {m * g[0], m * g[1], m * g[2]}; }
+inline void add(Vec3& a, const Vec3& b) { a += b; }
+inline void add(Mat3& a, const Mat3& b) { a[0] += b[0], a[1] += b[1], a[2] += b[2]; }
+
+}  // namespace
+
+LeastSquares::LeastSquares(const Mesh& mesh, std::vector<Side> sides) : mesh_(mesh), sides_(std::move(sides)) { update(); }
+
+void LeastSquares::update() {
+  sum_moments();
+  invert_moments();
+  open_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(open_.size())) > 0;
+}
+
+void LeastSquares::sum_moments() {
+  inverse_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), {});
+  const auto add_direction = [&](int c, const Vec3& e) {
+    Symmetric& m = inverse_[c];
+    m.xx += e.x * e.x, m.xy += e.x * e.y, m.xz += e.x * e.z, m.yy += e.y * e.y, m.yz += e.y * e.z, m.zz += e.z * e.z;
+  };
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const Vec3 e = unit(mesh_.delta[f]);
+    add_direction(mesh_.owner[f], e);
+    add_direction(mesh_.neighbour[f], e);
+  }
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    if (sides_[p] == Side::none) continue;
+    const Patch& patch = mesh_.patches[p];
+    for (int f = patch.first; f < patch.end(); ++f)
+      add_direction(mesh_.owner[f], unit(sides_[p] == Side::value ? mesh_.delta[f] : mesh_.face_vector[f]));
+  }
+}
+
+void LeastSquares::invert_moments() {
+  open_.clear();
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    Symmetric& m = inverse_[c];
+    const double cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz, cxz = m.xy * m.yz - m.xz * m.yy;
+    const double det = m.xx * cxx + m.xy * cxy + m.xz * cxz, trace = m.xx + m.yy + m.zz;
+    if (4 * det > open_eigenvalue * trace * trace) {  // smallest eigenvalue >= det / (trace/2)^2
+      const double r = 1 / det;
+      m = {r * cxx, r * cxy, r * cxz, r * (m.xx * m.zz - m.xz * m.xz), r * (m.xy * m.xz - m.xx * m.yz), r * (m.xx * m.yy - m.xy * m.xy)};
+      continue;
+    }
+    Eigen::Matrix3d M;
+    M << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(M);
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), open = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d v = eigen.eigenvectors().col(k);
+      if (eigen.eigenvalues()(k) < open_eigenvalue)
+        open += v * v.transpose();
+      else
+        inverse += v * v.transpose() / eigen.eigenvalues()(k);
+    }
+    m = {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)};
+    if (open.trace() > 0.5)
+      open_.push_back(
+          {c, {Vec3{open(0, 0), open(0, 1), open(0, 2)}, {open(1, 0), open(1, 1), open(1, 2)}, {open(2, 0), open(2, 1), open(2, 2)}}});
+  }
+}
+
+template <class Value, class Gradient>
+void LeastSquares::solve(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const {
+  std::fill(g.begin(), g.end(), Gradient{});
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3& d = mesh_.delta[f];
+    const Vec3 e = d / norm_squared(d);
+    const Value change = phi[N] - phi[P];
+    add_product(g[P], change, e);
+    add_product(g[N], change, e);
+  }
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    const Patch& patch = mesh_.patches[p];
+    if (sides_[p] == Side::none || sides_[p] == Side::zero_normal) continue;
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const int P = mesh_.owner[f];
+      const Vec3& d = mesh_.delta[f];
+      if (sides_[p] == Side::value) {
+        add_product(g[P], boundary[f - mesh_.n_interior] - phi[P], d / norm_squared(d));
+      } else {
+        const Vec3 n = unit(mesh_.face_vector[f]);
+        add_product(g[P], mirrored(phi[P], n), n / dot(d, n));
+      }
+    }
+  }
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    const Symmetric& m = inverse_[c];
+    g[c] = product(Mat3{Vec3{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, g[c]);
+  }
+  exchange(mesh_, g);
+  if (open_anywhere_) fill_open(g);
+}
+
+template <class Gradient>
+void LeastSquares::fill_open(std::vector<Gradient>& g) const {
+  std::vector<Gradient> filled;
+  for (const OpenCell& cell : open_) {
+    Gradient mean{};
+    int n = 0;
+    for (int k = mesh_.cell_face_start[cell.cell]; k < mesh_.cell_face_start[cell.cell + 1]; ++k) {
+      const int f = mesh_.cell_face[k];
+      if (f >= mesh_.n_interior) continue;
+      add(mean, g[mesh_.owner[f] == cell.cell ? mesh_.neighbour[f] : mesh_.owner[f]]);
+      ++n;
+    }
+    Gradient whole = g[cell.cell];
+    if (n > 0) {
+      Mat3 open = cell.open;
+      for (Vec3& row : open) row *= 1.0 / n;
+      add(whole, product(open, mean));
+    }
+    filled.push_back(whole);
+  }
+  for (std::size_t i = 0; i < open_.size(); ++i) g[open_[i].cell] = filled[i];
+  exchange(mesh_, g);
+}
+
+void LeastSquares::gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const {
+  solve<double, Vec3>(phi, boundary, g);
+}
+
+void LeastSquares::gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const {
+  solve<Vec3, Mat3>(u, boundary, g);
+}
+
+void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
+                   std::span<double> boundary) {
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    if (squares.side(p) == Side::value) continue;
+    for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
+      const int P = mesh.owner[f];
+      const Vec3& d = mesh.delta[f];
+      const Vec3 way = squares.side(p) == Side::none ? d : along_face(d, unit(mesh.face_vector[f]));
+      boundary[f - mesh.n_interior] = phi[P] + dot(g[P], way);
+    }
+  }
+}
+
+void gauss_gradient(const Mesh& mesh, std::span<const double> phi, std::span<const double> boundary, std::span<const Vec3> slope,
+                    std::vector<Vec3>& g) {
+  std::fill(g.begin(), g.end(), Vec3{});
+  for (int f = 0; f < mesh.n_interior; ++f) {
+    const int P = mesh.owner[f], N = mesh.neighbour[f];
+    const double w = mesh.weight[f];
+    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(skewness(mesh, f), blend(w, slope[P], slope[N]));
+    const Vec3 term = phi_f * mesh.face_vector[f];
+    g[P] += term;
+    g[N] -= term;
+  }
+  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
+  for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
+  exchange(mesh, g);
+}
+
+}  // namespace snag

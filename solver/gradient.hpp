@@ -1,0 +1,70 @@
+#pragma once
+// Gradients of cell fields: least squares over the faces (exact for linear fields), and the Gauss form that conserves momentum.
+//
+//   least squares:   minimise sum_f (g.e_f - D_f)^2,   e_f = d/|d|,   D_f = (phi_N - phi_P)/|d|          g = M^-1 sum_f D_f e_f,   M =
+//   sum_f e_f e_f Gauss:           V g = sum_f phi_f S,   phi_f with skewness correction by least squares: sums of V g telescope to the
+//   boundary
+//
+// A cell with few neighbours (a tetrahedron with two faces on walls where the value is unknown) leaves directions open: eigenvalues of M
+// near zero. In these directions it takes the mean gradient of its neighbours, so that linear fields stay exact. First order on any mesh,
+// second on regular ones.
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+/// What is known at the faces of a patch.
+enum class Side {
+  value,        // phi at the face centre
+  zero_normal,  // d phi / dn = 0
+  mirror,       // of a vector u: u.n = 0 and the tangential part has d/dn = 0; of a scalar the same as zero_normal
+  none          // nothing: the face does not enter
+};
+
+class LeastSquares {
+ public:
+  /// `sides`: one for each patch. Collective.
+  LeastSquares(const Mesh& mesh, std::vector<Side> sides);
+  /// Again after the mesh has moved. Collective.
+  void update();
+
+  /// Gradient of a scalar; `phi` [n_all_cells], `boundary` values at boundary faces (read where known), `g` [n_all_cells], ghosts filled.
+  /// Collective.
+  void gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const;
+  /// Gradient G_ij = du_i/dx_j of a vector; the same.
+  void gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const;
+  Side side(std::size_t patch) const { return sides_[patch]; }
+
+ private:
+  struct Symmetric {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  };
+  struct OpenCell {
+    int cell;
+    Mat3 open;  // projection onto the directions that the faces leave open
+  };
+  void sum_moments();
+  void invert_moments();
+  template <class Value, class Gradient>
+  void solve(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const;
+  template <class Gradient>
+  void fill_open(std::vector<Gradient>& g) const;
+
+  const Mesh& mesh_;
+  std::vector<Side> sides_;
+  std::vector<Symmetric> inverse_;  // [n_cells] M^-1, pseudo-inverse for open cells
+  std::vector<OpenCell> open_;
+  bool open_anywhere_ = false;
+};
+
+/// Values of a scalar at the boundary faces: known, or extrapolated with the gradient.
+void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
+                   std::span<double> boundary);
+
+/// Gauss gradient from least-squares gradients `slope` and boundary values; `g` [n_all_cells], ghosts filled. Collective.
+void gauss_gradient(const Mesh& mesh, std::span<const double> phi, std::span<const double> boundary, std::span<const Vec3> slope,
+                    std::vector<Vec3>& g);
+
+}  // namespace snag

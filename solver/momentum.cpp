@@ -1,0 +1,246 @@
+// Assembly and solution of the momentum equation, one row a cell, common to the three components but for the diagonal at symmetry planes.
+//
+//   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess
+//     linear_upwind    u_f^high = u_C + psi G_C (x_f - x_C)
+//     central          u_f^high = w u_P + (1 - w) u_N + G_f s
+//     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C),  r = 2 (G_C d)/(u_D - u_C) - 1, each component for itself
+//   diffusion    mu (c (u_N - u_P) + G_f T [+ G_f^T S where mu varies])     first part implicit
+//
+// Explicit parts from u extrapolated fully in time are unstable at large steps (von Neumann analysis of BDF2 with Fromm's scheme:
+// amplification up to 1.2 above Courant 0.5, none for half the extrapolation). So cells take a share e of the extrapolation: 1 below
+// Courant 0.5, 1/2 above 1.5, and less where diffusion is fast. The error of a share is O(h dt), of second order where the Courant number
+// is above 1/2.
+#include "solver/momentum.hpp"
+
+#include <algorithm>
+
+#include "parallel/sum.hpp"
+#include "solver/face.hpp"
+
+namespace snag {
+
+namespace {
+
+inline Vec3 scaled(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+/// Share e of the extrapolation in time, from Courant number and diffusion number of a cell.
+inline double extrapolation_share(double courant, double diffusion) {
+  return std::min(std::clamp(1.25 - 0.5 * courant, 0.5, 1.0), std::clamp(1.25 - 0.5 * diffusion, 0.0, 1.0));
+}
+
+inline double limited(double downwind_change, double upwind_slope_change, double weight) {
+  if (downwind_change == 0) return 0;
+  const double r = 2 * upwind_slope_change / downwind_change - 1;
+  return std::clamp(2 * r, 0.0, 1.0) * weight * downwind_change;
+}
+
+/// u_f^high - u_C of one face with flux F from P to N.
+template <Convection scheme>
+inline Vec3 high_order_part(const Mesh& mesh, int f, double F, std::span<const Vec3> u, std::span<const Mat3> G,
+                            std::span<const double> psi) {
+  const int P = mesh.owner[f], N = mesh.neighbour[f];
+  if constexpr (scheme == Convection::upwind) {
+    return {};
+  } else if constexpr (scheme == Convection::linear_upwind) {
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P];
+    return F > 0 ? psi[P] * (G[P] * way) : psi[N] * (G[N] * (way - mesh.delta[f]));
+  } else if constexpr (scheme == Convection::central) {
+    const double w = mesh.weight[f];
+    const Vec3 u_f = blend(w, u[P], u[N]) + blend(w, G[P], G[N]) * skewness(mesh, f);
+    return u_f - u[F > 0 ? P : N];
+  } else {
+    const int C = F > 0 ? P : N, D = F > 0 ? N : P;
+    const Vec3 change = u[D] - u[C], slope = (F > 0 ? 1.0 : -1.0) * (G[C] * mesh.delta[f]);
+    const double weight = F > 0 ? 1 - mesh.weight[f] : mesh.weight[f];
+    return {limited(change.x, slope.x, weight), limited(change.y, slope.y, weight), limited(change.z, slope.z, weight)};
+  }
+}
+
+}  // namespace
+
+TimeScheme bdf(double dt, double dt_old) {
+  if (dt_old <= 0) return {.dt = dt};
+  const double r = dt / dt_old;
+  return {.dt = dt, .now = (1 + 2 * r) / (1 + r), .old = -(1 + r), .older = r * r / (1 + r), .ratio = r};
+}
+
+Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings)
+    : mesh_(mesh),
+      settings_(settings),
+      matrix_(mesh),
+      diagonal_(mesh.n_all_cells()),
+      right_side_(mesh.n_all_cells()),
+      flux_(mesh.n_faces),
+      gradient_(mesh.n_all_cells()),
+      psi_(mesh.n_all_cells(), 1.0),
+      rate_(2 * static_cast<std::size_t>(mesh.n_all_cells())) {}
+
+void Momentum::guess_from_history(Flow& flow, const BoundarySet&, const TimeScheme& time) {
+  const double r = time.ratio;
+  std::fill(rate_.begin(), rate_.end(), 0.0);
+  for (int f = 0; f < mesh_.n_faces; ++f) {
+    flux_[f] = (1 + r) * flow.flux_old[f] - r * flow.flux[f] - flow.mesh_flux[f];  // flow.flux holds flux^(n-1) until it is corrected
+  }
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double c = conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
+    rate_[2 * P] += std::max(flux_[f], 0.0), rate_[2 * P + 1] += c;
+    rate_[2 * N] += std::max(-flux_[f], 0.0), rate_[2 * N + 1] += c;
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    rate_[2 * mesh_.owner[f]] += std::max(flux_[f], 0.0);
+    rate_[2 * mesh_.owner[f] + 1] += conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
+  }
+  mesh_.halo.exchange(rate_, 2);
+  for (int c = 0; c < mesh_.n_all_cells(); ++c) {
+    const double e =
+        r * extrapolation_share(time.dt * rate_[2 * c] / mesh_.cell_volume[c], time.dt * rate_[2 * c + 1] / mesh_.cell_volume[c]);
+    const Mat3 &G = flow.velocity_gradient[c], &G_old = flow.velocity_gradient_old[c];
+    for (int i = 0; i < 3; ++i) gradient_[c][i] = (1 + e) * G[i] - e * G_old[i];
+    flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
+  }
+  limit(flow);
+}
+
+void Momentum::guess_from_last(const Flow& flow) {
+  for (int f = 0; f < mesh_.n_faces; ++f) flux_[f] = flow.flux[f] - flow.mesh_flux[f];
+  gradient_ = flow.velocity_gradient;
+  limit(flow);
+}
+
+void Momentum::limit(const Flow& flow) {
+  if (settings_.convection != Convection::linear_upwind) return;
+  double speed2 = 0;
+  for (int c = 0; c < mesh_.n_cells; ++c) speed2 = std::max(speed2, norm_squared(flow.velocity[c]));
+  limit_gradient(mesh_, settings_.limiter, flow.velocity, gradient_, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
+}
+
+SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
+  start_rows(flow, time);
+  switch (settings_.convection) {
+    case Convection::upwind:
+      add_interior<Convection::upwind>(flow);
+      break;
+    case Convection::linear_upwind:
+      add_interior<Convection::linear_upwind>(flow);
+      break;
+    case Convection::central:
+      add_interior<Convection::central>(flow);
+      break;
+    case Convection::limited_linear:
+      add_interior<Convection::limited_linear>(flow);
+      break;
+  }
+  add_boundary(flow, boundary);
+  const auto report = gauss_seidel<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
+  record_boundary(flow, boundary);
+  return report;
+}
+
+/// Time derivative, drag, pressure gradient and forces; N a cell.
+void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
+  const double inertia = flow.density / time.dt;
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    const double V = mesh_.cell_volume[c], a = V * (inertia * time.now + flow.drag[c]);
+    diagonal_[c] = {a, a, a};
+    right_side_[c] = V * (flow.reaction[c] + flow.body_force - flow.pressure_gradient[c] -
+                          inertia * (time.old * flow.velocity_old[c] + time.older * flow.velocity_older[c]));
+  }
+}
+
+template <Convection scheme>
+void Momentum::add_interior(const Flow& flow) {
+  const double rho = flow.density;
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
+    const double F = rho * flux_[f], mu = flow.face_viscosity[f], c = conductance(S, d), D = mu * c;
+    const double out = std::max(F, 0.0), in = std::max(-F, 0.0);
+    matrix_.value[matrix_.place_of_owner[f]] = -in - D;
+    matrix_.value[matrix_.place_of_neighbour[f]] = -out - D;
+    const double from_owner = out + D, from_neighbour = in + D;
+    diagonal_[P] += {from_owner, from_owner, from_owner};
+    diagonal_[N] += {from_neighbour, from_neighbour, from_neighbour};
+
+    const Mat3 G_f = blend(mesh_.weight[f], gradient_[P], gradient_[N]);
+    Vec3 explicit_part = mu * (G_f * (S - c * d)) - F * high_order_part<scheme>(mesh_, f, F, flow.velocity, gradient_, psi_);
+    if (flow.variable_viscosity) explicit_part += mu * transposed_product(G_f, S);
+    right_side_[P] += explicit_part;
+    right_side_[N] -= explicit_part;
+  }
+}
+
+/// Coefficients of boundary face f with its cell P:   friction on the fluid = source - implicit * u_P,   convection out = F (carried ? u_P
+/// : 0) + given.
+struct Momentum::BoundaryFace {
+  Vec3 friction_slope, friction_source;  // kg/s, N
+  double convection_slope = 0;           // kg/s
+  Vec3 convection_source;                // N
+
+  BoundaryFace(const Momentum& equation, const Flow& flow, const BoundarySet& boundary, int patch, int f) {
+    const Mesh& mesh = equation.mesh_;
+    const int P = mesh.owner[f], b = f - mesh.n_interior;
+    const Vec3 &S = mesh.face_vector[f], &d = mesh.delta[f];
+    const Mat3& G = equation.gradient_[P];
+    const double F = flow.density * equation.flux_[f], mu = flow.face_viscosity[f];
+    switch (boundary.fixes(patch)) {
+      case Fixes::velocity: {
+        const Vec3& u = boundary.values().velocity[b];
+        const double c = conductance(S, d);
+        friction_slope = {mu * c, mu * c, mu * c};
+        friction_source = mu * (c * u + G * (S - c * d));
+        if (flow.variable_viscosity) friction_source += mu * transposed_product(G, S);
+        convection_source = F * u;
+        break;
+      }
+      case Fixes::pressure: {
+        const double area = norm(S);
+        const Vec3 n = S / area;
+        if (flow.variable_viscosity) friction_source = mu * transposed_product(G, S);
+        if (F > 0)
+          convection_slope = F, convection_source = F * (G * along_face(d, n));
+        else
+          convection_source = F * (equation.flux_[f] + flow.mesh_flux[f]) / area * n;
+        break;
+      }
+      case Fixes::symmetry: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal part implicit
+        const double area = norm(S);
+        const Vec3 n = S / area;
+        const double c = mu * area / dot(d, n);
+        friction_slope = c * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
+        const Vec3& u = flow.velocity[P];
+        friction_source = scaled(friction_slope, u) - c * dot(u, n) * n;
+        break;
+      }
+    }
+  }
+};
+
+void Momentum::add_boundary(Flow& flow, const BoundarySet& boundary) {
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const BoundaryFace face(*this, flow, boundary, static_cast<int>(p), f);
+      const int P = mesh_.owner[f], b = f - mesh_.n_interior;
+      const double C = face.convection_slope;
+      diagonal_[P] += face.friction_slope + Vec3{C, C, C};
+      right_side_[P] += face.friction_source - face.convection_source;
+      // The explicit parts are kept: after the solve the guess they came from is gone.
+      flow.boundary_friction[b] = -face.friction_source;
+      flow.boundary_convection[b] = face.convection_source;
+    }
+  }
+}
+
+/// Completes what the boundary faces did with the implicit parts at u*.
+void Momentum::record_boundary(Flow& flow, const BoundarySet& boundary) const {
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const BoundaryFace face(*this, flow, boundary, static_cast<int>(p), f);
+      const Vec3& u = flow.velocity[mesh_.owner[f]];
+      flow.boundary_friction[f - mesh_.n_interior] += scaled(face.friction_slope, u);
+      flow.boundary_convection[f - mesh_.n_interior] += face.convection_slope * u;
+    }
+  }
+}
+
+}  // namespace snag

@@ -1,0 +1,64 @@
+#pragma once
+// Momentum equation: the predictor u* of a time step with the pressure gradient known so far.
+//
+//   rho (a0 u* + a1 u^n + a2 u^(n-1))/dt + div(rho F u*) - div(mu grad u*) + beta u* = - grad p + f + body force
+//
+// a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
+#include "solver/boundary.hpp"
+#include "solver/cell_matrix.hpp"
+#include "solver/gradient.hpp"
+#include "solver/limiter.hpp"
+
+namespace snag {
+
+enum class Convection { upwind, linear_upwind, central, limited_linear };
+
+/// du/dt ~ (now u^(n+1) + old u^n + older u^(n-1)) / dt. Second order for any ratio of the steps; exact for parabolas in t.
+struct TimeScheme {
+  double dt = 0, now = 1, old = -1, older = 0;
+  double ratio = 0;  // dt / dt_old; 0 in the first step, which has no history: u^(n+1) is then guessed as u^n
+};
+TimeScheme bdf(double dt, double dt_old);
+
+struct MomentumSettings {
+  Convection convection = Convection::linear_upwind;
+  Limiter limiter = Limiter::venkatakrishnan;
+  double tolerance = 1e-8;
+  int max_sweeps = 400;
+};
+
+class Momentum {
+ public:
+  Momentum(const Mesh& mesh, const MomentumSettings& settings);
+
+  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms. Local.
+  void guess_from_history(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
+  /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
+  void guess_from_last(const Flow& flow);
+  /// Solve for u*, from flow.velocity as first guess into flow.velocity, ghosts too; fills flow.boundary_friction, boundary_convection.
+  /// Collective.
+  SweepReport predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
+
+  /// Gradient of velocity for the explicit terms, [n_all_cells], 1/s.
+  const std::vector<Mat3>& gradient_guess() const { return gradient_; }
+
+ private:
+  struct BoundaryFace;  // coefficients of one boundary face
+  void limit(const Flow& flow);
+  void start_rows(const Flow& flow, const TimeScheme& time);
+  template <Convection scheme>
+  void add_interior(const Flow& flow);
+  void add_boundary(Flow& flow, const BoundarySet& boundary);
+  void record_boundary(Flow& flow, const BoundarySet& boundary) const;
+
+  const Mesh& mesh_;
+  MomentumSettings settings_;
+  CellMatrix matrix_;
+  std::vector<Vec3> diagonal_, right_side_;  // [n_all_cells], the ghosts' parts are not used
+  std::vector<double> flux_;                 // F, relative to the mesh, [n_faces], m3/s
+  std::vector<Mat3> gradient_;
+  std::vector<double> psi_;   // limiter
+  std::vector<double> rate_;  // of convection and of diffusion, [2 n_all_cells], 1/s
+};
+
+}  // namespace snag

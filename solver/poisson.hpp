@@ -1,0 +1,53 @@
+#pragma once
+// Symmetric positive (semi-)definite equation on the cells, conjugate gradients with a multigrid preconditioner that is kept while it is
+// good:
+//
+//   sum_f k_f (x_P - x_N) + sum_b k_b x_P = b_P
+//
+// The preconditioner is set up again when iterations grow beyond 1.4 times those of a fresh one. For a resume the coefficients of the last
+// set-up are kept.
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+struct PoissonReport {
+  double initial = 0, final = 0;  // norms of the residual
+  int iterations = 0;
+  bool rebuilt = false;  // the preconditioner was set up in this solve
+};
+
+class Poisson {
+ public:
+  /// `multigrid`: "boomeramg" or "gamg". `singular`: no boundary value is fixed; x is then taken with zero mean. Collective.
+  Poisson(const Mesh& mesh, const std::string& multigrid, bool singular);
+  ~Poisson();
+
+  /// Coefficients k of all faces (boundary faces: 0 where nothing is fixed), [n_faces]. Collective.
+  void assemble(std::span<const double> k);
+  /// Solve until the residual norm is below `target`, from x [n_all_cells] as first guess; ghosts filled. Throws Error(diverged).
+  /// Collective.
+  PoissonReport solve(std::span<const double> b, std::vector<double>& x, double target);
+
+  /// True if the next solve sets the preconditioner up from the matrix as it stands then.
+  bool rebuild_is_due() const { return rebuild_; }
+  double fresh_cost() const { return fresh_cost_; }
+  /// Set the preconditioner up from the present matrix, as it was when `fresh_cost` was measured (a resume). Collective.
+  void restore(double fresh_cost, bool rebuild_due);
+
+ private:
+  struct Petsc;
+  void remove_mean(std::span<double> x) const;
+  const Mesh& mesh_;
+  bool singular_;
+  std::unique_ptr<Petsc> petsc_;
+  std::vector<double> entries_;  // in COO order
+  bool rebuild_ = true;
+  double fresh_cost_ = 0;  // iterations a decade after a set-up
+};
+
+}  // namespace snag
