@@ -9,6 +9,7 @@ namespace snag {
 
 struct MeshQuality {
   std::int64_t n_cells = 0, n_interior = 0, n_boundary = 0;
+  std::int64_t n_regions = 0;             // that share no face; rotor and stator are two: reported, not judged
   double volume = 0;                      // m3
   double min_volume = 0, max_volume = 0;  // m3
   double max_non_orthogonality_deg = 0, mean_non_orthogonality_deg = 0;
@@ -21,7 +22,7 @@ struct MeshQuality {
 
 /// Collective; the same result on every rank.
 MeshQuality quality(const Mesh& mesh);
-/// The table a user reads, with patches and zones.
+/// The table a user reads, with patches and zones. Collective.
 std::string quality_table(const Mesh& mesh, const MeshQuality& q);
 
 }  // namespace snag

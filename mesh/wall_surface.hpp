@@ -1,5 +1,6 @@
 #pragma once
 // Walls as triangles, for particles: from patches of the mesh or from STL. Every rank holds all of them.
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
