@@ -78,12 +78,13 @@ Tile make_tile(const RagPiece& piece, int rag_index, const TileGrid& grid, int t
       tile.field(Tile::qw)[k] = pose.orientation.w;
       tile.set_vector(Tile::qx, k, {pose.orientation.x, pose.orientation.y, pose.orientation.z});
       if (!piece.exists(column, row)) continue;
-      const bool inside = i >= 0 && j >= 0 && i < tile.nx && j < tile.ny;
-      tile.exists[k] = 1, tile.free[k] = inside ? 1 : 0;
+      const bool column_inside = i >= 0 && i < tile.nx, row_inside = j >= 0 && j < tile.ny;
+      tile.exists[k] = 1, tile.free[k] = column_inside && row_inside ? 1 : 0;
       tile.set_vector(Tile::vx, k, piece.velocity + cross(piece.spin, pose.position - piece.centre));
       tile.set_vector(Tile::wx, k, piece.spin);
-      if (i < tile.nx && piece.exists(column + 1, row)) tile.bond_x[k] = 1;
-      if (j < tile.ny && piece.exists(column, row + 1)) tile.bond_y[k] = 1;
+      // Only bonds with an end in the tile: those between two particles of the ring are the neighbours' business.
+      if (row_inside && i < tile.nx && piece.exists(column + 1, row)) tile.bond_x[k] = 1;
+      if (column_inside && j < tile.ny && piece.exists(column, row + 1)) tile.bond_y[k] = 1;
     }
   }
   return tile;

@@ -1,23 +1,145 @@
 #pragma once
 // All cloth of a run: tiles owned by this rank, their halo, bonds, contacts and walls, advanced in stable sub-steps.
+//
+// Every tile has one owner. Before the forces of a sub-step owned tiles get their rings filled from their lattice neighbours, and whole
+// tiles of other ranks that are near are present as ghosts (lattice neighbours always; with contacts also those whose bounding boxes come
+// within the contact cutoff). Forces on a particle are computed by its owner only, from the same numbers in the same order on any number of
+// ranks.
+#include <mpi.h>
+
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "dem/bonds/stable_step.hpp"
+#include "dem/bonds/tile_bonds.hpp"
+#include "dem/integrator.hpp"
+#include "dem/lattice.hpp"
 #include "dem/rag.hpp"
+#include "dem/rag_settings.hpp"
 #include "dem/tile.hpp"
 
 namespace snag {
 
 class CheckpointReader;
 class CheckpointWriter;
+class ContactSolver;
+class TileHalo;
 
-/// A force from outside (the fluid) on the particles of an owned tile, added once a sub-step to fx .. tz of all its particles.
+/// A force from outside (the fluid) on the particles of an owned tile, added once a sub-step to fx .. tz of all its particles. It acts over
+/// the whole sub-step: the impulse on a particle is force times `step`, to round-off.
 class TileForce {
  public:
   virtual ~TileForce() = default;
-  /// `index`: place of the tile in RagSystem::tiles(); `step`: length of the sub-step, s.
+  /// `index`: place of the tile in RagSystem::tiles(); `step`: length of the sub-step, s. Positions are those in the middle of the
+  /// sub-step, velocities those at its start.
   virtual void add(std::size_t index, Tile& tile, double step) = 0;
+};
+
+/// Decides which rank owns each tile, from the centres of this rank's tiles; collective.
+using OwnerOf = std::function<std::vector<int>(const std::vector<Vec3>& tile_centres)>;
+
+/// What is left of the bonds of one rag.
+struct BondCount {
+  std::int64_t whole = 0, broken = 0;
+};
+
+class RagSystem {
+ public:
+  /// Places the pieces; tiles are spread in equal blocks over the ranks until the first migrate(). Collective; throws Error(usage).
+  RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<RagPiece> pieces);
+  ~RagSystem();
+  RagSystem(const RagSystem&) = delete;
+  RagSystem& operator=(const RagSystem&) = delete;
+
+  /// From now on with contacts of particles and walls (dem/contacts/contact_solver.hpp), made for rags() of this system. Before the first
+  /// advance; collective. Throws Error(usage) if a given step is above the contacts' limit.
+  void set_contacts(std::unique_ptr<ContactSolver> contacts);
+  ContactSolver* contacts() { return contacts_.get(); }
+  /// Uniform acceleration of all free particles, m/s2 (default 0: weight and buoyancy come with the forces of the fluid).
+  void set_gravity(const Vec3& gravity) { gravity_ = gravity; }
+  /// Rate at which outside forces damp the motion of a particle, largest slope/m, 1/s: part of the stable step. Throws Error(usage) if a
+  /// given step is above the limit that follows.
+  void set_damping_rate(double rate);
+
+  MPI_Comm comm() const { return comm_; }
+  const std::vector<Rag>& rags() const { return rags_; }
+  /// Owned tiles in order of their number; the reference stays, its content changes with migrate() and load().
+  std::vector<Tile>& tiles() { return tiles_; }
+  const std::vector<Tile>& tiles() const { return tiles_; }
+  double time() const { return time_; }
+  std::int64_t n_sub_steps() const { return n_sub_steps_; }
+  /// Particle-steps done by this rank, for performance figures.
+  std::int64_t n_particle_steps() const { return n_particle_steps_; }
+  /// Of all rags, all ranks.
+  std::int64_t n_particles() const;
+
+  /// Largest sub-step by bonds, contacts and damping, without safety factor, s; and what sets it.
+  const StepLimit& step_limit() const { return limit_; }
+  /// The sub-step that advance aims at: the given one, or safety times the limit, s.
+  double stable_step() const;
+
+  /// Advance by dt in ceil(dt/stable_step()) equal sub-steps. Collective; throws Error(invariant) if a particle or bond was lost,
+  /// Error(diverged) if a position is no number.
+  void advance(double dt, TileForce* force = nullptr);
+  /// Give tiles to the ranks that `owner_of` names (default: equal blocks), with all their state and contact history. Collective.
+  void migrate(const OwnerOf& owner_of = {});
+  /// Particles with ids for which `held` is true keep their present velocity from now on (a clamp), the others are free.
+  void clamp(const std::function<bool(std::int64_t id)>& held);
+  /// Velocity of all clamped particles of this rank, from now on, m/s.
+  void set_clamp_velocity(const std::function<Vec3(std::int64_t id)>& velocity);
+
+  /// Bonds of each rag, all ranks; throws Error(invariant) naming ids if particles, tiles or bonds were lost. Collective.
+  std::vector<BondCount> check() const;
+
+  /// All state, contact history and counters, bit for bit. Collective; throws Error(io).
+  void save(CheckpointWriter& writer) const;
+  void load(CheckpointReader& reader);
+
+ private:
+  void set_limit();
+  void exchange_state();
+  void evaluate_and_move(double step, double drift_step, TileForce* force);
+  void find_ghosts();
+  bool ghosts_outdated() const;
+  std::vector<double> all_boxes();
+  bool near(int a, int b, const std::vector<double>& boxes) const;
+  int neighbour_number(int number, int column_step, int row_step) const;
+  void set_pointers();
+  void move_tiles(const std::vector<int>& owner);
+  std::vector<double> pack(const Tile& tile) const;
+  Tile unpack(int number, std::span<const double> values);
+  Tile tile_at_birth(int number) const;
+  int rag_of_tile(int number) const;
+  int n_all_tiles() const { return static_cast<int>(owner_.size()); }
+
+  MPI_Comm comm_;
+  DemSettings settings_;
+  std::vector<RagPiece> pieces_;
+  std::vector<Rag> rags_;
+  std::vector<TileGrid> grids_;
+  std::vector<BondLaws> laws_;
+  Vec3 gravity_;
+  double damping_rate_ = 0;
+  StepLimit limit_;
+  double time_ = 0;
+  std::int64_t n_sub_steps_ = 0, n_particle_steps_ = 0;
+  std::vector<std::int64_t> broken_;  // [n_rags] bonds that broke on this rank
+
+  std::vector<int> owner_;    // [n_tiles] rank of each tile
+  std::vector<int> numbers_;  // of the owned tiles, ascending
+  std::vector<Tile> tiles_;
+  std::vector<int> ghost_numbers_;
+  std::vector<Tile> ghosts_;
+  std::vector<Tile*> owned_pointers_;
+  std::vector<const Tile*> ghost_pointers_;
+  std::vector<Box> boxes_;  // of the owned tiles when ghosts were chosen
+  std::int64_t n_owned_particles_ = 0;
+  std::unique_ptr<TileHalo> halo_;
+  std::unique_ptr<ContactSolver> contacts_;
 };
 
 }  // namespace snag

@@ -1,0 +1,143 @@
+#include "dem/rag_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "dem/tile_halo.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value;
+  return text.str();
+}
+
+Inertia inertia_of(const Rag& rag, const Vec3& gravity) { return {rag.mass, rag.inertia, gravity}; }
+
+}  // namespace
+
+RagSystem::RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<RagPiece> pieces)
+    : comm_(comm), settings_(settings), pieces_(std::move(pieces)) {
+  std::int64_t id = 0;
+  int n_tiles = 0;
+  for (RagPiece& piece : pieces_) {
+    Rag& rag = piece.rag;
+    rag.first_particle = id;
+    id += static_cast<std::int64_t>(rag.n_columns) * rag.n_rows;
+    rag.n_particles = count_particles(piece), rag.n_bonds = count_bonds(piece);
+    rags_.push_back(rag);
+    laws_.push_back(bond_laws(rag));
+    grids_.push_back(tile_grid(rag.n_columns, rag.n_rows));
+    grids_.back().first_tile = n_tiles;
+    n_tiles += grids_.back().n_tiles();
+  }
+  broken_.assign(rags_.size(), 0);
+  owner_.resize(n_tiles);
+  for (int t = 0; t < n_tiles; ++t) owner_[t] = static_cast<int>(static_cast<std::int64_t>(t) * size_of(comm_) / n_tiles);
+  for (int t = 0; t < n_tiles; ++t)
+    if (owner_[t] == rank_of(comm_)) numbers_.push_back(t), tiles_.push_back(tile_at_birth(t));
+  set_limit();
+  set_pointers();
+  find_ghosts();
+}
+
+RagSystem::~RagSystem() = default;
+
+void RagSystem::set_contacts(std::unique_ptr<ContactSolver> contacts) {
+  contacts_ = std::move(contacts);
+  set_limit();
+  find_ghosts();
+}
+
+void RagSystem::set_damping_rate(double rate) {
+  damping_rate_ = rate;
+  set_limit();
+}
+
+std::int64_t RagSystem::n_particles() const {
+  std::int64_t n = 0;
+  for (const Rag& rag : rags_) n += rag.n_particles;
+  return n;
+}
+
+void RagSystem::set_limit() {
+  limit_ = {std::numeric_limits<double>::infinity(), "nothing"};
+  for (const Rag& rag : rags_) {
+    const StepLimit of_rag = stable_bond_step(rag, damping_rate_);
+    if (of_rag.step < limit_.step) limit_ = of_rag;
+  }
+  if (contacts_ && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
+  if (settings_.step && *settings_.step > limit_.step)
+    throw Error(ExitCode::usage, "[dem] step: " + text_of(*settings_.step) + " s is above the stable step of " + text_of(limit_.step) +
+                                     " s, set by " + limit_.reason + "; give a shorter step, or none to let Snag choose");
+}
+
+double RagSystem::stable_step() const { return settings_.step ? *settings_.step : settings_.safety * limit_.step; }
+
+/// Drift-kick-drift (dem/integrator.hpp); the half drifts between two sub-steps are one.
+void RagSystem::advance(double dt, TileForce* force) {
+  const int n = std::max(1, static_cast<int>(std::ceil(dt / stable_step() * (1 - 1e-12))));
+  const double step = dt / n;
+  if (contacts_) contacts_->set_time(time_ + step / 2);
+  for (Tile& tile : tiles_) drift(tile, step / 2);
+  for (int k = 0; k < n; ++k) {
+    exchange_state();
+    evaluate_and_move(step, k + 1 < n ? step : step / 2, force);
+  }
+  time_ += dt, n_sub_steps_ += n, n_particle_steps_ += n * n_owned_particles_;
+  exchange_state();
+  check();
+}
+
+void RagSystem::exchange_state() {
+  if (contacts_ && size_of(comm_) > 1) {
+    int outdated = ghosts_outdated(), any = 0;
+    MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, comm_);
+    if (any) find_ghosts();
+  }
+  halo_->exchange();
+}
+
+void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    Tile& tile = tiles_[i];
+    const Rag& rag = rags_[tile.rag];
+    broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rag.breakage, tile);
+    if (force) force->add(i, tile, step);
+    if (!contacts_) kick_and_drift(tile, inertia_of(rag, gravity_), step, drift_step);
+  }
+  if (!contacts_) return;
+  contacts_->add_forces(owned_pointers_, ghost_pointers_, step);
+  for (Tile& tile : tiles_) kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);
+}
+
+void RagSystem::clamp(const std::function<bool(std::int64_t)>& held) {
+  for (Tile& tile : tiles_)
+    for (int j = 0; j < tile.ny; ++j)
+      for (int i = 0; i < tile.nx; ++i) {
+        const int k = tile.index(i, j);
+        tile.free[k] = tile.exists[k] > 0.5 && !held(particle_id(rags_[tile.rag], tile, i, j)) ? 1 : 0;
+      }
+}
+
+void RagSystem::set_clamp_velocity(const std::function<Vec3(std::int64_t)>& velocity) {
+  for (Tile& tile : tiles_)
+    for (int j = 0; j < tile.ny; ++j)
+      for (int i = 0; i < tile.nx; ++i) {
+        const int k = tile.index(i, j);
+        if (tile.exists[k] < 0.5 || tile.free[k] > 0.5) continue;
+        tile.set_vector(Tile::vx, k, velocity(particle_id(rags_[tile.rag], tile, i, j)));
+        tile.set_vector(Tile::wx, k, {});
+      }
+}
+
+}  // namespace snag

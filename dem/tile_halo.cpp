@@ -1,0 +1,72 @@
+#include "dem/tile_halo.hpp"
+
+#include <algorithm>
+
+namespace snag {
+
+double* pack_state(const Tile& tile, double* out) {
+  for (int f = 0; f < Tile::n_state; ++f)
+    for (int j = 0; j < tile.ny; ++j) out = std::copy_n(tile.field(f) + tile.index(0, j), tile.nx, out);
+  return out;
+}
+
+const double* unpack_state(Tile& tile, const double* in) {
+  for (int f = 0; f < Tile::n_state; ++f)
+    for (int j = 0; j < tile.ny; ++j, in += tile.nx) std::copy_n(in, tile.nx, tile.field(f) + tile.index(0, j));
+  return in;
+}
+
+namespace {
+
+std::size_t state_size(const Tile& tile) { return static_cast<std::size_t>(Tile::n_state) * tile.nx * tile.ny; }
+
+/// Copies n particles' states; places advance by `to_step`, `from_step`.
+void copy_line(Tile& to, int to_place, int to_step, const Tile& from, int from_place, int from_step, int n) {
+  for (int f = 0; f < Tile::n_state; ++f) {
+    double* target = to.field(f) + to_place;
+    const double* source = from.field(f) + from_place;
+    for (int k = 0; k < n; ++k) target[k * to_step] = source[k * from_step];
+  }
+}
+
+}  // namespace
+
+TileHalo::TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts)
+    : comm_(comm), neighbours_(std::move(neighbours)), owned_(owned), ghosts_(ghosts), requests_(2 * neighbours_.size()) {
+  for (Neighbour& n : neighbours_) {
+    std::size_t out = 0, in = 0;
+    for (const int t : n.send) out += state_size(owned_[t]);
+    for (const int t : n.receive) in += state_size(ghosts_[t]);
+    n.out.resize(out), n.in.resize(in);
+  }
+}
+
+void TileHalo::add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above) {
+  rings_.push_back({&tile, {left, right, below, above}});
+}
+
+void TileHalo::exchange() {
+  constexpr int tag = 71;
+  int r = 0;
+  for (Neighbour& n : neighbours_) MPI_Irecv(n.in.data(), static_cast<int>(n.in.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
+  for (Neighbour& n : neighbours_) {
+    double* out = n.out.data();
+    for (const int t : n.send) out = pack_state(owned_[t], out);
+    MPI_Isend(n.out.data(), static_cast<int>(n.out.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
+  }
+  MPI_Waitall(r, requests_.data(), MPI_STATUSES_IGNORE);
+  for (const Neighbour& n : neighbours_) {
+    const double* in = n.in.data();
+    for (const int t : n.receive) in = unpack_state(ghosts_[t], in);
+  }
+  for (const Ring& ring : rings_) {
+    Tile& t = *ring.tile;
+    const auto& [left, right, below, above] = ring.from;
+    if (left) copy_line(t, t.index(-1, 0), t.stride, *left, left->index(left->nx - 1, 0), left->stride, t.ny);
+    if (right) copy_line(t, t.index(t.nx, 0), t.stride, *right, right->index(0, 0), right->stride, t.ny);
+    if (below) copy_line(t, t.index(0, -1), 1, *below, below->index(0, below->ny - 1), 1, t.nx);
+    if (above) copy_line(t, t.index(0, t.ny), 1, *above, above->index(0, 0), 1, t.nx);
+  }
+}
+
+}  // namespace snag
