@@ -80,7 +80,7 @@ void CoupledSolver::settle(double dt) {
     const int k = particles.place(b);
     if (tile.free[k] > 0) tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + settled[b] / rags_.rags()[tile.rag].mass);
   }
-  const MomentumBalance balance = exchange_->balance();
+  const ExchangeBalance balance = exchange_->balance();
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;
   report_.force_on_water = balance.on_water / dt;

@@ -55,7 +55,7 @@ std::vector<Vec3> Exchange::settle() {
   return settled;
 }
 
-MomentumBalance Exchange::balance() const {
+ExchangeBalance Exchange::balance() const {
   const MPI_Comm comm = flow_.mesh.comm;
   std::vector<Vec3> applied(flow_.mesh.n_cells);
   std::vector<double> exchanged(impulse_.size()), implicit(applied.size());
@@ -66,7 +66,7 @@ MomentumBalance Exchange::balance() const {
     implicit[c] = factor * norm(drag);
   }
   for (std::size_t b = 0; b < impulse_.size(); ++b) exchanged[b] = norm(impulse_[b]);
-  MomentumBalance balance;
+  ExchangeBalance balance;
   balance.on_rags = sum(comm, impulse_);
   balance.on_water = sum(comm, applied);
   balance.exchanged = sum(comm, exchanged);
@@ -81,7 +81,7 @@ double Exchange::max_drag_number() const {
   return maximum(flow_.mesh.comm, largest);
 }
 
-void check_momentum(const MomentumBalance& balance) {
+void check_momentum(const ExchangeBalance& balance) {
   const double lost = norm(balance.on_rags + balance.on_water);
   if (lost <= momentum_tolerance * balance.exchanged + balance.round_off) return;
   std::ostringstream message;

@@ -15,7 +15,7 @@
 namespace snag {
 
 /// What was exchanged in one step; sums over all ranks.
-struct MomentumBalance {
+struct ExchangeBalance {
   Vec3 on_rags, on_water;  // N s
   double exchanged = 0;    // sum of |impulse| over the particles, N s
   double round_off = 0;    // what the arithmetic of f - beta u can leave, N s
@@ -33,7 +33,7 @@ class Exchange {
   /// After the flow's step: dJ of every particle, N s; added to what balance() counts. Collective.
   std::vector<Vec3> settle();
   /// What was exchanged by give() and settle(), for check_momentum. Collective.
-  MomentumBalance balance() const;
+  ExchangeBalance balance() const;
   /// Largest beta dt/rho: above 2 an explicit exchange would be unstable. Collective.
   double max_drag_number() const;
 
@@ -47,6 +47,6 @@ class Exchange {
 };
 
 /// Throws Error(invariant) unless momentum is balanced to 1e-10 of what was exchanged. The same on every rank.
-void check_momentum(const MomentumBalance& balance);
+void check_momentum(const ExchangeBalance& balance);
 
 }  // namespace snag

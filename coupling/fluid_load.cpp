@@ -6,7 +6,7 @@ namespace snag {
 
 namespace {
 enum Sum { impulse_x, impulse_y, impulse_z, sensitivity_sum, n_sums };
-constexpr int n_outputs = 11;  // force and torque with and (force only) without reaction, slope, added mass
+constexpr int n_arrays = 12;  // force with reaction, force without, torque, slope, added mass, phi
 }  // namespace
 
 FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::vector<Rag>& rags)
@@ -27,7 +27,7 @@ void FluidLoad::begin_step(std::span<const Tile> tiles) {
 void FluidLoad::add(std::size_t index, Tile& tile, double step) {
   const Rag& rag = rags_[tile.rag];
   const std::size_t size = tile.exists.size();
-  scratch_.assign(n_outputs * size, 0.0);
+  scratch_.assign(n_arrays * size, 0.0);
   const auto array = [&](int f) { return scratch_.data() + f * size; };
   const VectorSum torque{array(6), array(7), array(8)};
   const Forces reacting{{array(0), array(1), array(2)}, torque, array(9), array(10)};
@@ -40,24 +40,28 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
 
   const double m = rag.mass;
   const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(9), *added_mass = array(10);
-  double* Q = sums_.field(index, sensitivity_sum);
+  double *phi = array(11), *Q = sums_.field(index, sensitivity_sum);
   for (int j = 0; j < tile.ny; ++j) {
     const int first = tile.index(0, j), end = first + tile.nx;
+#pragma omp simd
+    for (int k = first; k < end; ++k) {
+      const double theta = step * slope[k] / (m + added_mass[k]);
+      phi[k] = free[k] > 0 ? (1 + theta / 6) / (1 + theta * (2.0 / 3 + theta / 6)) : 1;
+      Q[k] += exists[k] > 0 ? step * slope[k] * phi[k] : 0;
+    }
     for (int i = 0; i < 3; ++i) {
       const double *R = array(i), *N = array(3 + i), *T = array(6 + i);
       double *f = tile.field(Tile::fx + i), *t = tile.field(Tile::tx + i), *J = sums_.field(index, impulse_x + i);
 #pragma omp simd
       for (int k = first; k < end; ++k) {
-        const bool here = exists[k] > 0, moves = free[k] > 0;
-        const double kicked = m * (f[k] + R[k] + N[k]) / (m + added_mass[k] + 0.5 * step * slope[k]);  // m a
-        const double total = moves ? kicked : f[k] + R[k] + N[k];
+        const bool here = exists[k] > 0;
+        const double inertia_share = free[k] > 0 ? m / (m + added_mass[k]) : 1;
+        const double total = (f[k] + R[k] + N[k]) * phi[k] * inertia_share;  // m a
         J[k] += here ? step * (total - f[k] - N[k]) : 0;
         f[k] = here ? total : f[k];
         t[k] += here ? T[k] : 0;
       }
     }
-#pragma omp simd
-    for (int k = first; k < end; ++k) Q[k] += exists[k] > 0 ? step * slope[k] : 0;
   }
 }
 

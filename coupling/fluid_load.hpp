@@ -1,13 +1,17 @@
 #pragma once
 // The fluid's forces on the particles, sub-step by sub-step, and what they sum to.
 //
-//   (m + m_a + h/2 K) a = F_other + F(u, v)       K = dF/dw (secant), m_a added mass, h sub-step: the drag of the mean velocity v + h/2 a
-//   F_fluid = m a - F_other                       what the integrator adds to the other forces so that it kicks by a
-//   J += h F_fluid,  Q += h K                     impulse on each particle (N s), and its sensitivity dJ/du (kg) for the implicit drag of
-//   the flow
+//   M = m + m_a,  theta = h K/M                     K = dF/dw (secant), m_a added mass, h sub-step
+//   M a = (F_other + F(u, v)) phi(theta),           phi = (1 + theta/6) / (1 + 2 theta/3 + theta^2/6) = (1 - exp(-theta))/theta +
+//   O(theta^3) F_fluid = m a - F_other                         what the integrator adds to the other forces so that it kicks by a J += h
+//   F_fluid,  Q += h K phi                   impulse on each particle (N s), and its sensitivity dJ/du (kg) for the implicit drag of the
+//   flow
 //
-// Second order in h, and stable for any h K/m. F_other must be complete: bonds, contacts and walls come before the fluid.
-// Forces that do not react on the fluid (weight and buoyancy) act on the particle and are left out of J.
+// phi is the mean of the relaxation towards the fluid over a sub-step: third order in theta for a linear drag, and L-stable: a particle
+// much lighter than its drag takes the fluid's velocity within one sub-step, without ringing. F_other must be complete: bonds, contacts and
+// walls come before the fluid. Particles that a clamp holds (Tile::free = 0) feel the force without relaxing: phi = 1. Source of phi: Pade
+// approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3. Forces that do not react on the
+// fluid (weight and buoyancy) act on the particle and are left out of J.
 #include <memory>
 
 #include "coupling/fluid_field.hpp"
