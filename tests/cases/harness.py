@@ -51,8 +51,8 @@ class Monitor:
         raise KeyError(f"no column {name}; there are {self.columns}")
 
     def physical(self):
-        """Columns that the clock and the route of a linear solver do not enter."""
-        return [c for c in self.columns if not re.search(r"iterations|residual|wall|_s \[s\]$|_per_s|rebuilt|preconditioner", c)]
+        """Columns of the state: neither the clock, nor the route of a linear solver, nor what is left of a quantity that should be zero."""
+        return [c for c in self.columns if not re.search(r"iterations|residual|seconds|wall|_s \[s\]$|rebuilt|_rel \[1\]|continuity", c)]
 
 
 class Run:
