@@ -126,20 +126,21 @@ void Pump::sort_casing(const std::vector<int>& volumes, Faces& faces) const {
 
 void Pump::sort_suction(const std::vector<int>& volumes, Faces& faces) const {
   const bool from_tank = suction == "tank";
-  const double z_eye = dimensions.eye_height(), z_plate = tank.plate(dimensions), z_cover = tank.cover(dimensions);
+  const double z_eye = dimensions.eye_height(), z_plate = tank.plate(dimensions);
   const double pipe_end = z_eye + dimensions.inlet_length.value_or(3 * dimensions.inlet_diameter);
   for (const Face& face : faces_of(volumes)) {
     Surface surface = casing_walls;
     if (face.lies_at(2, z_eye)) surface = interface_stator;
     if (!from_tank && face.lies_at(2, pipe_end)) surface = inlet;
     if (from_tank && face.lies_at(1, tank.depth - tank.axis_height)) surface = inlet;
-    const bool wide =
-        face.upper.x - face.lower.x > tank.width - 1e-4 || face.lies_at(0, tank.width / 2) || face.lies_at(0, -tank.width / 2);
-    const bool on_plate = face.lower.z > z_plate - 1e-5 && face.upper.z < z_plate + tank.plate_thickness + 1e-5;
-    if (from_tank && surface == casing_walls && wide && !face.lies_at(2, z_cover)) surface = tank_walls;
-    if (from_tank && surface == casing_walls && on_plate) surface = plate;
+    if (from_tank && surface == casing_walls) {
+      const bool wide =
+          face.upper.x - face.lower.x > tank.width - 1e-4 || face.lies_at(0, tank.width / 2) || face.lies_at(0, -tank.width / 2);
+      const bool on_plate = face.lower.z > z_plate - 1e-5 && face.upper.z < z_plate + tank.plate_thickness + 1e-5;
+      surface = wide ? tank_walls : on_plate ? plate : casing_walls;
+    }
     faces.of[surface].push_back(face.tag);
-    if (surface == casing_walls && !(from_tank && face.lies_at(2, z_cover))) faces.pipes.push_back(face.tag);
+    if (surface == casing_walls) faces.pipes.push_back(face.tag);
   }
 }
 
@@ -187,15 +188,17 @@ Expectation Pump::build(double size_factor) {
   }
   const auto walls = without(without(joined_lists(faces.of[impeller_walls], faces.of[casing_walls]), faces.edges), faces.pipes);
   // Growth is slow on coarse meshes and quick on fine ones: in between the core's size and the casing's radius.
-  const double growth_distance = std::sqrt(h.core * dimensions.tongue_tip_radius()), background = from_tank ? h.tank : h.pipe;
+  const double growth_distance = std::sqrt(h.core * dimensions.tongue_tip_radius());
   SizeField field;
   field.around(walls, {h.wall, h.core, 0, growth_distance});
   field.around(faces.edges, {h.edge, h.core, 0, growth_distance});
   field.around(joined_lists(faces.of[interface_rotor], faces.of[interface_stator]), {h.interface, h.core, 0, growth_distance});
   field.around(faces.pipes, {0.625 * h.pipe, h.pipe, 0, 2.5 * h.pipe}, !from_tank);
   if (from_tank) {
-    field.around(faces.of[plate], {h.core, background, 0, 8 * h.core});
-    field.formula(fmt::format("{}", background));
+    const double reach = tank.width / 2;
+    field.around(faces.pipes, {0.625 * h.pipe, h.tank, 0, reach});
+    field.around(faces.of[plate], {1.5 * h.core, h.tank, 0, reach});
+    field.formula(fmt::format("{}", h.tank));
   }
   field.apply();
   return expectation;
