@@ -1,0 +1,223 @@
+#include "dem/rag_measures.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dem/bonds/bond_law.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+template <int direction>
+BondEnd bond_end(const Tile& tile, int k) {
+  const double w = tile.field(Tile::qw)[k];
+  const Vec3 v = tile.vector(Tile::qx, k);
+  return {tile.vector(Tile::x, k),
+          tile.vector(Tile::vx, k),
+          tile.vector(Tile::wx, k),
+          w,
+          v.x,
+          v.y,
+          v.z,
+          carried_direction<direction>(w, v.x, v.y, v.z)};
+}
+
+/// Visits a tile's particles: f(place, i, j).
+template <class F>
+void for_particles(const Tile& tile, const F& f) {
+  for (int j = 0; j < tile.ny; ++j)
+    for (int i = 0; i < tile.nx; ++i)
+      if (tile.exists[tile.index(i, j)] > 0.5) f(tile.index(i, j), i, j);
+}
+
+/// Visits the whole bonds whose first end is in the tile, or with `all` also those from the ring: f(first place, second place, elastic
+/// bond).
+template <class F>
+void for_bonds(const Tile& tile, const BondLaws& laws, bool all, const F& f) {
+  for (int j = all ? -1 : 0; j < tile.ny; ++j)
+    for (int i = all ? -1 : 0; i < tile.nx; ++i) {
+      const int k = tile.index(i, j);
+      if (j >= 0 && tile.bond_x[k] > 0.5) f(k, k + 1, bond_force<0, false>(laws[0], bond_end<0>(tile, k), bond_end<0>(tile, k + 1)));
+      if (i >= 0 && tile.bond_y[k] > 0.5)
+        f(k, k + tile.stride, bond_force<1, false>(laws[1], bond_end<1>(tile, k), bond_end<1>(tile, k + tile.stride)));
+    }
+}
+
+/// Terms of one rag's sums on this rank; summed over ranks without regard to their order.
+struct Terms {
+  std::vector<Vec3> position, momentum, angular_momentum;
+  std::vector<double> kinetic, bond;
+  std::array<std::vector<double>, 6> moment;  // xx yy zz xy yz zx about the origin of the tile sums
+  double tension = -infinity, strain = -infinity;
+  Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity}, first, last;
+  double has_first = 0, has_last = 0;
+};
+
+void add_particles(const Tile& tile, const Rag& rag, Terms& terms) {
+  for_particles(tile, [&](int k, int i, int j) {
+    const Vec3 x = tile.vector(Tile::x, k), p = rag.mass * tile.vector(Tile::vx, k), w = tile.vector(Tile::wx, k);
+    terms.position.push_back(x), terms.momentum.push_back(p);
+    terms.angular_momentum.push_back(cross(x, p) + rag.inertia * w);
+    terms.kinetic.push_back(0.5 * dot(p, p) / rag.mass + 0.5 * rag.inertia * dot(w, w));
+    for (int c = 0; c < 3; ++c) {
+      terms.lower[c] = std::min(terms.lower[c], x[c]), terms.upper[c] = std::max(terms.upper[c], x[c]);
+      terms.moment[c].push_back(x[c] * x[c]), terms.moment[3 + c].push_back(x[c] * x[(c + 1) % 3]);
+    }
+    if (tile.row + j != rag.n_rows / 2) return;
+    if (tile.column + i == 0) terms.first = x, terms.has_first = 1;
+    if (tile.column + i == rag.n_columns - 1) terms.last = x, terms.has_last = 1;
+  });
+}
+
+double elongation(const std::array<double, 6>& moment, const Vec3& centre) {
+  Eigen::Matrix3d m;
+  const double xy = moment[3] - centre.x * centre.y, yz = moment[4] - centre.y * centre.z, zx = moment[5] - centre.z * centre.x;
+  m << moment[0] - centre.x * centre.x, xy, zx, xy, moment[1] - centre.y * centre.y, yz, zx, yz, moment[2] - centre.z * centre.z;
+  const Eigen::Vector3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(m, Eigen::EigenvaluesOnly).eigenvalues();
+  const double noise = 1e-12 * m.trace();
+  if (axes(2) <= 0) return 1;
+  return axes(1) > noise ? std::sqrt(axes(2) / axes(1)) : infinity;
+}
+
+RagState state_of(MPI_Comm comm, const Rag& rag, const Terms& t) {
+  RagState s;
+  const double n = static_cast<double>(rag.n_particles);
+  s.centre = sum(comm, std::span<const Vec3>(t.position)) / n;
+  s.momentum = sum(comm, std::span<const Vec3>(t.momentum));
+  s.velocity = s.momentum / (n * rag.mass);
+  s.angular_momentum = sum(comm, std::span<const Vec3>(t.angular_momentum));
+  s.kinetic_energy = sum(comm, std::span<const double>(t.kinetic)), s.bond_energy = sum(comm, std::span<const double>(t.bond));
+  std::array<double, 6> moment;
+  for (int c = 0; c < 6; ++c) moment[c] = sum(comm, std::span<const double>(t.moment[c])) / n;
+  s.elongation_ratio = elongation(moment, s.centre);
+  for (int c = 0; c < 3; ++c) s.lower[c] = minimum(comm, t.lower[c]), s.upper[c] = maximum(comm, t.upper[c]);
+  const bool has_bonds = maximum(comm, t.strain) > -infinity;
+  s.max_bond_tension = has_bonds ? maximum(comm, t.tension) : 0, s.max_bond_strain = has_bonds ? maximum(comm, t.strain) : 0;
+  const bool has_ends = sum(comm, t.has_first) == 1 && sum(comm, t.has_last) == 1;
+  const Vec3 ends = sum(comm, std::span<const Vec3>(std::array<Vec3, 2>{t.last, -t.first}));
+  s.end_to_end = has_ends ? norm(ends) : std::numeric_limits<double>::quiet_NaN();
+  return s;
+}
+
+}  // namespace
+
+std::vector<RagState> rag_states(const RagSystem& rags) {
+  std::vector<Terms> terms(rags.rags().size());
+  for (const Tile& tile : rags.tiles()) {
+    const Rag& rag = rags.rags()[tile.rag];
+    Terms& t = terms[tile.rag];
+    add_particles(tile, rag, t);
+    for_bonds(tile, bond_laws(rag), false, [&](int, int, const BondForce& bond) {
+      t.bond.push_back(bond.energy_parts[0] + bond.energy_parts[1] + bond.energy_parts[2] + bond.energy_parts[3]);
+      t.tension = std::max(t.tension, bond.tension), t.strain = std::max(t.strain, bond.length / (2 * rag.radius) - 1);
+    });
+  }
+  std::vector<RagState> states;
+  for (std::size_t r = 0; r < terms.size(); ++r) states.push_back(state_of(rags.comm(), rags.rags()[r], terms[r]));
+  return states;
+}
+
+std::vector<double> bond_tensions(const RagSystem& rags) {
+  std::vector<double> tensions;
+  for (const Tile& tile : rags.tiles())
+    for_bonds(tile, bond_laws(rags.rags()[tile.rag]), false, [&](int, int, const BondForce& bond) { tensions.push_back(bond.tension); });
+  return tensions;
+}
+
+Vec3 force_on_clamped(const RagSystem& rags, int rag) {
+  std::vector<Vec3> forces;
+  for (const Tile& tile : rags.tiles())
+    if (tile.rag == rag)
+      for_particles(tile, [&](int k, int, int) {
+        if (tile.free[k] < 0.5) forces.push_back(tile.vector(Tile::fx, k));
+      });
+  return sum(rags.comm(), std::span<const Vec3>(forces));
+}
+
+namespace {
+
+/// All ranks' values on rank 0, in order of ranks.
+std::vector<double> gather(MPI_Comm comm, const std::vector<double>& mine) {
+  const int size = size_of(comm);
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> count(size), start(size + 1, 0);
+  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, comm);
+  for (int r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
+  std::vector<double> all(rank_of(comm) == 0 ? start[size] : 0);
+  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), count.data(), start.data(), MPI_DOUBLE, 0, comm);
+  return all;
+}
+
+}  // namespace
+
+double bond_strain_quantile(const RagSystem& rags, int rag, double p) {
+  std::vector<double> mine;
+  for (const Tile& tile : rags.tiles())
+    if (tile.rag == rag)
+      for_bonds(tile, bond_laws(rags.rags()[rag]), false,
+                [&](int, int, const BondForce& bond) { mine.push_back(bond.length / (2 * rags.rags()[rag].radius) - 1); });
+  std::vector<double> all = gather(rags.comm(), mine);
+  double quantile = 0;
+  if (!all.empty()) {
+    const auto place = all.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(p * all.size()), std::ssize(all) - 1);
+    std::nth_element(all.begin(), place, all.end());
+    quantile = *place;
+  }
+  MPI_Bcast(&quantile, 1, MPI_DOUBLE, 0, rags.comm());
+  return quantile;
+}
+
+RagSheet gather_sheet(const RagSystem& rags) {
+  constexpr int width = 16;  // id, rag, x v q (10), tension, strain, bond_x, bond_y
+  std::vector<double> mine;
+  for (const Tile& tile : rags.tiles()) {
+    const Rag& rag = rags.rags()[tile.rag];
+    std::vector<double> tension(tile.exists.size(), -infinity), strain(tile.exists.size(), -infinity);
+    for_bonds(tile, bond_laws(rag), true, [&](int a, int b, const BondForce& bond) {
+      for (const int k : {a, b}) {
+        tension[k] = std::max(tension[k], bond.tension), strain[k] = std::max(strain[k], bond.length / (2 * rag.radius) - 1);
+      }
+    });
+    for_particles(tile, [&](int k, int i, int j) {
+      mine.push_back(static_cast<double>(particle_id(rag, tile, i, j))), mine.push_back(tile.rag);
+      for (int f = Tile::x; f <= Tile::qz; ++f) mine.push_back(tile.field(f)[k]);
+      const bool bonded = tension[k] > -infinity;
+      mine.push_back(bonded ? tension[k] : 0), mine.push_back(bonded ? strain[k] : 0);
+      mine.push_back(tile.bond_x[k]), mine.push_back(tile.bond_y[k]);
+    });
+  }
+  const std::vector<double> all = gather(rags.comm(), mine);
+  const std::size_t n = all.size() / width;
+  std::vector<std::size_t> order(n);
+  for (std::size_t k = 0; k < n; ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[width * a] < all[width * b]; });
+
+  RagSheet sheet;
+  std::vector<const double*> rows;
+  for (const std::size_t k : order) {
+    const double* row = &all[width * k];
+    rows.push_back(row);
+    sheet.id.push_back(static_cast<std::int64_t>(row[0])), sheet.rag.push_back(static_cast<int>(row[1]));
+    sheet.position.push_back({row[2], row[3], row[4]}), sheet.velocity.push_back({row[5], row[6], row[7]});
+    sheet.orientation.push_back({row[8], row[9], row[10], row[11]});
+    sheet.tension.push_back(row[12]), sheet.strain.push_back(row[13]);
+  }
+  const auto place = [&](std::int64_t id) {
+    return static_cast<int>(std::lower_bound(sheet.id.begin(), sheet.id.end(), id) - sheet.id.begin());
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    constexpr int bond_x = 14, bond_y = 15;
+    if (rows[k][bond_x] < 0.5 || rows[k][bond_y] < 0.5) continue;
+    const int a = static_cast<int>(k), b = a + 1, c = place(sheet.id[k] + rags.rags()[sheet.rag[k]].n_columns);
+    if (rows[b][bond_y] < 0.5 || rows[c][bond_x] < 0.5) continue;
+    sheet.triangles.push_back({a, b, c + 1}), sheet.triangles.push_back({a, c + 1, c});
+  }
+  return sheet;
+}
+
+}  // namespace snag
