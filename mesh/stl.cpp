@@ -48,10 +48,10 @@ std::vector<Vec3> ascii_corners(const std::string& content, const std::string& n
                   name + ": corner " + std::to_string(corners.size() + 1) + " is not three numbers; export the STL file again");
     corners.push_back(x);
   }
-  if (corners.empty() || corners.size() % 3 != 0)
+  if (corners.empty() || corners.size() % 3 != 0 || content.find("endsolid") == std::string::npos)
     throw Error(ExitCode::io, name + ": " + std::to_string(corners.size()) +
-                                  " corners in an ASCII STL file, a multiple of three is needed (and a binary "
-                                  "file has 84 + 50 n bytes); the file is cut off or not STL, export it again");
+                                  " corners, an ASCII STL file holds a multiple of three and the word endsolid "
+                                  "(and a binary one 84 + 50 n bytes); the file is cut off or not STL, export it again");
   return corners;
 }
 
