@@ -1,7 +1,7 @@
 // A particle with centre x, at distance s of a wall with direction e (unit, into the fluid):
 //
-//   overlap = min(r - s, 2 r),  n = -e,  contact point c = x - s e,  l = max(s, 0)
-//   u = v + w x l n - u_wall(c),  force F on the particle by hertz_mindlin, torque l n x F + M,  -F on the wall
+//   overlap = min(r - s, 2 r),  n = -e,  contact point c = x - s e
+//   u = v + w x s n - u_wall(c),  force F on the particle by hertz_mindlin, torque s n x F + M,  -F on the wall
 //
 // The law is evaluated in the frame of the wall, where the slip is kept: so slip turns with a turning wall.
 #include "dem/contacts/wall_contacts.hpp"
@@ -181,8 +181,8 @@ void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, 
   const WallPose& pose = poses_[touch.body];
   const bool moves = walls_->bodies()[touch.body].motion.moves();
   const double s = touch.seen.distance, radius = pair.reach;
-  const Vec3 n = -touch.direction, arm = std::max(s, 0.0) * n;
-  const Vec3 u = p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + s * n) : Vec3{});
+  const Vec3 n = -touch.direction, arm = s * n;
+  const Vec3 u = p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{});
 
   const ContactMotion contact{std::min(radius - s, 2 * radius), -touch.seen.direction, moves ? pose.turned_back(u) : u, old_slip(touch)};
   const ContactForce result = hertz_mindlin(pair.law, contact, step_);
