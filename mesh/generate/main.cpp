@@ -180,6 +180,7 @@ int main(int argc, char** argv) {
   for (const auto& name : generate::geometries().names()) generate::declare(app, name, request);
   app.require_subcommand(1);
   try {
+    if (argc > 1 && argv[1][0] != '-') generate::geometries().make(argv[1], "snag-mesh");  // its error lists the known names
     app.parse(argc, argv);
     generate::run(request);
   } catch (const CLI::ParseError& error) {

@@ -62,9 +62,6 @@ VanePlan vane_plan(const PumpDimensions& pump) {
   const double t1 = pump.leading_edge_thickness, t2 = pump.trailing_edge_thickness;
   require(r1 < r2,
           fmt::format("leading_edge_radius ({:g} m), must be below the radius of the trailing edge ({:g} m); take a smaller one", r1, r2));
-  require(pump.sliding_radius() > r2 + t2 / 2 * 1.02,
-          fmt::format("sliding radius ({:g} m), must leave the vane ({:g} m) inside; enlarge tongue_gap or sliding_fraction",
-                      pump.sliding_radius(), r2 + t2 / 2));
   const double c = std::log(r2 / r1) / pump.wrap_angle, beta = std::atan(c);
   VanePlan plan;
   for (int k = 0; k < vane_points; ++k) {

@@ -1,0 +1,97 @@
+// Pipe, channel and box: exact volumes, counts and periodic partners.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/cases/mesh_generate/reader/program.hpp"
+
+using namespace mesh_generate;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+MeshFile made(const std::string& arguments, const std::string& name) {
+  const auto outcome = snag_mesh(arguments + " --out " + name);
+  EXPECT_EQ(outcome.code, 0) << outcome.output;
+  auto mesh = read_mesh(folder() / name);
+  EXPECT_EQ(leaks(mesh), std::vector<std::string>{}) << arguments;
+  return mesh;
+}
+
+// Farthest distance of a node of `first`, shifted, to the nearest node of `second`.
+double mismatch(const MeshFile& mesh, const std::string& first, const std::string& second, const Vec3& shift) {
+  double worst = 0;
+  const auto partners = mesh.nodes_of(second);
+  for (const int a : mesh.nodes_of(first)) {
+    double nearest = 1e9;
+    for (const int b : partners) nearest = std::min(nearest, norm(mesh.node.at(a) + shift - mesh.node.at(b)));
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+}  // namespace
+
+// A box of hexahedra has the cells asked for and fills its corners exactly.
+TEST(BoxMesh, OfHexahedraIsExact) {
+  const auto mesh = made("box --set cells=hexahedra size_m=0.125 'upper_m=[2, 1, 0.5]'", "box_hexahedra.msh");
+  EXPECT_EQ(mesh.of("fluid").size(), 16U * 8U * 4U);
+  EXPECT_NEAR(mesh.volume("fluid"), 1, 1e-12);
+  for (const auto* name : {"x0", "x1", "y0", "y1", "z0", "z1"}) EXPECT_FALSE(mesh.of(name).empty()) << name;
+  for (const int node : mesh.nodes_of("x1")) EXPECT_EQ(mesh.node.at(node).x, 2);
+}
+
+// Halving the size of tetrahedra multiplies their number by about eight.
+TEST(BoxMesh, OfTetrahedraFollowsItsSize) {
+  const auto coarse = made("box --set size_m=0.2", "box_coarse.msh"), fine = made("box --set size='100 mm'", "box_fine.msh");
+  EXPECT_NEAR(coarse.volume("fluid"), 1, 1e-12);
+  EXPECT_NEAR(static_cast<double>(fine.of("fluid").size()) / static_cast<double>(coarse.of("fluid").size()), 8, 2);
+}
+
+// Periodic sides of a channel of tetrahedra have the same nodes, shifted by the period.
+TEST(ChannelMesh, PeriodicSidesMatch) {
+  const auto mesh = made("channel --set cells=tetrahedra periodic_x=true periodic_z=true 'length=0.3 m'", "channel_periodic.msh");
+  EXPECT_LT(mismatch(mesh, "periodic_x0", "periodic_x1", {0.3, 0, 0}), 1e-12);
+  EXPECT_LT(mismatch(mesh, "periodic_z0", "periodic_z1", {0, 0, 0.1}), 1e-12);
+  EXPECT_EQ(mesh.of("periodic_x0").size(), mesh.of("periodic_x1").size());
+  EXPECT_FALSE(mesh.group.contains("inlet"));
+}
+
+// Cell heights of a graded channel grow from both walls, the largest wall_ratio times the smallest.
+TEST(ChannelMesh, IsGradedToItsWalls) {
+  const auto mesh = made("channel --set cells_x=4 cells_y=10 cells_z=3 wall_ratio=5", "channel_graded.msh");
+  EXPECT_EQ(mesh.of("fluid").size(), 120U);
+  std::set<long> heights;
+  for (const int node : mesh.nodes_of("inlet")) heights.insert(std::lround(mesh.node.at(node).y * 1e10));
+  ASSERT_EQ(heights.size(), 11U);
+  std::vector<double> cells;
+  for (auto y = std::next(heights.begin()); y != heights.end(); ++y) cells.push_back(static_cast<double>(*y - *std::prev(y)));
+  EXPECT_NEAR(cells.front() / cells.back(), 1, 1e-6);
+  EXPECT_NEAR(*std::ranges::max_element(cells) / cells.front(), 5, 1e-6);
+  for (const auto* name : {"inlet", "outlet", "bottom", "top", "side_z0", "side_z1"}) EXPECT_FALSE(mesh.of(name).empty()) << name;
+}
+
+// A straight swept pipe holds the volume of the prism over its polygon.
+TEST(PipeMesh, SweptHoldsThePolygonsVolume) {
+  const auto mesh = made("pipe --set cells=swept n_around=48 'axial_size=0.1 m'", "pipe_swept.msh");
+  EXPECT_NEAR(mesh.volume("fluid") / (3 * 24 * 0.01 * std::sin(2 * pi / 48)), 1, 1e-9);
+  for (const int node : mesh.nodes_of("walls")) {
+    const Vec3 x = mesh.node.at(node);
+    EXPECT_NEAR(std::hypot(x.y, x.z), 0.1, 1e-9);
+  }
+}
+
+// A bent pipe rises along +y into a bend and leaves along +x; both kinds of cells fill the same shape.
+TEST(PipeMesh, BendTurnsFromUpToAlong) {
+  const double shape = pi * 0.01 * (1 + pi / 2 * 0.3 + 0.4);
+  for (const std::string cells : {"tetrahedra", "swept"}) {
+    const auto mesh =
+        made("pipe --set 'bend_angle=90 deg' 'length=1 m' wall_size_m=0.025 core_size_m=0.04 cells=" + cells, "bend_" + cells + ".msh");
+    EXPECT_NEAR(mesh.volume("fluid") / shape, 1, 0.015) << cells;
+    for (const int node : mesh.nodes_of("inlet")) EXPECT_NEAR(mesh.node.at(node).y, -0.7, 1e-9);
+    for (const int node : mesh.nodes_of("outlet")) EXPECT_NEAR(mesh.node.at(node).x, 1, 1e-9);
+  }
+}
