@@ -86,8 +86,7 @@ void check_momentum(const ExchangeBalance& balance) {
   if (lost <= momentum_tolerance * balance.exchanged + balance.round_off) return;
   std::ostringstream message;
   message << "coupling lost momentum: " << lost << " N s of " << balance.exchanged << " N s exchanged in this step, limit "
-          << momentum_tolerance
-          << " of it; do the kernel weights sum to 1, and does the solver apply reaction - drag u with its final velocity?";
+          << momentum_tolerance << " of it; do the kernel weights sum to 1, and is the velocity the one that the force was applied with?";
   throw Error(ExitCode::invariant, message.str());
 }
 
