@@ -27,11 +27,20 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -48,7 +57,8 @@ std::string number(double value) {
   while (mantissa.back() == '0') mantissa.pop_back();
   if (mantissa.back() == '.') mantissa.pop_back();
   const int exponent = std::atoi(text.c_str() + split + 1);
-  return mantissa + " × 10<sup>" + (exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) + "</sup>";
+  const std::string factor = mantissa == "1" ? "" : mantissa == "-1" ? "-" : mantissa + " × ";
+  return factor + "10<sup>" + (exponent < 0 ? "−" : "") + std::to_string(std::abs(exponent)) + "</sup>";
 }
 
 std::string count(std::int64_t value) {
@@ -78,7 +88,8 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
 
 std::string embedded_png(const std::filesystem::path& file) {
   const std::string content = file_text(file);
-  if (!content.starts_with("\x89PNG")) throw Error(ExitCode::io, file.string() + ": is no PNG picture; remove it and make the report again");
+  if (!content.starts_with("\x89PNG"))
+    throw Error(ExitCode::io, file.string() + ": is no PNG picture; remove it and make the report again");
   std::string code(4 * ((content.size() + 2) / 3) + 1, '\0');  // the library ends it with a null
   const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(code.data()), reinterpret_cast<const unsigned char*>(content.data()),
                                      static_cast<int>(content.size()));

@@ -12,7 +12,7 @@ namespace snag {
 namespace {
 
 // pixels of the drawing and of the frame inside it
-constexpr double width = 480, height = 260, left = 64, right = 12, top = 8, bottom = 40;
+constexpr double width = 480, height = 260, left = 64, right = 12, top = 18, bottom = 40;
 constexpr std::size_t max_legend = 9;
 // distinguishable also without colour vision (Okabe and Ito)
 const char* const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#7A5195"};
@@ -25,8 +25,9 @@ std::string printed(const char* format, double value) {
 }
 
 struct Axis {
-  double begin = 0, end = 1;     // of the drawn quantity (its decimal logarithm on a logarithmic axis)
+  double begin = 0, end = 1;  // of the drawn quantity (its decimal logarithm on a logarithmic axis)
   bool logarithmic = false;
+  int exponent = 0;  // the labels are in units of 10^exponent
   std::vector<double> ticks;
 
   double coordinate(double value) const { return logarithmic ? (value > 0 ? std::log10(value) : NAN) : value; }
@@ -34,7 +35,7 @@ struct Axis {
   std::string label(double tick) const {
     if (logarithmic) return "10<tspan dy=\"-5\" font-size=\"8\">" + printed("%.0f", tick) + "</tspan>";
     const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
-    return printed("%.6g", std::abs(tick) < 1e-9 * step ? 0 : tick);
+    return printed("%.6g", std::abs(tick) < 1e-9 * step ? 0 : tick / std::pow(10, exponent));
   }
 };
 
@@ -68,7 +69,10 @@ Axis axis_of(const LinePlot& plot, const std::vector<double> PlotLine::*values, 
     const double band = logarithmic ? 0.5 : low == 0 && high == 0 ? 1 : 0.05 * std::max(std::abs(low), std::abs(high));
     low -= band, high += band;
   }
-  axis.begin = low, axis.end = high;
+  const double margin = logarithmic || values == &PlotLine::x ? 0 : 0.04 * (high - low);  // lines keep off the frame
+  axis.begin = low - margin, axis.end = high + margin;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!logarithmic && (size >= 1e5 || size < 1e-3)) axis.exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
   return axis;
 }
 
@@ -120,18 +124,23 @@ std::string frame(const LinePlot& plot, const Axis& x, const Axis& y) {
   for (const double tick : x.ticks) {
     const auto at = printed("%.1f", left + (width - left - right) * (tick - x.begin) / (x.end - x.begin));
     svg += "<line x1=\"" + at + "\" x2=\"" + at + "\" y1=\"" + printed("%.0f", top) + "\" y2=\"" + y_end + "\" class=\"grid\"/>";
-    svg += "<text x=\"" + at + "\" y=\"" + printed("%.0f", height - bottom + 14) + "\" text-anchor=\"middle\">" + x.label(tick) + "</text>\n";
+    svg +=
+        "<text x=\"" + at + "\" y=\"" + printed("%.0f", height - bottom + 14) + "\" text-anchor=\"middle\">" + x.label(tick) + "</text>\n";
   }
   for (const double tick : y.ticks) {
     const double py = height - bottom - (height - top - bottom) * (tick - y.begin) / (y.end - y.begin);
     const auto at = printed("%.1f", py);
     svg += "<line x1=\"" + printed("%.0f", left) + "\" x2=\"" + x_end + "\" y1=\"" + at + "\" y2=\"" + at + "\" class=\"grid\"/>";
-    svg += "<text x=\"" + printed("%.0f", left - 5) + "\" y=\"" + printed("%.1f", py + 3.5) + "\" text-anchor=\"end\">" + y.label(tick) + "</text>\n";
+    svg += "<text x=\"" + printed("%.0f", left - 5) + "\" y=\"" + printed("%.1f", py + 3.5) + "\" text-anchor=\"end\">" + y.label(tick) +
+           "</text>\n";
   }
   svg += "<rect x=\"" + printed("%.0f", left) + "\" y=\"" + printed("%.0f", top) + "\" width=\"" + printed("%.0f", width - left - right) +
          "\" height=\"" + printed("%.0f", height - top - bottom) + "\" fill=\"none\" stroke=\"#888\"/>\n";
-  svg += "<text x=\"" + printed("%.0f", (left + width - right) / 2) + "\" y=\"" + printed("%.0f", height - 6) + "\" text-anchor=\"middle\">" +
-         html::escaped(plot.x_label) + "</text>\n";
+  svg += "<text x=\"" + printed("%.0f", (left + width - right) / 2) + "\" y=\"" + printed("%.0f", height - 6) +
+         "\" text-anchor=\"middle\">" + html::escaped(plot.x_label) + "</text>\n";
+  if (y.exponent != 0)
+    svg += "<text x=\"" + printed("%.0f", left) + "\" y=\"12\">× 10<tspan dy=\"-5\" font-size=\"8\">" + std::to_string(y.exponent) +
+           "</tspan></text>\n";
   const auto middle = printed("%.0f", (top + height - bottom) / 2);
   svg += "<text transform=\"translate(12 " + middle + ") rotate(-90)\" text-anchor=\"middle\">" + html::escaped(plot.y_label) + "</text>\n";
   return svg;
@@ -141,7 +150,8 @@ std::string legend(const LinePlot& plot) {
   if (plot.lines.size() < 2 && (plot.lines.empty() || plot.lines[0].label.empty())) return "";
   std::string result = "<div class=\"legend\">";
   for (std::size_t i = 0; i < std::min(plot.lines.size(), max_legend); ++i)
-    result += "<span><b style=\"color:" + std::string(colours[i % n_colours]) + "\">━</b> " + html::escaped(plot.lines[i].label) + "</span> ";
+    result +=
+        "<span><b style=\"color:" + std::string(colours[i % n_colours]) + "\">━</b> " + html::escaped(plot.lines[i].label) + "</span> ";
   if (plot.lines.size() > max_legend) result += "<span>and " + std::to_string(plot.lines.size() - max_legend) + " more</span>";
   return result + "</div>";
 }
@@ -162,27 +172,28 @@ std::string gaps(const LinePlot& plot, const Axis& y) {
 
 }  // namespace
 
-bool needs_logarithm(const LinePlot& plot) {
+double decades(const LinePlot& plot) {
   double low = std::numeric_limits<double>::max(), high = 0;
   for (const auto& line : plot.lines)
     for (const double value : line.y) {
-      if (value < 0) return false;
+      if (value < 0) return -1;
       if (std::isfinite(value) && value > 0) low = std::min(low, value), high = std::max(high, value);
     }
-  return high > 1000 * low;
+  return high > 0 ? std::log10(high / low) : -1;
 }
 
 std::string figure(const LinePlot& plot) {
-  Axis x = axis_of(plot, &PlotLine::x, false), y = axis_of(plot, &PlotLine::y, needs_logarithm(plot));
+  Axis x = axis_of(plot, &PlotLine::x, false), y = axis_of(plot, &PlotLine::y, plot.logarithmic);
   set_ticks(x, 6);
   set_ticks(y, 6);
   std::string svg = "<svg viewBox=\"0 0 " + printed("%.0f ", width) + printed("%.0f", height) + "\" role=\"img\" aria-label=\"" +
                     html::escaped(plot.title) + "\">\n" + frame(plot, x, y);
   for (std::size_t i = 0; i < plot.lines.size(); ++i)
-    svg += path_of(plot.lines[i], x, y,
-                   "stroke=\"" + std::string(colours[i % n_colours]) + "\" stroke-width=\"1.4\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
-  return "<figure class=\"plot\"><figcaption>" + html::escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) + gaps(plot, y) +
-         "</figure>\n";
+    svg += path_of(
+        plot.lines[i], x, y,
+        "stroke=\"" + std::string(colours[i % n_colours]) + "\" stroke-width=\"1.4\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+  return "<figure class=\"plot\"><figcaption>" + html::escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) +
+         gaps(plot, y) + "</figure>\n";
 }
 
 }  // namespace snag

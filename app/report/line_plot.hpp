@@ -12,12 +12,13 @@ struct PlotLine {
 
 struct LinePlot {
   std::string title;
-  std::string x_label, y_label;   // with units
+  std::string x_label, y_label;  // with units
   std::vector<PlotLine> lines;
+  bool logarithmic = false;  // of y
 };
 
-/// True if the values are all positive (zeros aside) and span more than three decades: a linear axis would hide them.
-bool needs_logarithm(const LinePlot& plot);
+/// Decades between the smallest and the largest positive value; negative if a value is below zero or none is above.
+double decades(const LinePlot& plot);
 
 /// The plot as HTML (figure with svg and legend). Values that cannot be drawn (not finite; zero or less on a logarithmic axis) leave gaps
 /// and are counted below it. Long lines are thinned to their extremes per pixel.

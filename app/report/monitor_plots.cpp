@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/parameter.hpp"
 #include "base/series.hpp"
 
 namespace snag {
@@ -13,7 +14,7 @@ namespace {
 
 /// Columns that belong into one plot, and what a reader calls them.
 struct KnownPlot {
-  const char* monitor;   // name of the file without .csv
+  const char* monitor;  // name of the file without .csv
   const char* title;
   std::vector<const char*> columns;
 };
@@ -94,7 +95,10 @@ class Monitor {
       if (std::find(names.begin(), names.end(), columns_[c].name) == names.end() || !left_.erase(table_.columns[c])) continue;
       result.y_label = axis_label({names.size() == 1 ? spaced(columns_[c].name) : common_name(names), columns_[c].unit});
       for (const auto& [rag, records] : records_) result.lines.push_back(line(c, rag, records, names.size() > 1));
+      result.logarithmic = result.logarithmic || is_error(columns_[c].name);
     }
+    // What should be small is read by its order of magnitude; other numbers only where a linear axis would hide most of them.
+    result.logarithmic = decades(result) >= (result.logarithmic ? 0 : columns_unit(names) == "1" ? 3 : infinity);
     return result;
   }
 
@@ -117,13 +121,21 @@ class Monitor {
   std::string name_;
   SeriesTable table_;
   std::vector<Column> columns_;
-  std::set<std::string> left_;                          // headers not shown yet
-  std::map<long, std::vector<std::size_t>> records_;   // by rag
+  std::set<std::string> left_;                        // headers not shown yet
+  std::map<long, std::vector<std::size_t>> records_;  // by rag
 
-  static std::string axis_label(const Column& column) { return column.unit == "1" ? column.name : column.name + " [" + column.unit + "]"; }
-  static std::string common_name(const std::vector<std::string>& names) {
-    return stem(names[0]) != names[0] ? spaced(stem(names[0])) : "";
+  static std::string axis_label(const Column& column) {
+    return column.unit == "1" ? column.name : (column.name.empty() ? "" : column.name + " ") + "[" + column.unit + "]";
   }
+  static bool is_error(const std::string& column) {
+    return column.ends_with("_rel") || column.find("residual") != std::string::npos || column.starts_with("continuity");
+  }
+  std::string columns_unit(const std::vector<std::string>& names) const {
+    for (const auto& column : columns_)
+      if (column.name == names[0]) return column.unit;
+    return "";
+  }
+  static std::string common_name(const std::vector<std::string>& names) { return stem(names[0]) != names[0] ? spaced(stem(names[0])) : ""; }
   PlotLine line(std::size_t c, long rag, const std::vector<std::size_t>& records, bool named) const {
     PlotLine result;
     if (named) result.label = spaced(columns_[c].name);

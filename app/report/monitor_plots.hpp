@@ -10,7 +10,7 @@ namespace snag {
 
 struct MonitorPlots {
   std::vector<LinePlot> plots;
-  std::vector<std::string> problems;   // files that could not be read, and why
+  std::vector<std::string> problems;  // files that could not be read, and why
 };
 
 /// Plots of all *.csv files of a folder (none if it is absent). Columns of a vector (_x, _y, _z) share a plot, rags are lines of it.

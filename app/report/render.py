@@ -18,16 +18,18 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the renderer registers its
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPlane
-from vtkmodules.vtkFiltersCore import vtkArrayCalculator, vtkCellDataToPointData, vtkCutter, vtkFeatureEdges, vtkCleanPolyData, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import (vtkArrayCalculator, vtkCellDataToPointData, vtkCleanPolyData, vtkCutter, vtkFeatureEdges,
+                                       vtkPolyDataNormals)
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter
 
 N_INSTANTS = 9
-# Anchors of two colour scales that print well and do not rely on red and green: light to dark blue, black over red to yellow.
+BARS, TIME = 76, 40     # pixels at the lower and upper edge of a picture for colour bars and time
+# Anchors of two colour scales that print well and do not rely on red and green: light to dark blue, light yellow to dark red.
 BLUES = ["#f3f8fd", "#c8dcf0", "#8fbfe0", "#4f9bcb", "#2070b4", "#08306b"]
-FIRE = ["#2b0a3d", "#7a1c6b", "#c43c4e", "#f27d15", "#fcc52c", "#fcffa4"]
+FIRE = ["#fff6c2", "#fed26a", "#fb9a3c", "#ec5a2b", "#bf1f2e", "#6b0a26"]
 
 
 def colour_table(anchors, low, high):
@@ -102,8 +104,10 @@ def slice_of(grid, origin, normal):
     velocity = array_named(cutter.GetOutput().GetCellData(), "velocity")
     last = cutter
     if velocity is not None:
+        joined = vtkCleanPolyData()             # cells side by side share their corners, over the pieces of all ranks
+        joined.SetInputConnection(cutter.GetOutputPort())
         last = vtkCellDataToPointData()
-        last.SetInputConnection(cutter.GetOutputPort())
+        last.SetInputConnection(joined.GetOutputPort())
     else:
         velocity = array_named(cutter.GetOutput().GetPointData(), "velocity")
     if velocity is None or cutter.GetOutput().GetNumberOfPoints() == 0:
@@ -119,30 +123,34 @@ def slice_of(grid, origin, normal):
 
 
 class Stage:
-    """One off-screen window; `show` draws actors and writes a picture."""
+    """One off-screen window; `show` draws actors and writes a picture. Rags are drawn over all else: no plane or wall hides them."""
 
     def __init__(self, out):
         self.out, self.made = out, []
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(1)
         self.window.SetMultiSamples(4)
+        self.window.SetNumberOfLayers(2)
 
-    def show(self, name, group, caption, scene, size=(720, 560)):
+    def show(self, name, group, caption, scene, width=720):
         renderer = vtkRenderer()
         renderer.SetBackground(1, 1, 1)
+        size = look(renderer.GetActiveCamera(), scene["box"], scene["towards"], width)
         self.window.SetSize(*size)
-        self.window.AddRenderer(renderer)
-        for actor in scene["actors"]:
-            renderer.AddActor(actor)
+        front = vtkRenderer()
+        front.SetLayer(1)
+        front.SetActiveCamera(renderer.GetActiveCamera())
+        for layer, actors in ((renderer, scene["surroundings"]), (front, scene["rags"])):
+            self.window.AddRenderer(layer)
+            for actor in actors:
+                layer.AddActor(actor)
         for k, (title, table) in enumerate(scene["bars"]):
-            renderer.AddActor2D(colour_bar(title, table, k, len(scene["bars"])))
-        label = vtkTextActor()
-        label.SetInput(scene["text"])
-        label.GetTextProperty().SetFontSize(22)
-        label.GetTextProperty().SetColor(0.1, 0.1, 0.1)
-        label.SetPosition(14, size[1] - 38)
-        renderer.AddActor2D(label)
-        look(renderer, scene["box"], scene["towards"], size)
+            centre = (k + 0.5) / len(scene["bars"])
+            renderer.AddActor2D(colour_bar(table, centre, size))
+            renderer.AddActor2D(text_actor(title, 15, (centre * size[0], BARS - 18), centred=True))
+        renderer.AddActor2D(text_actor(scene["text"], 22, (14, size[1] - 36)))
+        camera = renderer.GetActiveCamera()     # far enough for all actors of both layers
+        camera.SetClippingRange(1e-3 * camera.GetDistance(), 100 * camera.GetDistance())
         self.window.Render()
         picture = vtkWindowToImageFilter()
         picture.SetInput(self.window)
@@ -151,67 +159,71 @@ class Stage:
         writer.SetFileName(str(self.out / name))
         writer.SetInputConnection(picture.GetOutputPort())
         writer.Write()
+        self.window.RemoveRenderer(front)
         self.window.RemoveRenderer(renderer)
         self.made.append({"file": name, "group": group, "caption": caption})
         (self.out / "pictures.json").write_text(json.dumps(self.made, indent=1))
 
 
-def colour_bar(title, table, k, n):
+def plain(font, size):
+    font.SetFontSize(size)
+    font.SetColor(0.1, 0.1, 0.1)
+    font.BoldOff(), font.ItalicOff(), font.ShadowOff()
+
+
+def text_actor(words, size, place, centred=False):
+    text = vtkTextActor()
+    text.SetInput(words)
+    plain(text.GetTextProperty(), size)
+    if centred:
+        text.GetTextProperty().SetJustificationToCentered()
+    text.SetPosition(*place)
+    return text
+
+
+def colour_bar(table, centre, size):
+    """Bar around `centre` (part of the width) at the lower edge of a picture of `size` pixels."""
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
-    bar.SetTitle(title)
     bar.SetOrientationToHorizontal()
     bar.SetNumberOfLabels(4)
     bar.SetLabelFormat("%.3g")
     bar.SetUnconstrainedFontSize(True)
-    for text, font in ((bar.GetTitleTextProperty(), 15), (bar.GetLabelTextProperty(), 14)):
-        text.SetColor(0.1, 0.1, 0.1)
-        text.SetFontSize(font)
-        text.BoldOff()
-        text.ItalicOff()
-        text.ShadowOff()
-    width = 0.42
-    bar.SetPosition(0.5 * (k + 0.5) + (0.25 if n == 1 else 0) - width / 2, 0.015)
-    bar.SetPosition2(width, 0.105)
+    bar.SetBarRatio(0.4)
+    plain(bar.GetLabelTextProperty(), 14)
+    bar.SetPosition(centre - 0.2, 6 / size[1])
+    bar.SetPosition2(0.4, (BARS - 32) / size[1])
     return bar
 
 
-def look(renderer, box, towards, size):
-    """Parallel view along `towards`, tilted a little, that holds the box above the colour bars."""
-    camera = renderer.GetActiveCamera()
+def look(camera, box, towards, width):
+    """Parallel view along axis `towards`, tilted a little, that holds the box; returns the size of the picture in pixels."""
     centre, extent = box.mean(axis=1), box[:, 1] - box[:, 0]
-    side = int(np.argmax(np.where(np.arange(3) == towards, -1, extent)))       # longest direction lies across the picture
-    up = np.zeros(3)
-    up[3 - towards - side] = 1
-    sight = np.zeros(3)
-    sight[towards] = 1
-    if np.cross(up, sight)[side] < 0:                                          # the axis across the picture grows to the right
+    up = 2 if towards != 2 else int(np.argmin(extent[:2]))                     # z is up where it can be
+    side = 3 - towards - up
+    sight = np.eye(3)[towards]
+    if np.cross(np.eye(3)[up], sight)[side] < 0:                               # the axis across the picture grows to the right
         sight = -sight
     reach = float(np.linalg.norm(extent)) + 1e-12
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*centre)
     camera.SetPosition(*(centre + 3 * reach * sight))
-    camera.SetViewUp(*up)
+    camera.SetViewUp(*np.eye(3)[up])
     camera.Azimuth(-18)
     camera.Elevation(16)
     camera.OrthogonalizeViewUp()
-    right, above = camera_axes(camera)
+    above = np.array(camera.GetViewUp())
+    right = np.cross(camera.GetDirectionOfProjection(), above)
     corners = np.array([[box[0, i], box[1, j], box[2, k]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]) - centre
-    wide, tall = np.ptp(corners @ right), np.ptp(corners @ above)
-    bars = 0.15                                                                # part of the height that the bars take
-    scale = 1.04 * max(tall / (1 - bars - 0.06), wide * size[1] / size[0])
+    wide, tall = 1.05 * np.ptp(corners @ right), 1.05 * np.ptp(corners @ above)
+    drawing = int(np.clip(width * tall / max(wide, 1e-30), 0.25 * width, 0.8 * width))    # pixels between time and colour bars
+    height = drawing + BARS + TIME
+    scale = max(tall / drawing, wide / width) * height                         # m over the height of the picture
     camera.SetParallelScale(0.5 * scale)
-    shift = 0.5 * (bars - 0.06) * scale * above
+    shift = 0.5 * (BARS - TIME) / height * scale * above
     camera.SetFocalPoint(*(centre - shift))
     camera.SetPosition(*(np.array(camera.GetPosition()) - shift))
-    renderer.ResetCameraClippingRange()
-
-
-def camera_axes(camera):
-    above = np.array(camera.GetViewUp())
-    sight = np.array(camera.GetDirectionOfProjection())
-    right = np.cross(sight, above)
-    return right / np.linalg.norm(right), above / np.linalg.norm(above)
+    return width, height
 
 
 def actor_of(poly, colour=(0.6, 0.6, 0.6), opacity=1.0):
@@ -220,10 +232,20 @@ def actor_of(poly, colour=(0.6, 0.6, 0.6), opacity=1.0):
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
-    actor.GetProperty().SetColor(*colour)
-    actor.GetProperty().SetOpacity(opacity)
-    actor.GetProperty().SetPointSize(5)
-    actor.GetProperty().SetLineWidth(2)
+    surface = actor.GetProperty()
+    surface.SetColor(*colour)
+    surface.SetOpacity(opacity)
+    surface.SetPointSize(5)
+    surface.SetLineWidth(2)
+    return actor
+
+
+def line_actor(edges, colour, width):
+    edges.NonManifoldEdgesOff()
+    edges.ColoringOff()
+    edges.Update()
+    actor = actor_of(edges.GetOutput(), colour)
+    actor.GetProperty().SetLineWidth(width)
     return actor
 
 
@@ -247,17 +269,17 @@ def wall_actors(walls):
     edges = vtkFeatureEdges()
     edges.SetInputConnection(joined.GetOutputPort())
     edges.SetFeatureAngle(35)
-    edges.NonManifoldEdgesOff()
-    edges.ColoringOff()
-    edges.Update()
-    lines = actor_of(edges.GetOutput(), (0.25, 0.28, 0.32), 0.55)
-    lines.GetProperty().SetLineWidth(1.2)
+    lines = line_actor(edges, (0.25, 0.28, 0.32), 1.2)
+    lines.GetProperty().SetOpacity(0.55)
     veil = actor_of(joined.GetOutput(), (0.55, 0.6, 0.66), 0.07)
     veil.GetProperty().LightingOff()
     return [veil, lines]
 
 
 def rag_actors(rag, tables):
+    """The sheets coloured by tension, with their rim; nothing if there is no rag."""
+    if rag is None:
+        return []
     normals = vtkPolyDataNormals()
     normals.SetInputData(rag)
     normals.SplittingOff()
@@ -269,9 +291,12 @@ def rag_actors(rag, tables):
         if tension is not None and "tension" in tables:
             coloured(actor, tension.GetName(), attributes, tables["tension"])
             break
-    actor.GetProperty().SetAmbient(0.35)
-    actor.GetProperty().SetDiffuse(0.7)
-    return [actor]
+    actor.GetProperty().SetAmbient(0.65)
+    actor.GetProperty().SetDiffuse(0.4)
+    outline = vtkFeatureEdges()
+    outline.SetInputData(sheet)
+    outline.FeatureEdgesOff()
+    return [actor, line_actor(outline, (0.2, 0.02, 0.05), 1.5)]
 
 
 class Run:
@@ -287,13 +312,13 @@ class Run:
             self.domain = bounds_of(last.GetBounds(), self.domain)
         self.tables = {}
         self.travel = self.look_at_rags()
-        if self.domain is None:
-            self.domain = self.travel
+        self.domain = self.travel if self.domain is None else self.domain
         if last is not None:
             velocity = array_named(last.GetCellData(), "velocity") or array_named(last.GetPointData(), "velocity")
             if velocity is not None:
                 speeds = np.linalg.norm(vtk_to_numpy(velocity), axis=1)
-                self.tables["speed"] = colour_table(BLUES, 0, float(np.percentile(speeds[np.isfinite(speeds)], 99.5)))
+                speeds = speeds[np.isfinite(speeds)]                           # a diverged run is drawn as far as it is a number
+                self.tables["speed"] = colour_table(BLUES, 0, float(np.percentile(speeds, 99.5)) if speeds.size else 1)
 
     def grid(self, file):
         if file not in self.grids:
@@ -305,7 +330,7 @@ class Run:
         box, low, high = None, 0.0, 0.0
         for _, file in self.rags.spread(N_INSTANTS):
             rag = read(file)
-            if rag is None:
+            if rag is None or not np.all(np.isfinite(rag.GetBounds())):
                 continue
             box = bounds_of(rag.GetBounds(), box)
             tension = array_named(rag.GetPointData(), "tension") or array_named(rag.GetCellData(), "tension")
@@ -349,11 +374,10 @@ def draw(run, stage):
     for i, (time, file) in enumerate(shown):
         rag = read(file)
         water = run.water.nearest(time)
-        actors = walls + (rag_actors(rag, run.tables) if rag is not None else [])
         note = "" if rag is not None else " (no rag in the domain)"
-        if water is not None:
-            actors = run.slice_actors(water[1], middle, thin) + actors
-        scene = {"actors": actors, "bars": run.bars(True), "text": f"t = {time:.4g} s{note}", "box": run.view_of_rags(), "towards": thin}
+        surroundings = (run.slice_actors(water[1], middle, thin) if water is not None else []) + walls
+        scene = {"surroundings": surroundings, "rags": rag_actors(rag, run.tables), "bars": run.bars(True),
+                 "text": f"t = {time:.4g} s{note}", "box": run.view_of_rags(), "towards": thin}
         stage.show(f"rag_{i + 1}.png", "rag", f"t = {time:.4g} s{note}", scene)
     if not run.water.entries:
         return
@@ -364,24 +388,26 @@ def draw(run, stage):
     if last_rag is not None:
         views.append((int(np.argmax(extent)), centre, "the rag's place"))
     for axis, origin, where in views:
-        rag = rag_actors(last_rag, run.tables) if last_rag is not None else []
-        actors = run.slice_actors(file, origin, axis) + walls + rag
-        scene = {"actors": actors, "bars": run.bars(bool(rag)), "text": f"t = {time:.4g} s", "box": run.domain, "towards": axis}
+        rag = rag_actors(last_rag, run.tables)
+        box = run.domain.copy()
+        reach = 0.5 * float(np.max(np.delete(extent, axis)))                   # of a long channel the part around the plane
+        box[axis] = np.clip(origin[axis] + np.array([-reach, reach]), *run.domain[axis])
+        scene = {"surroundings": run.slice_actors(file, origin, axis) + walls, "rags": rag, "bars": run.bars(bool(rag)),
+                 "text": f"t = {time:.4g} s", "box": box, "towards": axis}
         caption = f"Speed of the water at t = {time:.4g} s on the plane {letter[axis]} = {origin[axis]:.4g} m, through {where}"
-        stage.show(f"speed_{letter[axis]}.png", "speed", caption, scene, (1000, 700))
+        stage.show(f"speed_{letter[axis]}.png", "speed", caption, scene, 1000)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--out", type=pathlib.Path, required=True)
+    parser.add_argument("folder", type=pathlib.Path, help="output folder of a run")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the pictures")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    stage = Stage(options.out)
     run = Run(options.folder)
     if run.domain is None:
         sys.exit("no fields, rags or walls to draw")
-    draw(run, stage)
+    draw(run, Stage(options.out))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,132 @@
+#include "app/report.hpp"
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "app/report/html.hpp"
+#include "app/report/monitor_plots.hpp"
+#include "app/report/page.hpp"
+#include "app/report/pictures.hpp"
+#include "app/report/results.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/version.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr std::size_t log_tail = 6000;  // bytes
+
+std::string problem(const std::string& text) { return "<p class=\"problem\">" + html::escaped(text) + "</p>\n"; }
+
+std::string picture_section(const Pictures& pictures) {
+  std::string instants, slices, unreadable;
+  for (const auto& picture : pictures.made) {
+    try {
+      const auto caption = html::escaped(picture.caption);
+      const auto image = "<img src=\"" + html::embedded_png(picture.file) + "\" alt=\"" + caption + "\">";
+      if (picture.group == "rag")  // the time stands in the picture
+        instants += "<figure>" + image + "</figure>\n";
+      else
+        slices += "<figure class=\"wide\">" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+    } catch (const Error& error) {
+      unreadable += problem(error.what());
+    }
+  }
+  std::string content;
+  if (!instants.empty())
+    content +=
+        "<p>The rag on its way, drawn over walls and water so that nothing hides it; its colour is the tension of its bonds. Walls are "
+        "transparent, and a plane through the middle of the domain shows the speed of the water. All instants share one view and one "
+        "scale.</p>\n<div class=\"pictures\">\n" +
+        instants + "</div>\n";
+  content += slices + unreadable;
+  if (!pictures.problem.empty())
+    content += problem((pictures.made.empty() ? "There are no pictures: " : "Some pictures are missing: ") + pictures.problem);
+  return content;
+}
+
+std::string plot_section(const MonitorPlots& monitors) {
+  std::string content;
+  for (const auto& plot : monitors.plots) content += figure(plot);
+  if (!content.empty()) content = "<div class=\"plots\">\n" + content + "</div>\n";
+  for (const auto& text : monitors.problems) content += problem("A monitor could not be drawn: " + text);
+  return content;
+}
+
+std::string paraview_section(const std::filesystem::path& dir) {
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const char* file, const char* meaning) {
+    if (std::filesystem::exists(dir / file)) rows.push_back({std::string("<code>") + file + "</code>", meaning});
+  };
+  add("fields/water.pvd", "water: velocity, pressure and the part of each cell that is cloth, over time");
+  add("rags/rags.pvd", "rags: sheets with the velocity of their particles and the tension of their bonds, over time");
+  add("walls/walls.vtp", "walls");
+  if (rows.empty()) return "";
+  return "<p>Open these files of the run's folder in ParaView (File, Open; then Apply). Colour the rag by tension, give the walls an "
+         "opacity of 0.1, and "
+         "put a Slice through the water. Numbers over time are in <code>monitors/*.csv</code>, which any spreadsheet reads.</p>\n" +
+         html::table({"File", "What it holds"}, rows);
+}
+
+std::string folded(const std::string& title, const std::string& text) {
+  return text.empty() ? "" : "<details><summary>" + title + "</summary>\n<pre>" + html::escaped(text) + "</pre></details>\n";
+}
+
+std::string tail(const std::string& text) {
+  if (text.size() <= log_tail) return text;
+  const auto line = text.find('\n', text.size() - log_tail);
+  return "...\n" + text.substr(line == std::string::npos ? text.size() - log_tail : line + 1);
+}
+
+std::string today() {
+  char text[32] = "";
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", localtime_r(&now, &local));
+  return text;
+}
+
+std::string heading(const nlohmann::json& summary, const std::string& title) {
+  std::string content = "<h1>" + html::escaped(title) + "</h1>\n<p class=\"origin\">Report of a Snag run, made " + today() +
+                        " by version " + version_number + " (" + version_git + ")</p>\n";
+  if (summary.is_object())
+    return content + "<p class=\"outcome" + (ended_well(summary) ? "" : " bad") + "\">" + outcome_sentence(summary) + "</p>\n";
+  return content +
+         "<p class=\"outcome bad\">The run left no readable summary.json: it is still going on, or it was killed. What follows is what it "
+         "has "
+         "written so far.</p>\n";
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& dir) {
+  const auto summary = nlohmann::json::parse(html::file_text(dir / "summary.json"), nullptr, false);
+  if (!summary.is_object() && !std::filesystem::exists(dir / "monitors") && !std::filesystem::exists(dir / "case.resolved.toml"))
+    throw Error(ExitCode::io, dir.string() +
+                                  ": holds neither summary.json, monitors nor case.resolved.toml, it must be the output folder of a run; "
+                                  "give the folder of --out");
+  const bool is_named = summary.is_object() && summary.contains("case") && summary["case"].is_string();
+  const std::string title = is_named ? summary["case"].get<std::string>() : std::filesystem::weakly_canonical(dir).filename().string();
+
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: " +
+      html::escaped(title) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n";
+  page += heading(summary, title);
+  page += section("What was run", run_table(summary));
+  page += section("Results", pump_table(summary) + rag_tables(summary));
+  page += section("What must be conserved", conservation_table(summary));
+  page += section("Pictures", picture_section(draw_pictures(dir)));
+  page += section("Over time", plot_section(monitor_plots(dir / "monitors")));
+  page += section("What it cost", cost_table(summary));
+  page += section("A closer look with ParaView", paraview_section(dir));
+  page += section("The case and the log",
+                  folded("The case with all its defaults (case.resolved.toml)", html::file_text(dir / "case.resolved.toml")) +
+                      folded("The end of the log (log.txt)", tail(html::file_text(dir / "log.txt"))));
+  page += "</body>\n</html>\n";
+  write_atomically(dir / "report.html", page);
+}
+
+}  // namespace snag

@@ -1,0 +1,23 @@
+#pragma once
+// The pictures of a report, drawn off-screen by a process of its own (Python with VTK): a failure there costs pictures, never the report.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace snag {
+
+struct Picture {
+  std::filesystem::path file;
+  std::string group;  // "rag": instants of the rags; "speed": slices of the water
+  std::string caption;
+};
+
+struct Pictures {
+  std::vector<Picture> made;
+  std::string problem;  // why some or all are missing, with the remedy; empty if all were made
+};
+
+/// Draws what fields, rags and walls of the run's folder hold into DIR/pictures; the script stays there for views of one's own.
+Pictures draw_pictures(const std::filesystem::path& dir);
+
+}  // namespace snag

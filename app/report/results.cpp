@@ -1,0 +1,278 @@
+#include "app/report/results.hpp"
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/report/html.hpp"
+#include "base/progress.hpp"
+
+namespace snag {
+
+namespace {
+
+using nlohmann::json;
+using Rows = std::vector<std::vector<std::string>>;
+
+/// Member of a table, or null.
+const json& member(const json& table, const std::string& key) {
+  static const json none;
+  return table.is_object() && table.contains(key) ? table[key] : none;
+}
+
+double real(const json& table, const std::string& key) {
+  const json& value = member(table, key);
+  return value.is_number() ? value.get<double>() : NAN;
+}
+
+/// A text, "" where it is none.
+std::string word(const json& table, const std::string& key) {
+  const json& value = member(table, key);
+  return value.is_string() ? value.get<std::string>() : "";
+}
+
+std::string text_of(const json& value) {
+  if (value.is_number_integer()) return html::count(value.get<std::int64_t>());
+  if (value.is_number()) return html::number(value.get<double>());
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_string()) return html::escaped(value.get<std::string>());
+  return html::escaped(value.dump());
+}
+
+struct Named {
+  const char* key;
+  const char* meaning;
+  const char* unit;
+};
+
+/// Rows of the known keys in this order, then those that nobody has named yet; nested tables and lists are left out.
+void add_rows(Rows& rows, const json& table, const std::vector<Named>& names, bool with_rest = true) {
+  if (!table.is_object()) return;
+  for (const auto& named : names)
+    if (const json& value = member(table, named.key); !value.is_null())
+      rows.push_back({named.meaning, text_of(value) + (*named.unit ? " " : "") + named.unit});
+  if (!with_rest) return;
+  for (const auto& [key, value] : table.items()) {
+    bool is_known = value.is_structured() || value.is_null();
+    for (const auto& named : names) is_known = is_known || key == named.key;
+    if (!is_known) rows.push_back({html::escaped(key), text_of(value)});
+  }
+}
+
+std::string table_of(const std::vector<std::string>& header, const Rows& rows) { return rows.empty() ? "" : html::table(header, rows); }
+
+const char* exit_words(int code) {
+  switch (code) {
+    case 0:
+      return "The run ended as planned.";
+    case 2:
+      return "The run was refused because of its case file.";
+    case 3:
+      return "The run was refused because of its mesh.";
+    case 4:
+      return "The run was stopped because the solution of the water diverged.";
+    case 5:
+      return "The run was stopped because particles, bonds or momentum were lost: its results must not be used.";
+    case 6:
+      return "The run was stopped because a file could not be read or written.";
+    case 7:
+      return "The run was stopped on request; a checkpoint is written and it can be resumed.";
+    default:
+      return "The run was stopped by an error.";
+  }
+}
+
+std::string rag_words(const std::string& outcome) {
+  static const std::map<std::string, std::string> words = {
+      {"exited", "has left the domain"},
+      {"recirculating", "is still going round"},
+      {"stuck_on_tongue", "hangs on the tongue"},
+      {"stuck_on_impeller", "hangs on the impeller"},
+      {"upstream", "has not reached the pump yet"},
+      {"in_domain", "is still in the domain"},
+  };
+  const auto found = words.find(outcome);
+  return found == words.end() ? "ended as \"" + html::escaped(outcome) + "\"" : found->second;
+}
+
+std::string name_of(const json& rag) {
+  const json& id = member(rag, "id");
+  const std::string name = word(rag, "name");
+  return "Rag " + (id.is_null() ? "" : text_of(id)) + (name.empty() ? "" : " (" + html::escaped(name) + ")");
+}
+
+std::string rags_sentence(const json& rags) {
+  if (!rags.is_array() || rags.empty()) return "";
+  std::string text;
+  if (rags.size() <= 3) {
+    for (const auto& rag : rags) {
+      text += " " + name_of(rag) + " " + rag_words(word(rag, "outcome")) + ".";
+      if (const double broken = real(rag, "broken_bonds"); broken > 0)
+        text += " It has " + html::count(std::llround(broken)) + " broken bonds.";
+    }
+    return text;
+  }
+  std::map<std::string, int> counts;
+  for (const auto& rag : rags) ++counts[word(rag, "outcome")];
+  text = " Of " + std::to_string(rags.size()) + " rags";
+  std::string separator = ": ";
+  for (const auto& [outcome, n] : counts) {
+    text += separator + std::to_string(n) + " " + (n == 1 ? "" : "each ") + rag_words(outcome);
+    separator = "; ";
+  }
+  return text + ".";
+}
+
+}  // namespace
+
+bool ended_well(const json& summary) { return real(summary, "exit") == 0; }
+
+std::string outcome_sentence(const json& summary) {
+  const double code = real(summary, "exit"), simulated = real(summary, "simulated_s"), steps = real(summary, "time_steps");
+  std::string text = std::isnan(code) ? "The run left no exit code." : exit_words(static_cast<int>(code));
+  if (std::isfinite(simulated)) text += " It covers " + html::number(simulated) + " s of operation";
+  if (std::isfinite(simulated) && std::isfinite(steps)) text += " in " + html::count(std::llround(steps)) + " time steps";
+  if (std::isfinite(simulated)) text += ".";
+  return text + rags_sentence(member(summary, "rags"));
+}
+
+std::string run_table(const json& summary) {
+  Rows rows;
+  add_rows(rows, summary,
+           {{"case", "Case", ""},
+            {"case_sha256", "Fingerprint of the case (SHA-256)", ""},
+            {"version", "Version of Snag", ""},
+            {"git", "Revision of the sources", ""},
+            {"ranks", "Processes (MPI ranks)", ""},
+            {"simulated_s", "Simulated time", "s"},
+            {"time_steps", "Time steps of the water", ""}},
+           false);
+  if (const double wall = real(summary, "wall_s"); std::isfinite(wall)) rows.push_back({"Duration of the run", duration(wall)});
+  add_rows(rows, member(summary, "mesh"),
+           {{"cells", "Cells of the mesh", ""},
+            {"interior_faces", "Faces between cells", ""},
+            {"facets", "Facets of the sliding interface", ""},
+            {"min_quality", "Lowest quality of a cell (1 is best)", ""}});
+  return table_of({}, rows);
+}
+
+std::string pump_table(const json& summary) {
+  const json& pump = member(summary, "pump");
+  Rows rows;
+  add_rows(rows, pump,
+           {{"flow_m3_s", "Flow rate", "m³/s"},
+            {"head_m", "Head", "m"},
+            {"torque_Nm", "Torque", "N m"},
+            {"shaft_power_W", "Shaft power", "W"},
+            {"efficiency", "Hydraulic efficiency", ""},
+            {"revolutions", "Revolutions", ""}});
+  return table_of({"Pump, mean of the last revolution", "Value"}, rows);
+}
+
+std::string rag_tables(const json& summary) {
+  const json& rags = member(summary, "rags");
+  if (!rags.is_array()) return "";
+  std::string result;
+  for (const auto& rag : rags) {
+    Rows rows = {{"Outcome", rag_words(word(rag, "outcome"))}};
+    add_rows(rows, rag,
+             {{"outcome", "", ""},
+              {"id", "", ""},
+              {"name", "", ""},
+              {"particles", "Particles", ""},
+              {"bonds", "Bonds", ""},
+              {"broken_bonds", "Broken bonds", ""},
+              {"retention_time_s", "Retention time: from wholly inside the casing to wholly out of it", "s"},
+              {"time_to_enter_s", "Time to enter: from the first particle at the inlet flange to wholly inside", "s"},
+              {"recirculations", "Recirculations past the tongue", ""},
+              {"stuck_on_tongue_s", "Time stuck on the tongue", "s"},
+              {"stuck_on_impeller_s", "Time stuck on the impeller", "s"},
+              {"wall_contact_s", "Time in contact with a wall", "s"},
+              {"elongation_ratio", "Elongation ratio at the end: long side over short side", ""},
+              {"projected_area_m2", "Projected area at the end", "m²"},
+              {"max_wall_overlap_over_radius", "Deepest overlap with a wall, in particle radii", ""},
+              {"max_overlap_over_radius", "Deepest overlap between particles, in particle radii", ""},
+              {"bond_strain_p99", "Strain that 99 % of the bonds stay below", ""},
+              {"max_bond_tension_N", "Largest tension of a bond", "N"},
+              {"corrected_positions", "Corrected positions", ""}});
+    std::erase_if(rows, [](const auto& row) { return row[0].empty(); });
+    result += html::table({name_of(rag), "Value"}, rows);
+    Rows events;
+    if (const json& list = member(rag, "events"); list.is_array())
+      for (const auto& event : list) {
+        const double angle = real(event, "angle_deg");
+        events.push_back({text_of(member(event, "t_s")), std::isfinite(angle) ? html::number(angle) : "", text_of(member(event, "what"))});
+      }
+    if (!events.empty()) result += html::table({"Time [s]", "Angle of the impeller [deg]", "What happened"}, events);
+  }
+  return result;
+}
+
+std::string conservation_table(const json& summary) {
+  struct Check {
+    const char* key;
+    const char* meaning;
+    double limit;
+  };
+  const std::vector<Check> checks = {
+      {"mass_imbalance_rel", "Water that is not accounted for, relative to the flow", 1e-6},
+      {"momentum_exchange_rel", "Momentum lost between water and rags, relative to what was exchanged", 1e-10},
+      {"interface_closure_rel", "Gap of the sliding interface, relative to its area", 1e-12},
+      {"particles_lost", "Particles lost", 0},
+      {"bonds_lost", "Bonds lost (other than by breaking)", 0},
+      {"particles_beyond_walls", "Particles beyond a wall", 0},
+  };
+  const json& conservation = member(summary, "conservation");
+  if (!conservation.is_object()) return "";
+  Rows rows;
+  for (const auto& check : checks) {
+    const json& value = member(conservation, check.key);
+    const char* verdict = "<span class=\"idle\">not measured</span>";
+    if (value.is_number())  // what is not a number fails
+      verdict = value.get<double>() <= check.limit ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">FAIL</span>";
+    rows.push_back({check.meaning, value.is_number() ? text_of(value) : "", check.limit == 0 ? "0" : html::number(check.limit), verdict});
+  }
+  return html::table({"Quantity", "Largest value", "Limit", "Check"}, rows);
+}
+
+std::string cost_table(const json& summary) {
+  const json& performance = member(summary, "performance");
+  if (!performance.is_object()) return "";
+  struct Part {
+    const char* key;
+    const char* meaning;
+    const char* colour;
+  };
+  const std::vector<Part> parts = {{"flow_s", "Water", "#0072B2"},
+                                   {"dem_s", "Rags", "#D55E00"},
+                                   {"coupling_s", "Exchange between them", "#009E73"},
+                                   {"output_s", "Output", "#7A5195"}};
+  const double wall = real(summary, "wall_s");
+  double total = 0;
+  for (const auto& part : parts) total += std::max(0.0, real(performance, part.key));
+  const double whole = wall > total ? wall : total;
+  std::string shares = "<div class=\"shares\">";
+  Rows rows;
+  const auto add = [&](const std::string& meaning, double seconds, const char* colour) {
+    const std::string percent = html::number(100 * seconds / whole) + " %";
+    rows.push_back({meaning, html::number(seconds) + " s", percent});
+    if (seconds > 0)
+      shares += "<div style=\"width:" + std::to_string(100 * seconds / whole) + "%;background:" + colour + "\">" + meaning + "</div>";
+  };
+  if (whole > 0) {
+    for (const auto& part : parts)
+      if (const double seconds = real(performance, part.key); std::isfinite(seconds)) add(part.meaning, seconds, part.colour);
+    if (wall > total) add("Start and the rest", wall - total, "#8a96a3");
+  }
+  shares += "</div>\n";
+  const double cells = real(performance, "flow_cell_steps_per_s"), particles = real(performance, "dem_particle_steps_per_s"),
+               memory = real(performance, "peak_memory_bytes");
+  if (std::isfinite(cells)) rows.push_back({"Speed of the water: cells times steps", html::number(cells) + " per second", ""});
+  if (std::isfinite(particles)) rows.push_back({"Speed of the rags: particles times steps", html::number(particles) + " per second", ""});
+  if (std::isfinite(memory)) rows.push_back({"Largest memory, all processes", html::bytes(memory), ""});
+  if (rows.empty()) return "";
+  return (whole > 0 ? shares : "") + html::table({"Part of the run", "Value", "Share"}, rows);
+}
+
+}  // namespace snag

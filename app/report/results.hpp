@@ -1,0 +1,20 @@
+#pragma once
+// What summary.json says, in words and tables for a reader who does not know its keys. Every group and key may be absent.
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace snag {
+
+/// What came out, in a sentence or two.
+std::string outcome_sentence(const nlohmann::json& summary);
+/// True if the run ended as planned.
+bool ended_well(const nlohmann::json& summary);
+/// Tables as HTML; "" where the summary has nothing for them.
+std::string run_table(const nlohmann::json& summary);
+std::string pump_table(const nlohmann::json& summary);
+std::string rag_tables(const nlohmann::json& summary);
+/// Each conserved quantity with its value, its limit and whether it was kept.
+std::string conservation_table(const nlohmann::json& summary);
+std::string cost_table(const nlohmann::json& summary);
+
+}  // namespace snag

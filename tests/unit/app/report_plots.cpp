@@ -1,0 +1,110 @@
+// Plots of a report: every value has its place, extremes survive thinning, and what cannot be drawn is said.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "app/report/html.hpp"
+#include "app/report/line_plot.hpp"
+#include "app/report/monitor_plots.hpp"
+
+namespace snag {
+namespace {
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// A line from corner to corner of its data ends in the corners of the frame.
+TEST(LinePlotFigure, PlacesValuesInTheFrame) {
+  const auto html = figure({"title", "time [s]", "head [m]", {{"", {0, 10}, {2, 4}}}});
+  EXPECT_TRUE(holds(html, "d=\"M64.0 212.5L468.0 25.5\"")) << html;  // 4 % of the data is left free above and below: 202 pixels for 1.08
+  EXPECT_TRUE(holds(html, "time [s]") && holds(html, "head [m]"));
+}
+
+// Among a hundred thousand values one spike stays visible, and the page stays small.
+TEST(LinePlotFigure, KeepsExtremesOfLongLines) {
+  LinePlot plot{"", "", "", {{"", {}, {}}}};
+  for (int i = 0; i < 100000; ++i) {
+    plot.lines[0].x.push_back(i);
+    plot.lines[0].y.push_back(i == 77777 ? 900 : 1 + 0.1 * std::sin(i));
+  }
+  const auto html = figure(plot);
+  EXPECT_LT(html.size(), 30000u);
+  EXPECT_TRUE(holds(html, " 25.5L")) << "the spike reaches the top";
+}
+
+// A logarithmic axis spans whole decades; values that have no place on it leave a gap and are counted.
+TEST(LinePlotFigure, CountsWhatALogarithmicAxisCannotShow) {
+  EXPECT_DOUBLE_EQ(decades({"", "", "", {{"", {0, 1}, {1e-6, 1}}}}), 6);
+  EXPECT_DOUBLE_EQ(decades({"", "", "", {{"", {0, 1, 2}, {10, 0, 1000}}}}), 2);
+  EXPECT_LT(decades({"", "", "", {{"", {0, 1, 2}, {1e-6, 1, -1e-9}}}}), 0);
+  EXPECT_LT(decades({"", "", "", {{"", {0, 1}, {0, 0}}}}), 0);
+  const auto html = figure({"", "", "", {{"", {0, 1, 2, 3}, {1e-6, 0, 1, NAN}}}, true});
+  EXPECT_TRUE(holds(html, "1 values of zero or less")) << html;
+  EXPECT_TRUE(holds(html, "1 values are not finite")) << html;
+  EXPECT_TRUE(holds(html, "d=\"M64.0 220.0M")) << "a gap, not a line across it: " << html;
+}
+
+// Very small and very large numbers share one power of ten above the axis.
+TEST(LinePlotFigure, FactorsOutAPowerOfTen) {
+  const auto html = figure({"", "", "", {{"", {0, 1}, {1e-6, 4e-6}}}});
+  EXPECT_TRUE(holds(html, ">× 10<tspan dy=\"-5\" font-size=\"8\">-6<")) << html;
+  EXPECT_TRUE(holds(html, ">3</text>")) << html;
+}
+
+// A constant, a single value and no value at all are drawn without a division by zero.
+TEST(LinePlotFigure, DrawsDegenerateLines) {
+  for (const std::vector<double>& y : {std::vector<double>{5, 5}, {0, 0}, {1e-300, 1e-300}, {NAN, NAN}, {7}, {}}) {
+    const auto html = figure({"", "", "", {{"", std::vector<double>(y.size(), 1.0), y}}});
+    EXPECT_FALSE(holds(html, "nan\"") || holds(html, "inf") || holds(html, "nan ") || holds(html, "-nan")) << html;
+  }
+}
+
+// Known columns come under plain titles, vectors share a plot, each rag is a line, and every other column is shown as well.
+TEST(MonitorPlots, ShowEveryColumn) {
+  const auto folder = std::filesystem::temp_directory_path() / ("snag_monitor_plots_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "rags.csv") << "time [s],rag [1],x [m],y [m],z [m],own [1]\n0,0,1,2,3,4\n0,5,1,2,3,4\n1,0,1,2,3,4\n1,5,1,2,3,9\n";
+  std::ofstream(folder / "probe.csv") << "time [s],time_step [1],u_x [m/s],u_y [m/s],u_z [m/s],p [Pa]\n0,1,1,2,3,4\n";
+  std::ofstream(folder / "empty.csv") << "time [s],a [1]\n";
+  const auto found = monitor_plots(folder);
+  std::filesystem::remove_all(folder);
+  std::vector<std::string> titles;
+  for (const auto& plot : found.plots) titles.push_back(plot.title + "|" + plot.y_label + "|" + std::to_string(plot.lines.size()));
+  EXPECT_EQ(titles, (std::vector<std::string>{"Where the rag is: its centroid|[m]|6", "probe: u|u [m/s]|3", "probe: p|p [Pa]|1",
+                                              "rags: own|own|2"}));
+  EXPECT_EQ(found.plots.back().lines[1].label, "rag 5");
+  EXPECT_EQ(found.plots.back().lines[1].y, (std::vector<double>{4, 9}));
+  EXPECT_EQ(found.problems, std::vector<std::string>{"empty.csv holds no record"});
+  EXPECT_TRUE(monitor_plots(folder).plots.empty()) << "an absent folder has no plots";
+}
+
+// Residuals and relative errors are read by their order of magnitude; forces and seconds never are.
+TEST(MonitorPlots, UseLogarithmsForWhatShouldBeSmall) {
+  const auto folder = std::filesystem::temp_directory_path() / ("snag_monitor_scales_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "coupling.csv")
+      << "time [s],momentum_exchange_rel [1],loss_rel [1],flow_s [s],ratio [1],small [1]\n0,1e-14,0,1e-6,1e-6,1\n1,2e-14,0,9,9,2\n";
+  const auto found = monitor_plots(folder);
+  std::filesystem::remove_all(folder);
+  std::vector<bool> logarithmic;
+  for (const auto& plot : found.plots) logarithmic.push_back(plot.logarithmic);
+  EXPECT_EQ(logarithmic, (std::vector<bool>{true, false, false, true, false}));
+}
+
+// Numbers are written for people: four digits, powers of ten where needed, thin spaces between thousands.
+TEST(ReportNumbers, AreReadable) {
+  EXPECT_EQ(html::number(0.123456), "0.1235");
+  EXPECT_EQ(html::number(-1.2e-5), "-1.2 × 10<sup>−5</sup>");
+  EXPECT_EQ(html::number(3.5e7), "3.5 × 10<sup>7</sup>");
+  EXPECT_EQ(html::number(0), "0");
+  EXPECT_EQ(html::number(1e-12), "10<sup>−12</sup>");
+  EXPECT_EQ(html::number(NAN), "not a number");
+  EXPECT_EQ(html::count(-1234567), "-1\u2009234\u2009567");
+  EXPECT_EQ(html::count(999), "999");
+  EXPECT_EQ(html::bytes(310e6), "310 MB");
+  EXPECT_EQ(html::escaped("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+}
+
+}  // namespace
+}  // namespace snag
