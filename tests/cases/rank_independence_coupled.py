@@ -16,7 +16,7 @@ class CoupledRunOnAnyNumberOfRanks(harness.CaseTest):
         self.assertGreater(numpy.abs(force).max(), 1e-4, "water and rag must exchange momentum, else the case shows nothing")
         for ranks in (2, 3, 5):
             other = self.run_case(case, ranks, out=str(ranks))
-            for monitor in ("rags", "coupling", "residuals"):
+            for monitor in ("rags", "contacts", "coupling", "patches", "residuals"):
                 self.assert_monitors_agree(one, other, monitor, 1e-6)
 
     def test_cell_kernel(self):

@@ -4,8 +4,6 @@
 import os
 import signal
 
-import numpy
-
 import harness
 from small_cases import CHANNEL, CHANNEL_MESH
 
@@ -41,17 +39,20 @@ class ResumedRun(harness.CaseTest):
             self.assertEqual(keys, sorted(set(keys)), f"{file.name}: lines twice or out of order")
 
     def assert_equal_to_the_bit(self, whole, resumed):
-        for name in ("rags", "coupling", "residuals"):
-            a, b = whole.monitor(name), resumed.monitor(name)
-            self.assertEqual(a.columns, b.columns)
-            kept = [a.columns.index(c) for c in a.physical()]
-            cut = [[[line.split(",")[i] for i in kept] for line in m.lines] for m in (a, b)]
-            self.assertEqual(*cut, f"monitors/{name}.csv")
+        for file in sorted((whole.folder / "monitors").glob("*.csv")):
+            if file.stem == "timing":  # the clock never shows the same twice
+                continue
+            a, b = (run.monitor(file.stem).lines for run in (whole, resumed))
+            for i, (line, other) in enumerate(zip(a, b)):
+                self.assertEqual(line, other, f"{file.name}, line {i + 1} of {len(a)}")
+            self.assertEqual(len(a), len(b), file.name)
         finals = sorted((whole.folder / "fields").glob("water_000050*.vtu")) + sorted((whole.folder / "rags").glob("*_000050*.vtp"))
         self.assertGreaterEqual(len(finals), 2, "final fields of water and rags must be there")
         for file in finals:
             other = resumed.folder / file.relative_to(whole.folder)
             self.assertEqual(file.read_bytes(), other.read_bytes(), f"{file.name} differs")
+        for name in ("rags", "conservation"):
+            self.assertEqual(whole.summary[name], resumed.summary[name])
 
     def stop_and_resume(self, ranks, stop):
         case = self.channel()
@@ -75,13 +76,11 @@ class ResumedRun(harness.CaseTest):
         case = self.channel()
         whole = self.run_case(case, 2, out="whole")
         self.stopped_run(case, 2, self.by_file, "stopped")
-        for ranks, out in ((3, "stopped"),):
-            resumed = self.run_case(case, ranks, "--resume", out=out)
-            self.assert_no_line_twice(resumed)
-            for name in ("rags", "coupling", "residuals"):
-                self.assert_monitors_agree(whole, resumed, name, 1e-6)
+        resumed = self.run_case(case, 3, "--resume", out="stopped")
         self.assertEqual(resumed.summary["ranks"], 3)
-        self.assertTrue(numpy.isfinite(resumed.monitor("rags").values).all())
+        self.assert_no_line_twice(resumed)
+        for name in ("rags", "contacts", "coupling", "patches", "residuals"):
+            self.assert_monitors_agree(whole, resumed, name, 1e-6)
 
 
 if __name__ == "__main__":

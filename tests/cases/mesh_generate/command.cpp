@@ -75,3 +75,10 @@ TEST(MeshCommand, HelpListsParameters) {
   EXPECT_NE(help.output.find("rotor_angle               7 deg"), std::string::npos) << help.output;
   EXPECT_NE(help.output.find("plate_distance            0.125 m"), std::string::npos) << help.output;
 }
+
+// The program knows every geometry: none is lost because it registers itself.
+TEST(MeshCommand, KnowsEveryGeometry) {
+  const auto help = snag_mesh("--help");
+  for (const std::string name : {"box", "channel", "pipe", "pump", "tank"})
+    EXPECT_NE(help.output.find("\n  " + name + " "), std::string::npos) << name;
+}
