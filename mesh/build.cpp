@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/log.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/parts.hpp"
@@ -85,6 +86,14 @@ std::vector<int> number_cells(const MeshParts& parts, const std::vector<LocalFac
   return number_of;
 }
 
+/// A named surface without boundary faces: two sides of a period are meant to be, one inside the volume may surprise.
+void warn_of_empty(const MeshParts& parts, const std::string& patch) {
+  for (const PeriodicPair& pair : parts.periodic)
+    if (patch == pair.first || patch == pair.second) return;
+  if (rank_of(parts.comm) == 0)
+    log::warning(parts.source + ": surface \"" + patch + "\" lies inside the volume; it is no boundary and water passes through it");
+}
+
 /// Patches that keep faces somewhere, by name.
 void number_patches(const MeshParts& parts, const std::vector<LocalFace>& faces, Mesh& mesh) {
   std::vector<std::int64_t> count(parts.patches.size(), 0), total(parts.patches.size(), 0);
@@ -93,7 +102,10 @@ void number_patches(const MeshParts& parts, const std::vector<LocalFace>& faces,
   MPI_Allreduce(count.data(), total.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, parts.comm);
   int first = mesh.n_interior;
   for (std::size_t p = 0; p < parts.patches.size(); ++p) {
-    if (total[p] == 0) continue;
+    if (total[p] == 0) {
+      warn_of_empty(parts, parts.patches[p]);
+      continue;
+    }
     mesh.patches.push_back({parts.patches[p], first, static_cast<int>(count[p]), total[p]});
     first += static_cast<int>(count[p]);
   }

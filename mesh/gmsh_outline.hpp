@@ -20,7 +20,7 @@ struct GmshOutline {
   }
 };
 
-/// MSH 2.2 and 4.1, ASCII and binary. One rank calls it. Throws Error(io) if the file is missing or cut off, Error(mesh) for other
+/// MSH 2.2 and 4.1, ASCII and binary. One rank calls it. Throws Error(io) if the file is missing, cut off or damaged, Error(mesh) for other
 /// versions, curved elements, or no volume cells.
 GmshOutline gmsh_outline(const std::filesystem::path& file);
 

@@ -13,6 +13,7 @@ struct ImportOptions {
   std::optional<std::vector<int>> partition = {};  // rank of every cell of the file (known on all ranks), as stored by a checkpoint
 };
 
+/// Cells and nodes carry their numbers in the file, from 0; nodes that no element uses are not counted.
 /// Read, distribute (PTScotch) and flatten a mesh; cells in bandwidth-reducing order. Collective.
 /// Throws Error(io) if the file is missing or unreadable, Error(mesh) if it holds no volume cells, unnamed boundary faces, or an unmatched
 /// periodic pair.

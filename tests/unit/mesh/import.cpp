@@ -2,6 +2,7 @@
 #include "mesh/import.hpp"
 
 #include <cstdlib>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "check.hpp"
@@ -185,6 +186,27 @@ TEST(Import, RefusesMissingAndCutOffFiles) {
       MPI_Barrier(MPI_COMM_WORLD);
       EXPECT_NE(failure(file.path(), ExitCode::io).find(file.path().string()), std::string::npos);
     }
+}
+
+// Damage inside a file is found before PETSc reads it on rank 0 alone: every rank gets the same error.
+TEST(Import, RefusesDamagedFiles) {
+  const auto damaged = [](const std::string& what, const std::string& by) {
+    const test::TemporaryFile file(test::mixed_units(2), Format::ascii22);
+    if (rank_of(MPI_COMM_WORLD) == 0) {
+      std::ostringstream content;
+      content << std::ifstream(file.path()).rdbuf();
+      std::string text = content.str();
+      const std::size_t at = text.find(what);
+      if (at != std::string::npos) text.replace(at, what.size(), by);
+      std::ofstream(file.path()) << text;
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    return failure(file.path(), ExitCode::io);
+  };
+  EXPECT_NE(damaged("\n3 0 0 1", "\n3 0 zero 1").find("number is expected"), std::string::npos);
+  EXPECT_NE(damaged("\n3 0 0 1", "\n3 0 nan 1").find("not finite"), std::string::npos);
+  EXPECT_NE(damaged("\n3 0 0 1", "\n4 0 0 1").find("node number 4 occurs twice"), std::string::npos);
+  EXPECT_NE(damaged("1 3 2 1 2 1 2", "1 3 2 1 2 1 222").find("node 222"), std::string::npos);
 }
 
 // Meshes that Snag cannot use are refused with the place or the remedy.
