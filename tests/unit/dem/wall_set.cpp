@@ -1,0 +1,262 @@
+// Walls: motion, nearest points, search grid, what a particle does to them and case files.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/error.hpp"
+#include "dem/wall_triangles.hpp"
+#include "dem/walls.hpp"
+#include "tests/unit/dem/contact_pieces.hpp"
+#include "tests/unit/dem/wall_pieces.hpp"
+
+namespace snag {
+namespace {
+
+using test::Pieces;
+
+std::mt19937 generator(11);
+Vec3 random_vector(double scale) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  return scale * Vec3{uniform(generator), uniform(generator), uniform(generator)};
+}
+
+// The frame of a wall comes from the time alone: orthonormal after a day of turning, back where it was after whole turns, and its velocity
+// is its derivative.
+TEST(WallMotion, IsExact) {
+  const WallMotion motion{.axis = {1, -2, 0.5}, .origin = {0.1, 0.2, 0.3}, .speed = 2 * std::numbers::pi, .velocity = {0.5, 0, -0.25}};
+  const WallPose late = wall_pose(motion, 86400.25);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(dot(late.rotation[i], late.rotation[j]), i == j, 4e-16 * 4);
+  const Vec3 X{0.7, -0.1, 0.2};
+  EXPECT_NEAR(norm(wall_pose(motion, 1000).in_space(X) - (X + 1000 * motion.velocity)), 0, 1e-11);
+  EXPECT_NEAR(norm(late.in_wall(late.in_space(X)) - X), 0, 1e-11);
+  const double h = 1e-5, t = 0.37;
+  const Vec3 difference = (wall_pose(motion, t + h).in_space(X) - wall_pose(motion, t - h).in_space(X)) / (2 * h);
+  EXPECT_NEAR(norm(difference - wall_pose(motion, t).velocity_at(wall_pose(motion, t).in_space(X))), 0, 1e-8);
+  // A quarter turn about z takes x to y.
+  const WallPose quarter = wall_pose({.axis = {0, 0, 1}, .origin = {}, .speed = std::numbers::pi / 2, .velocity = {}}, 1);
+  EXPECT_NEAR(norm(quarter.in_space({1, 0, 0}) - Vec3{0, 1, 0}), 0, 1e-15);
+}
+
+// The nearest point of a triangle is nearer than any other of its points, and lies on the feature it names.
+TEST(WallTriangles, NearestPointIsNearest) {
+  int seen[3] = {0, 0, 0};
+  for (int k = 0; k < 500; ++k) {
+    const std::array<Vec3, 3> node{random_vector(1), random_vector(1), random_vector(1)};
+    const Vec3 c = random_vector(1.5);
+    const NearestPoint nearest = nearest_point(node, c);
+    ++seen[static_cast<int>(nearest.feature)];
+    for (int i = 0; i <= 20; ++i)
+      for (int j = 0; j <= 20 - i; ++j)
+        ASSERT_LE(norm(nearest.point - c),
+                  norm(node[0] + i / 20.0 * (node[1] - node[0]) + j / 20.0 * (node[2] - node[0]) - c) * (1 + 1e-12));
+    const Vec3 a = node[nearest.place], b = node[(nearest.place + 1) % 3];
+    if (nearest.feature == WallFeature::corner) {
+      EXPECT_EQ(norm(nearest.point - a), 0);
+    }
+    if (nearest.feature == WallFeature::edge) {
+      EXPECT_LE(norm(cross(nearest.point - a, unit(b - a))), 1e-12);
+    }
+  }
+  for (int n : seen) EXPECT_GT(n, 30);
+}
+
+// The search grid lists every triangle within reach, for small triangles, large ones, and points outside of its box.
+TEST(WallTriangles, GridMissesNothing) {
+  WallSurface surface = test::sheet(17, 9, [](double u, double v) {
+    return Vec3{std::sin(3 * u), std::cos(2 * u) * v, 0.3 * v * v + (u > 0.7 ? 0.5 * u : 0.0)};
+  });
+  const double reach = 0.07;
+  const VoxelGrid grid(surface.triangles, reach, 0.1, 1e5), wide(surface.triangles, reach, 0.01, 200);
+  int hits = 0;
+  for (int k = 0; k < 20000; ++k) {
+    const Vec3 x = random_vector(1.4);
+    for (const VoxelGrid* g : {&grid, &wide}) {
+      const auto listed = g->at(x);
+      EXPECT_TRUE(std::is_sorted(listed.begin(), listed.end()));
+      for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+        if (norm(nearest_point(surface.triangles[t].node, x).point - x) < reach) {
+          ++hits;
+          ASSERT_TRUE(std::binary_search(listed.begin(), listed.end(), static_cast<int>(t)));
+        }
+    }
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_TRUE(grid.at({std::nan(""), 0, 0}).empty());
+}
+
+// The sign of the distance to a closed solid tells inside from outside everywhere near it, also off edges and corners.
+TEST(WallTriangles, SidesOfASolid) {
+  const WallSurface solid = test::solid_box({0, 0, 0}, {1, 2, 3});
+  const TriangleSurface surface(solid.triangles, 0.5, 0.6);
+  for (int k = 0; k < 5000; ++k) {
+    const Vec3 x = Vec3{0.5, 1, 1.5} + Vec3{random_vector(0.95).x, random_vector(1.45).y, random_vector(1.95).z};
+    TriangleDistance nearest{infinity, {}, WallFeature::face, {}};
+    for (int t : surface.near(x)) {
+      const TriangleDistance seen = surface.distance(t, x);
+      if (std::abs(seen.distance) < std::abs(nearest.distance)) nearest = seen;
+    }
+    if (nearest.distance == infinity) continue;
+    const bool inside = x.x > 0 && x.x < 1 && x.y > 0 && x.y < 2 && x.z > 0 && x.z < 3;
+    EXPECT_EQ(nearest.distance < 0, inside) << x.x << " " << x.y << " " << x.z;
+  }
+}
+
+// A particle driven through a wall is counted while it is beyond, also where it is too deep for the wall to reach it, and no longer once it
+// is back.
+TEST(WallContacts, ParticlesBeyondAreCounted) {
+  const double r = 1e-3;
+  WallSet walls;
+  walls.add_surface("block", test::solid_box({0, 0, 0}, {0.02, 0.02, 0.02}));
+  Pieces pieces;
+  pieces.add_sphere(Pieces::sphere(r, 540), {0.0101, 0.0099, 0.02 + 0.9 * r}), pieces.add_sphere(Pieces::sphere(r, 540), {0.05, 0, 0});
+  ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+  const auto tiles = pieces.owned();
+  for (double depth = -0.9; depth < 8; depth += 0.05) {
+    pieces.set(0, Tile::x, {0.0101, 0.0099, 0.02 - depth * r});
+    pieces.clear_forces();
+    contacts.add_forces(tiles, {}, 1e-6);
+    EXPECT_EQ(contacts.measures().beyond_walls[0], depth > 1e-9) << depth;
+    if (depth < 0.95) {
+      EXPECT_GT(pieces.get(0, Tile::fx).z, 0);
+    }
+  }
+  // The flag moves with the tile to another rank.
+  ContactSolver other(ContactSettings{}, pieces.rags, &walls);
+  other.unpack(*tiles[0], contacts.pack(*tiles[0]));
+  other.add_forces(tiles, {}, 1e-6);
+  EXPECT_EQ(other.measures().beyond_walls, (std::vector<std::int64_t>{1, 0}));
+  pieces.set(0, Tile::x, {0.0101, 0.0099, 0.02 + 0.5 * r});
+  contacts.add_forces(tiles, {}, 1e-6);
+  EXPECT_EQ(contacts.measures().beyond_walls[0], 0);
+}
+
+// A plane counts what is beyond it at any depth and pushes it back, with the force of the overlap 2 r at most.
+TEST(WallContacts, PlanePushesBackFromAnyDepth) {
+  const double r = 1e-3;
+  WallSet walls;
+  walls.add_plane("floor", {}, {0, 0, 5});
+  Pieces pieces;
+  pieces.add_sphere(Pieces::sphere(r, 540), {0, 0, -r}), pieces.add_sphere(Pieces::sphere(r, 540), {0.1, 0, -50 * r});
+  ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+  contacts.add_forces(pieces.owned(), {}, 1e-6);
+  EXPECT_EQ(contacts.measures().beyond_walls, (std::vector<std::int64_t>{1, 1}));
+  EXPECT_GT(pieces.get(0, Tile::fx).z, 0);
+  EXPECT_EQ(pieces.get(0, Tile::fx).z, pieces.get(1, Tile::fx).z);
+  EXPECT_NEAR(contacts.measures().max_wall_overlap_over_radius[0], 2, 1e-12);
+  EXPECT_NEAR(contacts.measures().max_wall_overlap_over_radius[1], 51, 1e-9);
+}
+
+// The load on a wall part is the opposite of the impulse on the particles, per rag and part; contact time is counted per particle.
+TEST(WallContacts, LoadsOnParts) {
+  const double r = 1e-3;
+  WallSet walls;
+  walls.add_plane("floor", {}, {0, 0, 1}), walls.add_plane("side", {}, {1, 0, 0});
+  Pieces pieces;
+  pieces.add_sphere(Pieces::sphere(r, 540), {0.8 * r, 0, 0.9 * r}, {0.1, 0.2, -0.1}),
+      pieces.add_sphere(Pieces::sphere(r, 540), {0.5, 0, 0.9 * r});
+  ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+  Vec3 impulse[2];
+  for (int k = 0; k < 3; ++k) {
+    pieces.clear_forces();
+    contacts.add_forces(pieces.owned(), {}, 1e-6);
+    for (int p = 0; p < 2; ++p) impulse[p] += 1e-6 * pieces.get(p, Tile::fx);
+  }
+  const auto& loads = contacts.wall_loads();  // [rag][part]
+  ASSERT_EQ(loads.size(), 4U);
+  EXPECT_LE(norm(loads[0].impulse + loads[1].impulse + impulse[0]), 1e-14 * norm(impulse[0]));
+  EXPECT_LE(norm(loads[2].impulse + impulse[1]), 1e-14 * norm(impulse[1]));
+  EXPECT_LT(loads[0].impulse.z, 0);
+  EXPECT_LT(loads[1].impulse.x, 0);
+  EXPECT_NEAR(loads[0].particle_time, 3e-6, 1e-18);
+  EXPECT_EQ(loads[3].particle_time, 0);
+  EXPECT_EQ(loads[0].touching, 1);
+  EXPECT_EQ(contacts.measures().n_wall_contacts, 3);
+  contacts.reset_measures();
+  EXPECT_EQ(contacts.wall_loads()[0].particle_time, 0);
+  EXPECT_EQ(contacts.measures().max_wall_overlap_over_radius[0], 0);
+}
+
+// A fast wall that comes upon resting particles is noticed in time: the list is made anew before it can have arrived.
+TEST(WallContacts, FastWallArrives) {
+  const double r = 1e-3, speed = 300;
+  WallSet walls;
+  walls.add_surface("blade", test::solid_box({0, 0, 0}, {0.1, 0.002, 0.02}),
+                    WallMotion{.axis = {0, 0, 1}, .origin = {}, .speed = speed, .velocity = {}});
+  Pieces pieces;
+  pieces.add_sphere(Pieces::sphere(r, 540), {0, 0.08, 0.01});
+  ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+  const auto tiles = pieces.owned();
+  double first = 0;
+  for (int k = 0; k < 2000 && first == 0; ++k) {
+    pieces.clear_forces();
+    contacts.add_forces(tiles, {}, 5e-6);
+    if (contacts.measures().n_wall_contacts > 0) first = k * 5e-6;
+  }
+  // The face y = 0.002 of the blade reaches the sphere's side when its centre is r in front of it: 0.08 cos(angle) = 0.002 + r.
+  const double angle = std::acos(0.003 / 0.08);
+  EXPECT_NEAR(first, angle / speed, 6e-6);
+  EXPECT_LT(pieces.get(0, Tile::fx).x, 0);
+}
+
+// [[wall]] reads planes and boxes with the units in the keys, turning walls in rpm; mistakes are refused with the key's name.
+TEST(WallSettings, CaseFile) {
+  const CaseFile file = CaseFile::parse(R"(
+[[wall]]
+kind = "plane"
+point_m = [0, 0, 1]
+normal = [2, 0, 0]
+[[wall]]
+kind = "box"
+name = "tank"
+lower_m = [0, 0, 0]
+upper_m = ["10 mm", "20 mm", "30 mm"]
+speed = "600 rpm"
+axis = [0, 1, 0]
+)");
+  const WallSet walls = read_walls(file, nullptr);
+  file.reject_unread();
+  ASSERT_EQ(walls.bodies().size(), 2U);
+  EXPECT_EQ(walls.parts(), (std::vector<std::string>{"plane_0", "tank"}));
+  EXPECT_EQ(walls.bodies()[0].planes[0].normal, (Vec3{1, 0, 0}));
+  EXPECT_EQ(walls.bodies()[1].planes.size(), 6U);
+  EXPECT_NEAR(walls.bodies()[1].planes[5].point.z, 0.03, 1e-15);
+  EXPECT_NEAR(walls.bodies()[1].motion.speed, 20 * std::numbers::pi, 1e-12);
+
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      read_walls(CaseFile::parse(text), nullptr);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("[[wall]]\nkind = \"plane\"\npoint_m = [0,0,0]\n").find("normal"), std::string::npos);
+  EXPECT_NE(message("[[wall]]\nkind = \"plane\"\npoint_m = [0,0,0]\nnormal = [0,0,0]\n").find("normal"), std::string::npos);
+  EXPECT_NE(message("[[wall]]\nkind = \"box\"\nlower_m = [0,0,0]\nupper_m = [1,-1,1]\n").find("lower"), std::string::npos);
+  EXPECT_NE(message("[[wall]]\nkind = \"patches\"\npatches = [\"casing\"]\n").find("mesh"), std::string::npos);
+  EXPECT_NE(message("[[wall]]\nkind = \"cone\"\n").find("plane"), std::string::npos);
+  EXPECT_NE(message("[[wall]]\npoint_m = [0,0,0]\n").find("kind"), std::string::npos);
+}
+
+// [contact] reads through its records, defaults within their ranges.
+TEST(ContactSettings, CaseFile) {
+  ContactSettings settings;
+  for (const Parameter& p : settings.parameters())
+    if (const auto* number = std::get_if<double*>(&p.target)) {
+      EXPECT_TRUE(**number >= p.minimum && **number <= p.maximum) << p.key;
+    }
+  CaseFile::parse("[contact]\nrestitution = 0.2\nimpact_speed = \"2 m/s\"\nwall_stiffness_factor = 10\nbetween_particles = false\n")
+      .root()
+      .table("contact")
+      .read(settings.parameters());
+  EXPECT_EQ(settings.restitution, 0.2);
+  EXPECT_EQ(settings.impact_speed, 2);
+  EXPECT_EQ(settings.wall_stiffness_factor, 10);
+  EXPECT_FALSE(settings.between_particles);
+  EXPECT_THROW(CaseFile::parse("[contact]\nrestitution = 1.2\n").root().table("contact").read(settings.parameters()), Error);
+}
+
+}  // namespace
+}  // namespace snag
