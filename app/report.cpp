@@ -51,6 +51,9 @@ std::string plot_section(const MonitorPlots& monitors) {
   std::string content;
   for (const auto& plot : monitors.plots) content += figure(plot);
   if (!content.empty()) content = "<div class=\"plots\">\n" + content + "</div>\n";
+  std::vector<std::vector<std::string>> constants;
+  for (const auto& [title, value] : monitors.constants) constants.push_back({html::escaped(title), html::number(value)});
+  if (!constants.empty()) content += html::table({"Kept one value throughout", "Value"}, constants);
   for (const auto& text : monitors.problems) content += problem("A monitor could not be drawn: " + text);
   return content;
 }

@@ -35,7 +35,8 @@ void write_vtk(const std::filesystem::path& file, VtkKind kind, const VtkPiece& 
 void write_parallel_vtk(const std::filesystem::path& file, VtkKind kind, const VtkPiece& example,
                         const std::vector<std::string>& piece_files);
 
-/// A time series for ParaView, rewritten after each entry; entries at or after `from_time` are dropped on a resume.
+/// A time series for ParaView, rewritten after each entry. On a resume entries after `from_time` are dropped, like the lines of a Series;
+/// an entry takes the place of those of its time or later, so that nothing is twice or missing whatever is written first.
 class VtkCollection {
  public:
   VtkCollection(std::filesystem::path file, bool resume, double from_time = 0);

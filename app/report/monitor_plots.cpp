@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/error.hpp"
@@ -16,7 +17,7 @@ namespace {
 struct KnownPlot {
   const char* monitor;  // name of the file without .csv
   const char* title;
-  std::vector<const char*> columns;
+  std::vector<const char*> columns;  // "*_flow" stands for all that end like that
 };
 
 /// In the order of the page: the machine, the rags, the exchange, the solvers, the cost.
@@ -31,18 +32,28 @@ const std::vector<KnownPlot>& known_plots() {
       {"rags", "Velocity of the rag's centroid", {"vx", "vy", "vz"}},
       {"rags", "Elongation ratio: long side over short side of the rag", {"elongation_ratio"}},
       {"rags", "Distance between the ends of the rag", {"end_to_end"}},
+      {"rags", "From where to where the rag reaches along x", {"x_min", "x_max"}},
+      {"rags", "From where to where the rag reaches along y", {"y_min", "y_max"}},
+      {"rags", "From where to where the rag reaches along z", {"z_min", "z_max"}},
+      {"rags", "Energy of motion and of the stretched and bent cloth", {"kinetic_energy", "bond_energy"}},
       {"rags", "Largest strain of a bond", {"bond_strain_max"}},
       {"rags", "Largest tension of a bond", {"bond_tension_max"}},
       {"rags", "Broken bonds", {"broken_bonds"}},
-      {"rags", "Contacts with walls and between particles", {"contacts"}},
-      {"rags", "Deepest overlap in a contact", {"max_overlap"}},
+      {"rags", "Particles that have left the domain", {"particles_out"}},
+      {"contacts", "Contacts: all, and those with walls", {"contacts", "wall_contacts"}},
+      {"contacts", "Deepest overlap of a contact, in particle radii", {"overlap_over_radius_max"}},
+      {"silhouettes", "Elongation ratio of the silhouette", {"elongation_ratio"}},
+      {"silhouettes", "Area of the silhouette", {"area"}},
       {"coupling", "Force of the water on all rags", {"force_on_rags_x", "force_on_rags_y", "force_on_rags_z"}},
       {"coupling", "Momentum lost in the exchange, relative to what was exchanged", {"momentum_exchange_rel"}},
-      {"coupling", "Largest part of a cell that is cloth", {"solid_fraction_max"}},
+      {"coupling", "Largest part of a cell that is cloth", {"max_solid_fraction", "solid_fraction_max"}},
+      {"patches", "Flow rate through each part of the boundary", {"*_flow"}},
+      {"patches", "Mean pressure on each part of the boundary", {"*_pressure"}},
       {"residuals", "Courant number", {"courant_max", "courant_mean"}},
       {"residuals", "Residuals of the water's equations", {"momentum_residual", "pressure_residual"}},
-      {"residuals", "Continuity: volume not accounted for", {"continuity_local", "continuity_global"}},
-      {"residuals", "Iterations of the pressure solver", {"pressure_iterations"}},
+      {"residuals", "Continuity: volume not accounted for in a cell, relative", {"continuity_local"}},
+      {"residuals", "Continuity: volume not accounted for in all", {"continuity_global"}},
+      {"residuals", "Iterations of the linear solvers", {"momentum_sweeps_iterations", "pressure_iterations"}},
       {"timing", "Wall-clock time by part", {"flow_s", "dem_s", "coupling_s", "output_s"}},
   };
   return plots;
@@ -88,17 +99,26 @@ class Monitor {
     }
   }
 
-  /// The plot of those of the columns that exist; without lines if none does.
+  /// The plot of those of the columns that exist and share the unit of the first of them; without lines if none does.
   LinePlot plot(const std::string& title, const std::vector<std::string>& names) {
+    std::vector<std::size_t> shown;
+    for (std::size_t c = 1; c < columns_.size(); ++c)
+      if (is_among(columns_[c].name, names) && left_.contains(table_.columns[c]) &&
+          (shown.empty() || columns_[c].unit == columns_[shown[0]].unit))
+        shown.push_back(c);
     LinePlot result{title, axis_label({"time", columns_[0].unit}), "", {}};
-    for (std::size_t c = 1; c < columns_.size(); ++c) {
-      if (std::find(names.begin(), names.end(), columns_[c].name) == names.end() || !left_.erase(table_.columns[c])) continue;
-      result.y_label = axis_label({names.size() == 1 ? spaced(columns_[c].name) : common_name(names), columns_[c].unit});
-      for (const auto& [rag, records] : records_) result.lines.push_back(line(c, rag, records, names.size() > 1));
-      result.logarithmic = result.logarithmic || is_error(columns_[c].name);
+    if (shown.empty()) return result;
+    const Column& first = columns_[shown[0]];
+    const bool is_one = shown.size() == 1, is_vector = stem(first.name) != first.name;
+    result.y_label = axis_label({is_one ? spaced(first.name) : is_vector ? spaced(stem(first.name)) : "", first.unit});
+    bool is_error_plot = true;
+    for (const auto c : shown) {
+      left_.erase(table_.columns[c]);
+      is_error_plot = is_error_plot && is_error(columns_[c].name);
+      for (const auto& [rag, records] : records_) result.lines.push_back(line(c, rag, records, !is_one));
     }
     // What should be small is read by its order of magnitude; other numbers only where a linear axis would hide most of them.
-    result.logarithmic = decades(result) >= (result.logarithmic ? 0 : columns_unit(names) == "1" ? 3 : infinity);
+    result.logarithmic = decades(result) >= (is_error_plot ? 0 : first.unit == "1" ? 3 : infinity);
     return result;
   }
 
@@ -130,12 +150,10 @@ class Monitor {
   static bool is_error(const std::string& column) {
     return column.ends_with("_rel") || column.find("residual") != std::string::npos || column.starts_with("continuity");
   }
-  std::string columns_unit(const std::vector<std::string>& names) const {
-    for (const auto& column : columns_)
-      if (column.name == names[0]) return column.unit;
-    return "";
+  static bool is_among(const std::string& column, const std::vector<std::string>& names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return name.starts_with('*') ? column.ends_with(name.substr(1)) : column == name; });
   }
-  static std::string common_name(const std::vector<std::string>& names) { return stem(names[0]) != names[0] ? spaced(stem(names[0])) : ""; }
   PlotLine line(std::size_t c, long rag, const std::vector<std::size_t>& records, bool named) const {
     PlotLine result;
     if (named) result.label = spaced(columns_[c].name);
@@ -147,6 +165,17 @@ class Monitor {
     return result;
   }
 };
+
+/// The value that all lines of a plot keep throughout, if there is one.
+std::optional<double> constant_value(const LinePlot& plot) {
+  std::optional<double> value;
+  for (const auto& line : plot.lines)
+    for (const double y : line.y) {
+      if (value && y != *value) return {};
+      value = y;
+    }
+  return value;
+}
 
 std::vector<Monitor> monitors_of(const std::filesystem::path& folder, std::vector<std::string>& problems) {
   std::vector<std::filesystem::path> files;
@@ -174,8 +203,12 @@ std::vector<Monitor> monitors_of(const std::filesystem::path& folder, std::vecto
 MonitorPlots monitor_plots(const std::filesystem::path& folder) {
   MonitorPlots result;
   auto monitors = monitors_of(folder, result.problems);
-  const auto keep = [&](LinePlot plot) {
-    if (!plot.lines.empty()) result.plots.push_back(std::move(plot));
+  const auto keep = [&](const LinePlot& plot) {
+    const auto value = constant_value(plot);
+    if (value)
+      result.constants.emplace_back(plot.title, *value);
+    else if (!plot.lines.empty())
+      result.plots.push_back(plot);
   };
   for (const auto& known : known_plots())
     for (auto& monitor : monitors)

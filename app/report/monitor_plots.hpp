@@ -10,7 +10,8 @@ namespace snag {
 
 struct MonitorPlots {
   std::vector<LinePlot> plots;
-  std::vector<std::string> problems;  // files that could not be read, and why
+  std::vector<std::pair<std::string, double>> constants;  // titles of what kept one value throughout, and that value
+  std::vector<std::string> problems;                      // files that could not be read, and why
 };
 
 /// Plots of all *.csv files of a folder (none if it is absent). Columns of a vector (_x, _y, _z) share a plot, rags are lines of it.

@@ -3,7 +3,7 @@
 
     xvfb-run -a /usr/bin/python3 render.py DIR --out DIR/pictures
 
-Reads fields/*.pvd, rags/*.pvd and walls/walls.vtp of DIR as far as they exist; writes PNG files and pictures.json, a list of
+Reads fields/water.pvd, rags/rags.pvd and walls/walls.vtp of DIR as far as they exist; writes PNG files and pictures.json, a list of
 {file, group, caption}, rewritten after each picture so that what was made before a failure is kept.
 """
 import argparse
@@ -59,14 +59,11 @@ def read(file):
 
 
 class Series:
-    """Entries (time, file) of the first collection of a folder that has any."""
+    """Entries (time, file) of a collection; none if it is not there."""
 
-    def __init__(self, folder):
-        self.entries = []
-        for index in sorted(folder.glob("*.pvd")):
-            self.entries = sorted((float(e.get("timestep")), folder / e.get("file")) for e in ElementTree.parse(index).iter("DataSet"))
-            if self.entries:
-                break
+    def __init__(self, index):
+        found = ElementTree.parse(index).iter("DataSet") if index.exists() else []
+        self.entries = sorted((float(e.get("timestep")), index.parent / e.get("file")) for e in found)
 
     def nearest(self, time):
         return min(self.entries, key=lambda entry: abs(entry[0] - time)) if self.entries else None
@@ -303,8 +300,8 @@ class Run:
     """What there is of a run, and the ranges and views that all its pictures share."""
 
     def __init__(self, folder):
-        self.water, self.rags = Series(folder / "fields"), Series(folder / "rags")
-        self.walls = read(folder / "walls" / "walls.vtp")
+        self.water, self.rags = Series(folder / "fields/water.pvd"), Series(folder / "rags/rags.pvd")
+        self.walls = read(folder / "walls/walls.vtp")
         self.grids = {}
         self.domain = None if self.walls is None else bounds_of(self.walls.GetBounds())
         last = self.grid(self.water.entries[-1][1]) if self.water.entries else None

@@ -60,35 +60,54 @@ TEST(LinePlotFigure, DrawsDegenerateLines) {
   }
 }
 
+/// A folder of monitors that is gone at the end.
+struct Monitors {
+  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("snag_monitor_plots_" + std::to_string(getpid()));
+  Monitors() { std::filesystem::create_directories(folder); }
+  ~Monitors() { std::filesystem::remove_all(folder); }
+  void write(const char* name, const char* text) const { std::ofstream(folder / name) << text; }
+};
+
 // Known columns come under plain titles, vectors share a plot, each rag is a line, and every other column is shown as well.
 TEST(MonitorPlots, ShowEveryColumn) {
-  const auto folder = std::filesystem::temp_directory_path() / ("snag_monitor_plots_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "rags.csv") << "time [s],rag [1],x [m],y [m],z [m],own [1]\n0,0,1,2,3,4\n0,5,1,2,3,4\n1,0,1,2,3,4\n1,5,1,2,3,9\n";
-  std::ofstream(folder / "probe.csv") << "time [s],time_step [1],u_x [m/s],u_y [m/s],u_z [m/s],p [Pa]\n0,1,1,2,3,4\n";
-  std::ofstream(folder / "empty.csv") << "time [s],a [1]\n";
-  const auto found = monitor_plots(folder);
-  std::filesystem::remove_all(folder);
+  const Monitors monitors;
+  monitors.write("rags.csv", "time [s],rag [1],x [m],y [m],z [m],own [1]\n0,0,1,2,3,4\n0,5,1,2,3,4\n1,0,1,2,3,4\n1,5,1,2,3,9\n");
+  monitors.write("probe.csv", "time [s],time_step [1],u_x [m/s],u_y [m/s],u_z [m/s],p [Pa]\n0,1,1,2,3,4\n1,2,1,2,3,5\n");
+  monitors.write("patches.csv", "time [s],in_flow [m3/s],in_pressure [Pa],out_flow [m3/s],out_pressure [Pa]\n0,1,2,3,4\n");
+  monitors.write("empty.csv", "time [s],a [1]\n");
+  const auto found = monitor_plots(monitors.folder);
   std::vector<std::string> titles;
   for (const auto& plot : found.plots) titles.push_back(plot.title + "|" + plot.y_label + "|" + std::to_string(plot.lines.size()));
-  EXPECT_EQ(titles, (std::vector<std::string>{"Where the rag is: its centroid|[m]|6", "probe: u|u [m/s]|3", "probe: p|p [Pa]|1",
-                                              "rags: own|own|2"}));
+  EXPECT_EQ(titles,
+            (std::vector<std::string>{"Where the rag is: its centroid|[m]|6", "Flow rate through each part of the boundary|[m3/s]|2",
+                                      "Mean pressure on each part of the boundary|[Pa]|2", "probe: u|u [m/s]|3", "probe: p|p [Pa]|1",
+                                      "rags: own|own|2"}));
   EXPECT_EQ(found.plots.back().lines[1].label, "rag 5");
   EXPECT_EQ(found.plots.back().lines[1].y, (std::vector<double>{4, 9}));
   EXPECT_EQ(found.problems, std::vector<std::string>{"empty.csv holds no record"});
-  EXPECT_TRUE(monitor_plots(folder).plots.empty()) << "an absent folder has no plots";
+  EXPECT_TRUE(monitor_plots(monitors.folder / "absent").plots.empty());
+}
+
+// What never changes is a number, not a plot; columns of different units never share an axis.
+TEST(MonitorPlots, KeepConstantsAndUnitsApart) {
+  const Monitors monitors;
+  monitors.write("rags.csv", "time [s],rag [1],broken_bonds [1],x [m],y [cm]\n0,0,0,1,2\n1,0,0,2,3\n");
+  const auto found = monitor_plots(monitors.folder);
+  ASSERT_EQ(found.constants.size(), 1u);
+  EXPECT_EQ(found.constants[0], (std::pair<std::string, double>{"Broken bonds", 0}));
+  ASSERT_EQ(found.plots.size(), 2u);
+  EXPECT_EQ(found.plots[0].y_label, "x [m]");
+  EXPECT_EQ(found.plots[1].y_label, "y [cm]");
 }
 
 // Residuals and relative errors are read by their order of magnitude; forces and seconds never are.
 TEST(MonitorPlots, UseLogarithmsForWhatShouldBeSmall) {
-  const auto folder = std::filesystem::temp_directory_path() / ("snag_monitor_scales_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  std::ofstream(folder / "coupling.csv")
-      << "time [s],momentum_exchange_rel [1],loss_rel [1],flow_s [s],ratio [1],small [1]\n0,1e-14,0,1e-6,1e-6,1\n1,2e-14,0,9,9,2\n";
-  const auto found = monitor_plots(folder);
-  std::filesystem::remove_all(folder);
+  const Monitors monitors;
+  monitors.write(
+      "coupling.csv",
+      "time [s],momentum_exchange_rel [1],loss_rel [1],flow_s [s],ratio [1],small [1]\n0,1e-14,-1,1e-6,1e-6,1\n1,2e-14,1,9,9,2\n");
   std::vector<bool> logarithmic;
-  for (const auto& plot : found.plots) logarithmic.push_back(plot.logarithmic);
+  for (const auto& plot : monitor_plots(monitors.folder).plots) logarithmic.push_back(plot.logarithmic);
   EXPECT_EQ(logarithmic, (std::vector<bool>{true, false, false, true, false}));
 }
 
