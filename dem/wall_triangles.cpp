@@ -7,6 +7,10 @@
 
 namespace snag {
 
+namespace {
+constexpr double most_voxels = 8e6;  // 32 MB of starts of lists
+}
+
 NearestPoint nearest_point(const std::array<Vec3, 3>& node, const Vec3& centre) {
   const Vec3 &a = node[0], &b = node[1], &c = node[2];
   const Vec3 ab = b - a, ac = c - a, ap = centre - a, bp = centre - b, cp = centre - c;
@@ -55,6 +59,11 @@ void VoxelGrid::mark(const WallTriangle& triangle, int index, const std::array<i
   const Vec3 half = 0.5 * width_ * Vec3{double(count[0]), double(count[1]), double(count[2])};
   const Vec3 centre = origin_ + width_ * Vec3{double(first[0]), double(first[1]), double(first[2])} + half;
   if (norm(nearest_point(triangle.node, centre).point - centre) > reach_ + norm(half) * (1 + 1e-12)) return;
+  for (int d = 0; d < 3; ++d) {
+    const auto [low, high] = std::minmax({triangle.node[0][d], triangle.node[1][d], triangle.node[2][d]});
+    const double margin = (reach_ + half[d]) * (1 + 1e-12);
+    if (centre[d] + margin < low || centre[d] - margin > high) return;
+  }
   const int widest = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
   if (count[widest] == 1) {
     hits.push_back({(first[2] * n_[1] + first[1]) * n_[0] + first[0], index});
@@ -75,9 +84,14 @@ std::span<const int> VoxelGrid::at(const Vec3& x) const {
 }
 
 TriangleSurface::TriangleSurface(const std::vector<WallTriangle>& triangles, double reach, double far_reach)
-    : fine_(triangles, reach, 2 * reach, 4e6), coarse_(triangles, far_reach, 2 * far_reach, 1e6) {
-  for (const WallTriangle& t : triangles)
-    triangles_.push_back({t.node, -unit(cross(t.node[1] - t.node[0], t.node[2] - t.node[0])), t.node_index, {-1, -1, -1}, t.part});
+    : fine_(triangles, reach, reach, most_voxels), coarse_(triangles, far_reach, 2 * far_reach, most_voxels / 8) {
+  for (const WallTriangle& t : triangles) {
+    Vec3 lower = t.node[0], upper = t.node[0];
+    for (const Vec3& x : t.node)
+      for (int d = 0; d < 3; ++d) lower[d] = std::min(lower[d], x[d]), upper[d] = std::max(upper[d], x[d]);
+    const Vec3 normal = -unit(cross(t.node[1] - t.node[0], t.node[2] - t.node[0]));
+    triangles_.push_back({t.node, normal, 0.5 * (lower + upper), 0.5 * (upper - lower), t.node_index, {-1, -1, -1}, t.part});
+  }
   find_neighbours();
   add_corner_normals();
 }
@@ -121,11 +135,6 @@ void TriangleSurface::add_corner_normals() {
     }
   for (int i = 0; i < n_nodes; ++i)
     if (ends[i]) corner_normal_[i] = {};
-}
-
-double TriangleSurface::plane_distance(int triangle, const Vec3& centre) const {
-  const Triangle& t = triangles_[triangle];
-  return dot(centre - t.node[0], t.normal);
 }
 
 TriangleDistance TriangleSurface::distance(int triangle, const Vec3& centre) const {

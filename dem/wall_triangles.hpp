@@ -7,6 +7,7 @@
 // 2005). Edges where the surface ends, or where more than two triangles meet, have no inside: from there a centre always counts as in the
 // fluid.
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -64,8 +65,13 @@ class TriangleSurface {
 
   std::span<const int> near(const Vec3& centre) const { return fine_.at(centre); }
   bool may_be_near(const Vec3& centre) const { return !coarse_.at(centre).empty(); }
-  /// Signed distance of a centre to the plane of a triangle, positive in the fluid, m: no contact where it is further than the radius.
-  double plane_distance(int triangle, const Vec3& centre) const;
+  /// False if a triangle is certainly not nearer than `radius` (m) to a centre: by its box and its plane.
+  bool within(int triangle, const Vec3& centre, double radius) const {
+    const Triangle& t = triangles_[triangle];
+    const Vec3 c = centre - t.middle;
+    return std::abs(c.x) < t.half.x + radius && std::abs(c.y) < t.half.y + radius && std::abs(c.z) < t.half.z + radius &&
+           std::abs(dot(centre - t.node[0], t.normal)) < radius;
+  }
   TriangleDistance distance(int triangle, const Vec3& centre) const;
   const std::array<int, 3>& nodes(int triangle) const { return triangles_[triangle].node_index; }
   int part(int triangle) const { return triangles_[triangle].part; }
@@ -74,6 +80,7 @@ class TriangleSurface {
   struct Triangle {
     std::array<Vec3, 3> node;
     Vec3 normal;                               // into the fluid
+    Vec3 middle, half;                         // of the box around it
     std::array<int, 3> node_index, neighbour;  // neighbour across the edge from node i to the next; -1 none
     int part;
   };

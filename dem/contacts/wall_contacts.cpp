@@ -129,7 +129,7 @@ void WallContacts::find_touches(const Particle& p, int b) {
   }
   if (body.triangles.empty()) return;
   for (int t : surfaces_[b].near(X)) {
-    if (!(std::abs(surfaces_[b].plane_distance(t, X)) < radius)) continue;
+    if (!surfaces_[b].within(t, X, radius)) continue;
     const TriangleDistance seen = surfaces_[b].distance(t, X);
     if (std::abs(seen.distance) < radius) add(seen, t, surfaces_[b].part(t));
   }
