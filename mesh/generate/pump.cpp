@@ -60,6 +60,8 @@ struct Pump final : Geometry {
   void sort_rotor(const std::vector<int>& volumes, Faces& faces) const;
   void sort_casing(const std::vector<int>& volumes, Faces& faces) const;
   void sort_suction(const std::vector<int>& volumes, Faces& faces) const;
+  void name_surfaces(const Faces& faces) const;
+  void size_mesh(const Faces& faces, const PumpSizes& h) const;
   bool is_sliding_cylinder(const Face& face) const;
   bool is_nose(const Face& face, double radius, double height) const;
 };
@@ -167,41 +169,55 @@ Expectation Pump::build(double size_factor) {
   sort_suction(supply, faces);
   name_group(3, rotor, "rotor", wheel);
   name_group(3, stator, "stator", joined_lists(casing, supply));
-  name_group(2, inlet, "inlet", faces.of[inlet]);
-  name_group(2, outlet, "outlet", faces.of[outlet]);
-  name_group(2, impeller_walls, "impeller_walls", faces.of[impeller_walls]);
-  name_group(2, casing_walls, "casing_walls", faces.of[casing_walls]);
-  name_group(2, interface_rotor, "interface_rotor", faces.of[interface_rotor]);
-  name_group(2, interface_stator, "interface_stator", faces.of[interface_stator]);
-  if (from_tank) name_group(2, tank_walls, "tank_walls", faces.of[tank_walls]);
-  if (from_tank) name_group(2, plate, "plate", faces.of[plate]);
+  name_surfaces(faces);
 
   Expectation expectation;
   expectation.volumes = {{"rotor", 1, volume_of(wheel)}, {"stator", 2, volume_of(casing) + volume_of(supply)}};
   expectation.equal_areas = {{"interface_rotor", "interface_stator"}};
   PumpSizes h = sizes(size_factor);
-  const double tongue_clearance = dimensions.tongue_tip_radius() - dimensions.impeller_radius();
-  if (h.edge > 0.8 * tongue_clearance) {
+  const double largest_edge = 0.8 * (dimensions.tongue_tip_radius() - dimensions.impeller_radius());
+  if (h.edge > largest_edge) {
     expectation.remarks.push_back(
-        fmt::format("edge_size reduced from {:.3g} to {:.3g} m: at most 0.8 of the gap at the tongue", h.edge, 0.8 * tongue_clearance));
-    h.edge = 0.8 * tongue_clearance;
+        fmt::format("edge_size {:.3g} m reduced to {:.3g} m: 0.8 of the gap at the tongue", h.edge, largest_edge));
+    h.edge = largest_edge;
   }
-  const auto walls = without(without(joined_lists(faces.of[impeller_walls], faces.of[casing_walls]), faces.edges), faces.pipes);
+  size_mesh(faces, h);
+  return expectation;
+}
+
+void Pump::name_surfaces(const Faces& faces) const {
+  const auto named = [&](Surface surface, const char* label) {
+    const auto found = faces.of.find(surface);
+    name_group(2, surface, label, found == faces.of.end() ? std::vector<int>{} : found->second);
+  };
+  named(inlet, "inlet");
+  named(outlet, "outlet");
+  named(impeller_walls, "impeller_walls");
+  named(casing_walls, "casing_walls");
+  named(interface_rotor, "interface_rotor");
+  named(interface_stator, "interface_stator");
+  if (suction != "tank") return;
+  named(tank_walls, "tank_walls");
+  named(plate, "plate");
+}
+
+void Pump::size_mesh(const Faces& faces, const PumpSizes& h) const {
+  const auto& of = faces.of;
+  const auto walls = without(without(joined_lists(of.at(impeller_walls), of.at(casing_walls)), faces.edges), faces.pipes);
   // Growth is slow on coarse meshes and quick on fine ones: in between the core's size and the casing's radius.
   const double growth_distance = std::sqrt(h.core * dimensions.tongue_tip_radius());
   SizeField field;
   field.around(walls, {h.wall, h.core, 0, growth_distance});
   field.around(faces.edges, {h.edge, h.core, 0, growth_distance});
-  field.around(joined_lists(faces.of[interface_rotor], faces.of[interface_stator]), {h.interface, h.core, 0, growth_distance});
-  field.around(faces.pipes, {0.625 * h.pipe, h.pipe, 0, 2.5 * h.pipe}, !from_tank);
-  if (from_tank) {
+  field.around(joined_lists(of.at(interface_rotor), of.at(interface_stator)), {h.interface, h.core, 0, growth_distance});
+  field.around(faces.pipes, {0.625 * h.pipe, h.pipe, 0, 2.5 * h.pipe}, suction == "pipe");
+  if (suction == "tank") {
     const double reach = tank.width / 2;
     field.around(faces.pipes, {0.625 * h.pipe, h.tank, 0, reach});
-    field.around(faces.of[plate], {1.5 * h.core, h.tank, 0, reach});
+    field.around(of.at(plate), {1.5 * h.core, h.tank, 0, reach});
     field.formula(fmt::format("{}", h.tank));
   }
   field.apply();
-  return expectation;
 }
 
 const bool registered = geometries().add<Pump>();

@@ -20,11 +20,7 @@ constexpr double volume_limit = 0.05;      // of the mesh against the curved sha
 constexpr double equal_area_limit = 1e-3;  // between the two sides of a sliding interface, relative
 constexpr double periodic_limit = 1e-9;    // distance of partners over the distance of the surfaces
 
-void examine_volume(const Cells& cells, const Cells::Volume& volume, const Expectation& expectation, MeshReport& report) {
-  MeshReport::Volume result;
-  result.name = volume.name;
-  result.n_components = volume.n_components;
-  const auto fail = [&](const std::string& text) { report.failures.push_back("volume " + volume.name + ": " + text); };
+void examine_cells(const Cells& cells, const Cells::Volume& volume, MeshReport::Volume& result, MeshReport& report) {
   std::size_t first = 0;
   for (const CellKind* kind : volume.kind) {
     const double q = quality(*kind, std::span(volume.node).subspan(first, kind->n_nodes), cells);
@@ -34,6 +30,11 @@ void examine_volume(const Cells& cells, const Cells::Volume& volume, const Expec
     report.mean_quality += q;
     report.n_poor += q < poor_quality;
   }
+  report.n_cells += static_cast<std::int64_t>(volume.kind.size());
+}
+
+// Volume and closure of the boundary; returns the number of its edges that do not have two faces.
+std::int64_t examine_boundary(const Cells& cells, const Cells::Volume& volume, MeshReport::Volume& result) {
   Vec3 sum;
   double areas = 0;
   std::vector<std::pair<Node, Node>> edges;
@@ -52,6 +53,17 @@ void examine_volume(const Cells& cells, const Cells::Volume& volume, const Expec
     while (end < edges.size() && edges[end] == edges[i]) ++end;
     open_edges += end - i != 2;
   }
+  return open_edges;
+}
+
+void examine_volume(const Cells& cells, const Cells::Volume& volume, const Expectation& expectation, MeshReport& report) {
+  MeshReport::Volume result;
+  result.name = volume.name;
+  result.n_components = volume.n_components;
+  examine_cells(cells, volume, result, report);
+  const auto open_edges = examine_boundary(cells, volume, result);
+
+  const auto fail = [&](const std::string& text) { report.failures.push_back("volume " + volume.name + ": " + text); };
   if (volume.n_crowded_faces > 0) fail(fmt::format("{} faces belong to three cells or more", volume.n_crowded_faces));
   if (open_edges > 0) fail(fmt::format("{} edges of its boundary do not have two faces", open_edges));
   if (result.closure > closure_limit)
@@ -64,7 +76,6 @@ void examine_volume(const Cells& cells, const Cells::Volume& volume, const Expec
     if (expected.exact_volume > 0 && std::abs(result.volume / expected.exact_volume - 1) > volume_limit)
       fail(fmt::format("holds {:.6g} m3, the shape {:.6g} m3; take smaller sizes", result.volume, expected.exact_volume));
   }
-  report.n_cells += static_cast<std::int64_t>(volume.kind.size());
   report.volumes.push_back(result);
 }
 

@@ -1,5 +1,5 @@
 // labels: long
-// timeout: 1200
+// timeout: 3600
 // Far corners of the parameter space, one at a time: each has to give a sound mesh.
 #include <gtest/gtest.h>
 
