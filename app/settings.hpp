@@ -33,6 +33,7 @@ struct PeriodicSettings {
 struct TimeSettings {
   double end = 1;      // s
   double step = 1e-3;  // s
+  bool end_when_rags_left = false;
   Section section();
   /// Steps to the end; throws Error(usage) if the end is no whole number of steps away (to 1e-6 of a step).
   std::int64_t n_steps() const;

@@ -98,4 +98,17 @@ std::vector<BondCount> RagSystem::check() const {
   return bonds;
 }
 
+RagCounts RagSystem::count() const {
+  std::vector<std::int64_t> count(n_counts * rags_.size(), 0);
+  for (const Tile& tile : tiles_) add_counts(tile, &count[n_counts * tile.rag]);
+  for (std::size_t r = 0; r < rags_.size(); ++r) count[n_counts * r + broken] = broken_[r];
+  MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, comm_);
+  RagCounts counts;
+  for (std::size_t r = 0; r < rags_.size(); ++r) {
+    counts.particles.push_back(count[n_counts * r + particles]);
+    counts.bonds.push_back({count[n_counts * r + whole], count[n_counts * r + broken]});
+  }
+  return counts;
+}
+
 }  // namespace snag

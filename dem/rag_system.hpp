@@ -47,6 +47,12 @@ struct BondCount {
   std::int64_t whole = 0, broken = 0;
 };
 
+/// What is there of each rag.
+struct RagCounts {
+  std::vector<std::int64_t> particles;
+  std::vector<BondCount> bonds;
+};
+
 class RagSystem {
  public:
   /// Places the pieces; tiles are spread in equal blocks over the ranks until the first migrate(). Collective; throws Error(usage).
@@ -94,6 +100,8 @@ class RagSystem {
 
   /// Bonds of each rag, all ranks; throws Error(invariant) naming ids if particles, tiles or bonds were lost. Collective.
   std::vector<BondCount> check() const;
+  /// The same numbers whatever they are. Collective.
+  RagCounts count() const;
 
   /// All state, contact history and counters, bit for bit. Collective; throws Error(io).
   void save(CheckpointWriter& writer) const;

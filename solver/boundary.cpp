@@ -55,13 +55,17 @@ std::vector<PatchBoundary> read_boundaries(const Table& root) {
 }
 
 std::vector<Section> boundary_sections() {
-  Heading heading;
+  // The records point into these: they live as long as the program.
+  static Heading heading;
+  static std::vector<std::unique_ptr<Boundary>> kinds;
+  kinds.clear();
   std::vector<Section> sections{{.name = "boundary",
                                  .meaning = "Condition of the flow on patches of the mesh; every patch needs one.",
                                  .parameters = heading.parameters(),
                                  .repeated = true}};
   for (const std::string& name : boundaries().names()) {
-    Section section = boundaries().make(name, "manual")->section();
+    kinds.push_back(boundaries().make(name, "manual"));
+    Section section = kinds.back()->section();
     section.name = "boundary";
     section.meaning = "kind = \"" + name + "\": " + section.meaning;
     section.repeated = true;
@@ -94,7 +98,7 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
                     "; add a table [[boundary]] with patch and kind for each; known kinds: " + joined(boundaries().names()));
 
   const std::size_t n = static_cast<std::size_t>(mesh.n_faces - mesh.n_interior);
-  values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n)};
+  values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n), std::vector<Vec3>(n)};
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
     conditions_[p].boundary->prepare(mesh, mesh.patches[p]);
     fixes_pressure_ = fixes_pressure_ || (conditions_[p].boundary->fixes() == Fixes::pressure && mesh.patches[p].count_global > 0);

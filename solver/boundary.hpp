@@ -20,6 +20,7 @@ struct BoundaryValues {
   std::vector<Vec3> velocity;    // where velocity is fixed, m/s
   std::vector<double> flux;      // where velocity is fixed, out of the domain, m3/s
   std::vector<double> pressure;  // where pressure is fixed, Pa
+  std::vector<Vec3> acceleration;  // of the fluid at a wall where it is known, for the pressure there, m/s2
 };
 
 /// A boundary condition on one patch.
@@ -46,7 +47,7 @@ struct PatchBoundary {
 
 /// All [[boundary]] tables. Throws Error(usage) for an unknown kind or a table that names no patch.
 std::vector<PatchBoundary> read_boundaries(const Table& root);
-/// The tables as sections for the manual: the keys that all kinds share, then one section a kind. The records' targets are not valid.
+/// The tables as sections for the manual: the keys that all kinds share, then one section a kind.
 std::vector<Section> boundary_sections();
 
 /// The conditions of all patches of a mesh, and their values at a time.

@@ -1,0 +1,310 @@
+#include "app/outputs.hpp"
+
+#include <cmath>
+
+#include "base/log.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "solver/patch_monitors.hpp"
+
+namespace snag {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Without intervals in the case: enough pictures for a film of the rags, few enough fields for a disk.
+constexpr int default_n_fields = 20, default_n_rag_pictures = 100;
+
+const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
+                                    "checkpoint",         "pictures"};
+
+std::vector<std::string> rag_columns() {
+  return {"time [s]",
+          "rag [1]",
+          "x [m]",
+          "y [m]",
+          "z [m]",
+          "vx [m/s]",
+          "vy [m/s]",
+          "vz [m/s]",
+          "x_min [m]",
+          "y_min [m]",
+          "z_min [m]",
+          "x_max [m]",
+          "y_max [m]",
+          "z_max [m]",
+          "kinetic_energy [J]",
+          "bond_energy [J]",
+          "bond_strain_max [1]",
+          "bond_tension_max [N]",
+          "broken_bonds [1]",
+          "particles_out [1]"};
+}
+
+std::vector<std::string> residual_columns() {
+  return {"time [s]",
+          "time_step [1]",
+          "courant_max [1]",
+          "courant_mean [1]",
+          "momentum_residual [1]",
+          "momentum_sweeps_iterations [1]",
+          "pressure_residual [1]",
+          "pressure_iterations [1]",
+          "continuity_local [1]",
+          "continuity_global [m3/s]"};
+}
+
+}  // namespace
+
+void check_output_folder(const fs::path& folder, bool resume, bool overwrite) {
+  std::error_code ignored;
+  if (resume || overwrite || !fs::exists(folder, ignored)) return;
+  for (const char* name : {"summary.json", "checkpoint", "monitors"}) {
+    if (fs::exists(folder / name, ignored))
+      throw Error(ExitCode::usage, folder.string() + ": holds the results of a run already (" + name +
+                                       "), which are never overwritten unasked; choose another --out, or --resume, or --overwrite");
+  }
+}
+
+void prepare_output_folder(const fs::path& folder, bool fresh) {
+  try {
+    if (fresh) {
+      for (const char* name : result_names) fs::remove_all(folder / name);
+    }
+    for (const char* name : {"monitors", "fields", "rags", "walls", "checkpoint"}) fs::create_directories(folder / name);
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(ExitCode::io, folder.string() + ": cannot be written (" + failure.code().message() + "); choose another --out");
+  }
+}
+
+Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume)
+    : folder_(std::move(folder)), file_(file), simulation_(simulation) {
+  first_step_ = simulation.time_step();
+  const double from = simulation.time(), end = simulation.time_settings.end;
+  fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
+  rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
+  if (simulation.rags) {
+    wall_contact_.resize(simulation.rags->rags().size());
+    max_wall_overlap_.resize(wall_contact_.size());
+  }
+  const bool root = rank_of(MPI_COMM_WORLD) == 0;
+  together(MPI_COMM_WORLD, [&] {
+    if (!root) return;
+    write_atomically(folder_ / "case.resolved.toml", file.resolved());
+    const auto open = [&](const std::string& name, const std::vector<std::string>& columns) {
+      return Series(folder_ / "monitors" / (name + ".csv"), columns, resume, from);
+    };
+    timing_ = open("timing", {"time [s]", "flow_s [s]", "dem_s [s]", "coupling_s [s]", "output_s [s]"});
+    if (simulation.water) {
+      residuals_ = open("residuals", residual_columns());
+      std::vector<std::string> columns{"time [s]"};
+      for (const Patch& patch : simulation.mesh->patches) {
+        columns.push_back(patch.name + "_flow [m3/s]");
+        columns.push_back(patch.name + "_pressure [Pa]");
+      }
+      patches_ = open("patches", columns);
+    }
+    if (simulation.rags) {
+      rags_ = open("rags", rag_columns());
+      contacts_ =
+          open("contacts", {"time [s]", "contacts [1]", "wall_contacts [1]", "overlap_over_radius_max [1]", "particles_beyond_walls [1]"});
+      silhouettes_ =
+          open("silhouettes", {"time [s]", "rag [1]", "area [m2]", "x [m]", "y [m]", "elongation_ratio [1]", "orientation [rad]"});
+    }
+    if (simulation.coupled) coupling_ = open("coupling", CoupledSolver::columns());
+  });
+  if (simulation.water)
+    fields_ =
+        std::make_unique<FieldOutput>(folder_ / "fields", *simulation.mesh, simulation.output_settings.single_precision, resume, from);
+  if (simulation.rags) rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
+}
+
+void Outputs::initial() {
+  if (simulation_.mesh) write_walls(folder_ / "walls" / "walls.vtp", *simulation_.mesh);
+  if (fields_) fields_->write(simulation_.water->flow);
+  if (rag_output_) write_rags();
+}
+
+bool Outputs::due(double interval) const {
+  if (interval <= 0) return true;
+  // Counted in whole intervals, so that it does not depend on where a run was resumed.
+  const double step = simulation_.time_settings.step, time = simulation_.time();
+  return std::floor(time / interval + 1e-6) > std::floor((time - step) / interval + 1e-6);
+}
+
+void Outputs::after_step() {
+  const double begun = MPI_Wtime();
+  write_monitors();
+  const bool last =
+      simulation_.time_step() == simulation_.time_settings.n_steps() || (simulation_.passage && simulation_.passage->all_exited());
+  if (fields_ && (last || due(fields_interval_))) fields_->write(simulation_.water->flow);
+  if (rag_output_ && (last || due(rags_interval_))) write_rags();
+  seconds_ += MPI_Wtime() - begun;
+}
+
+void Outputs::write_rags() {
+  rag_output_->write(*simulation_.rags, simulation_.time_step(), simulation_.time());
+  if (rank_of(MPI_COMM_WORLD) != 0) return;
+  for (std::size_t rag = 0; rag < rag_output_->silhouettes().size(); ++rag) {
+    const Silhouette& seen = rag_output_->silhouettes()[rag];
+    silhouettes_.add({simulation_.time(), static_cast<double>(rag), seen.area, seen.x, seen.y, seen.elongation_ratio, seen.orientation});
+  }
+}
+
+void Outputs::write_monitors() {
+  const double time = simulation_.time();
+  const bool root = rank_of(MPI_COMM_WORLD) == 0;
+  if (simulation_.water) write_water_monitors();
+  if (simulation_.rags) write_rag_monitors();
+  if (simulation_.coupled) {
+    largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
+    if (root) coupling_.add(simulation_.coupled->record());
+  }
+  const auto spent = simulation_.seconds();
+  if (root) timing_.add({time, spent.flow, spent.rags, spent.coupling, seconds_});
+}
+
+void Outputs::write_water_monitors() {
+  const StepReport& report = simulation_.flow_report;
+  std::vector<double> patches{simulation_.time()};
+  double through = 0;
+  for (std::size_t p = 0; p < simulation_.mesh->patches.size(); ++p) {
+    const double flow_rate = patch_flow_rate(simulation_.water->flow, p);
+    patches.insert(patches.end(), {flow_rate, patch_mean_pressure(simulation_.water->flow, p)});
+    through += std::abs(flow_rate) / 2;
+  }
+  if (through > 0) largest_imbalance_ = std::max(largest_imbalance_, std::abs(report.continuity_global) / through);
+  if (rank_of(MPI_COMM_WORLD) != 0) return;
+  patches_.add(patches);
+  if (report.outer.empty()) return;
+  const OuterReport& last = report.outer.back();
+  residuals_.add({simulation_.time(), static_cast<double>(simulation_.time_step()), report.courant_max, report.courant_mean,
+                  last.momentum.final, static_cast<double>(last.momentum.sweeps), last.continuity.final,
+                  static_cast<double>(last.continuity.iterations), report.continuity_local, report.continuity_global});
+}
+
+void Outputs::write_rag_monitors() {
+  const RagSystem& rags = *simulation_.rags;
+  const std::vector<RagState> states = rag_states(rags);
+  const std::vector<BondCount> bonds = rags.check();
+  measure_contacts();
+  if (rank_of(MPI_COMM_WORLD) != 0) return;
+  for (std::size_t r = 0; r < states.size(); ++r) {
+    const RagState& s = states[r];
+    rags_.add({simulation_.time(),
+               static_cast<double>(r),
+               s.centre.x,
+               s.centre.y,
+               s.centre.z,
+               s.velocity.x,
+               s.velocity.y,
+               s.velocity.z,
+               s.lower.x,
+               s.lower.y,
+               s.lower.z,
+               s.upper.x,
+               s.upper.y,
+               s.upper.z,
+               s.kinetic_energy,
+               s.bond_energy,
+               s.max_bond_strain,
+               s.max_bond_tension,
+               static_cast<double>(bonds[r].broken),
+               static_cast<double>(simulation_.passage->n_out()[r])});
+  }
+  contacts_.add({simulation_.time(), n_contacts_, n_wall_contacts_, max_overlap_now_, beyond_walls_now_});
+}
+
+void Outputs::measure_contacts() {
+  ContactSolver& contacts = *simulation_.rags->contacts();
+  const ContactMeasures& m = contacts.measures();
+  const std::size_t n_rags = wall_contact_.size(), n_parts = contacts.wall_loads().size() / std::max<std::size_t>(1, n_rags);
+  std::vector<double> extremes{m.max_overlap_over_radius};
+  std::vector<std::int64_t> counts{m.n_contacts, m.n_wall_contacts};
+  for (std::size_t r = 0; r < n_rags; ++r) {
+    extremes.push_back(r < m.max_wall_overlap_over_radius.size() ? m.max_wall_overlap_over_radius[r] : 0);
+    double touched = 0;
+    for (std::size_t p = 0; p < n_parts; ++p) touched = std::max(touched, contacts.wall_loads()[r * n_parts + p].particle_time);
+    extremes.push_back(touched);
+    counts.push_back(r < m.beyond_walls.size() ? m.beyond_walls[r] : 0);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  contacts.reset_measures();
+  max_overlap_now_ = extremes[0], max_overlap_ = std::max(max_overlap_, extremes[0]);
+  n_contacts_ = static_cast<double>(counts[0]), n_wall_contacts_ = static_cast<double>(counts[1]);
+  beyond_walls_now_ = 0;
+  for (std::size_t r = 0; r < n_rags; ++r) {
+    max_wall_overlap_[r] = std::max(max_wall_overlap_[r], extremes[1 + 2 * r]);
+    if (extremes[2 + 2 * r] > 0) wall_contact_[r] += simulation_.time_settings.step;
+    beyond_walls_now_ += static_cast<double>(counts[2 + r]);
+  }
+  most_beyond_walls_ = std::max(most_beyond_walls_, beyond_walls_now_);
+}
+
+void Outputs::save(CheckpointWriter& writer) const {
+  std::vector<double> kept{largest_exchange_, largest_imbalance_, max_overlap_, most_beyond_walls_};
+  kept.insert(kept.end(), wall_contact_.begin(), wall_contact_.end());
+  kept.insert(kept.end(), max_wall_overlap_.begin(), max_wall_overlap_.end());
+  writer.shared("outputs", std::span<const double>(kept));
+}
+
+void Outputs::load(CheckpointReader& reader) {
+  const std::vector<double> kept = reader.shared("outputs");
+  largest_exchange_ = kept[0], largest_imbalance_ = kept[1], max_overlap_ = kept[2], most_beyond_walls_ = kept[3];
+  for (std::size_t r = 0; r < wall_contact_.size(); ++r)
+    wall_contact_[r] = kept[4 + r], max_wall_overlap_[r] = kept[4 + wall_contact_.size() + r];
+}
+
+void Outputs::summarise_rags(Summary& summary) const {
+  if (!simulation_.rags) return;
+  const RagSystem& rags = *simulation_.rags;
+  const RagCounts left = rags.count();
+  const std::vector<RagState> states = rag_states(rags);
+  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
+    const Rag& rag = rags.rags()[r];
+    RagSummary one;
+    one.id = static_cast<int>(r), one.name = rag.name;
+    one.particles = left.particles[r], one.bonds = left.bonds[r].whole, one.broken_bonds = left.bonds[r].broken;
+    one.outcome = simulation_.passage->outcome(r), one.events = simulation_.passage->events(r);
+    one.wall_contact = wall_contact_[r];
+    one.elongation_ratio = states[r].elongation_ratio;
+    if (!rag_output_->silhouettes().empty()) {
+      one.projected_area = rag_output_->silhouettes()[r].area;
+      if (one.projected_area > 0) one.elongation_ratio = rag_output_->silhouettes()[r].elongation_ratio;
+    }
+    one.max_wall_overlap_over_radius = max_wall_overlap_[r], one.max_overlap_over_radius = max_overlap_;
+    one.bond_strain_p99 = bond_strain_quantile(rags, static_cast<int>(r), 0.99);
+    one.max_bond_tension = states[r].max_bond_tension;
+    summary.rags.push_back(one);
+    summary.conservation.particles_lost += rag.n_particles - one.particles;
+    summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
+  }
+}
+
+void Outputs::finish(ExitCode exit, double wall_seconds) {
+  Summary s;
+  s.case_name = simulation_.case_settings.name;
+  s.case_sha256 = file_.sha256();
+  s.ranks = size_of(MPI_COMM_WORLD), s.exit = static_cast<int>(exit);
+  s.wall = wall_seconds, s.simulated = simulation_.time(), s.time_steps = simulation_.time_step();
+  if (simulation_.mesh)
+    s.mesh = {simulation_.mesh->n_cells_global, simulation_.mesh->n_interior_global, 0, simulation_.mesh_quality.min_quality};
+  summarise_rags(s);
+  const auto spent = simulation_.seconds();
+  s.performance = {spent.flow, spent.rags, spent.coupling, seconds_, 0, 0, peak_memory()};
+  const auto steps_done = static_cast<double>(simulation_.time_step() - first_step_);
+  if (simulation_.mesh) s.performance.cell_steps = steps_done * static_cast<double>(simulation_.mesh->n_cells_global);
+  if (simulation_.rags) s.performance.particle_steps = static_cast<double>(sum(MPI_COMM_WORLD, simulation_.rags->n_particle_steps()));
+  s.conservation.mass_imbalance = largest_imbalance_;
+  s.conservation.momentum_exchange = largest_exchange_;
+  s.conservation.particles_beyond_walls = static_cast<std::int64_t>(most_beyond_walls_);
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
+  });
+}
+
+}  // namespace snag

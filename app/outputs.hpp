@@ -1,0 +1,64 @@
+#pragma once
+// The output folder of a run: what is written when, and what a resume keeps.
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/field_output.hpp"
+#include "app/rag_output.hpp"
+#include "app/simulation.hpp"
+#include "app/summary.hpp"
+#include "base/atomic_file.hpp"
+#include "base/case_file.hpp"
+#include "base/series.hpp"
+
+namespace snag {
+
+/// Throws Error(usage) if the folder holds results of a run that this one would replace without being asked to. Rank 0 only; changes
+/// nothing.
+void check_output_folder(const std::filesystem::path& folder, bool resume, bool overwrite);
+
+/// Makes the folder and its sub-folders; removes the results of an earlier run if `fresh`. Rank 0 only; throws Error(io).
+void prepare_output_folder(const std::filesystem::path& folder, bool fresh);
+
+class Outputs {
+ public:
+  /// Opens monitors and collections; after a resume what lies behind the simulation's time is cut. Collective; throws Error(io).
+  Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume);
+  /// Monitors of the step just done, and fields where they are due. Collective; throws Error(io).
+  void after_step();
+  /// State before the first step. Collective.
+  void initial();
+  /// summary.json. Collective.
+  void finish(ExitCode exit, double wall_seconds);
+  /// What a resume needs of the past of this run.
+  void save(CheckpointWriter& writer) const;
+  void load(CheckpointReader& reader);
+  double seconds() const { return seconds_; }
+
+ private:
+  void write_monitors();
+  void write_water_monitors();
+  void write_rag_monitors();
+  void write_rags();
+  void measure_contacts();
+  void summarise_rags(Summary& summary) const;
+  bool due(double interval) const;
+
+  std::filesystem::path folder_;
+  const CaseFile& file_;
+  Simulation& simulation_;
+  Series residuals_, patches_, rags_, contacts_, silhouettes_, coupling_, timing_;  // open on rank 0
+  std::unique_ptr<FieldOutput> fields_;
+  std::unique_ptr<RagOutput> rag_output_;
+  double fields_interval_ = 0, rags_interval_ = 0;  // s
+  double seconds_ = 0;                              // spent here
+  std::int64_t first_step_ = 0;                     // of this process
+
+  double n_contacts_ = 0, n_wall_contacts_ = 0, max_overlap_now_ = 0, beyond_walls_now_ = 0;
+  // over the whole run, kept by checkpoints
+  double largest_exchange_ = 0, largest_imbalance_ = 0, max_overlap_ = 0, most_beyond_walls_ = 0;
+  std::vector<double> wall_contact_, max_wall_overlap_;  // [n_rags] s, 1
+};
+
+}  // namespace snag

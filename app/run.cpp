@@ -1,0 +1,208 @@
+#include "app/run.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "app/outputs.hpp"
+#include "app/report.hpp"
+#include "app/simulation.hpp"
+#include "app/stop_request.hpp"
+#include "base/log.hpp"
+#include "base/progress.hpp"
+#include "base/version.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+const MPI_Comm world = MPI_COMM_WORLD;
+
+std::filesystem::path output_folder(const RunOptions& options, const CaseFile& file) {
+  if (!options.out.empty()) return options.out;
+  CaseSettings settings;
+  file.root().table("case").read(settings.section().parameters);
+  return std::filesystem::path("results") / settings.name;
+}
+
+/// When a checkpoint is due: by simulated time, or by the wall clock of rank 0.
+class CheckpointClock {
+ public:
+  CheckpointClock(const CheckpointSettings& settings, double time) : settings_(settings), last_time_(time), last_wall_(MPI_Wtime()) {}
+  bool due(double time) {
+    int now = settings_.interval && time - last_time_ > *settings_.interval * (1 - 1e-9);
+    if (MPI_Wtime() - last_wall_ > settings_.wall_interval) now = 1;
+    MPI_Bcast(&now, 1, MPI_INT, 0, world);
+    if (now) last_time_ = time, last_wall_ = MPI_Wtime();
+    return now != 0;
+  }
+
+ private:
+  const CheckpointSettings& settings_;
+  double last_time_, last_wall_;
+};
+
+struct Run {
+  const CaseFile& file;
+  std::filesystem::path folder;
+  Simulation& simulation;
+  Outputs& outputs;
+
+  void write_checkpoint() const {
+    CheckpointWriter writer(
+        world, folder / "checkpoint",
+        {.case_sha256 = file.sha256(), .ranks = size_of(world), .time_step = simulation.time_step(), .time = simulation.time()});
+    simulation.save(writer);
+    outputs.save(writer);
+    writer.finish();
+  }
+
+  std::string note() const {
+    std::ostringstream text;
+    text.precision(3);
+    if (simulation.water) {
+      text << "Courant " << simulation.flow_report.courant_max;
+      if (!simulation.flow_report.outer.empty())
+        text << ", pressure " << simulation.flow_report.outer.back().continuity.iterations << " iterations";
+    }
+    return text.str();
+  }
+
+  /// Steps to the end of the case, or to a request to stop.
+  ExitCode steps() {
+    const std::int64_t n_steps = simulation.time_settings.n_steps();
+    const StopRequest stop(world, folder);
+    CheckpointClock clock(simulation.checkpoint_settings, simulation.time());
+    Progress progress(simulation.case_settings.name, simulation.time_settings.end, simulation.time());
+    while (simulation.time_step() < n_steps) {
+      simulation.step();
+      outputs.after_step();
+      if (rank_of(world) == 0) progress.update(simulation.time(), note());
+      if (simulation.time_settings.end_when_rags_left && simulation.passage && simulation.passage->all_exited()) {
+        log::info("all rags have left: the run ends here");
+        break;
+      }
+      if (simulation.time_step() < n_steps && stop.asked()) {
+        write_checkpoint();
+        log::info("stopped on request (" + stop.reason() + "), checkpoint written; go on with --resume");
+        return ExitCode::stopped;
+      }
+      if (clock.due(simulation.time())) write_checkpoint();
+    }
+    if (rank_of(world) == 0) progress.finish();
+    write_checkpoint();
+    return ExitCode::ok;
+  }
+};
+
+/// Header of the log: enough to know and repeat the run.
+void log_heading(const Simulation& simulation, const CaseFile& file) {
+  std::ostringstream text;
+  text << "snag " << version_number << " (" << version_git << "), " << version_build << "\n"
+       << "case " << simulation.case_settings.name << ", sha256 " << file.sha256() << ", " << size_of(world) << " ranks\n";
+  if (simulation.mesh)
+    text << "mesh: " << simulation.mesh->n_cells_global << " cells, " << simulation.mesh->n_interior_global << " interior faces\n";
+  if (simulation.rags) {
+    text << "rags: " << simulation.rags->rags().size() << " with " << simulation.rags->n_particles() << " particles, sub-step "
+         << simulation.rags->stable_step() << " s (limit " << simulation.rags->step_limit().step << " s by "
+         << simulation.rags->step_limit().reason << ")\n";
+  }
+  log::info(text.str());
+  if (simulation.coupled && simulation.mesh) {
+    for (const std::string& warning : kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh))
+      log::warning(warning);
+  }
+}
+
+/// Partition of the checkpoint, if it was written on as many ranks.
+std::optional<std::vector<int>> stored_partition(CheckpointReader* reader) {
+  if (!reader || reader->stamp().ranks != size_of(world) || !reader->has("mesh/partition")) return {};
+  const std::vector<std::int64_t> stored = reader->shared_integers("mesh/partition");
+  return std::vector<int>(stored.begin(), stored.end());
+}
+
+}  // namespace
+
+ExitCode run_case(const RunOptions& options) {
+  const double begun = MPI_Wtime();
+  const CaseFile file = CaseFile::read(options.case_file, options.overrides);
+  const auto folder = output_folder(options, file);
+  together(world, [&] {
+    if (rank_of(world) == 0) check_output_folder(folder, options.resume, options.overwrite);
+  });
+  std::unique_ptr<CheckpointReader> reader;
+  if (options.resume) reader = std::make_unique<CheckpointReader>(world, folder / "checkpoint");
+
+  Simulation simulation(file, world, stored_partition(reader.get()));
+  if (reader && reader->stamp().case_sha256 != file.sha256())
+    throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
+                                     reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +
+                                     "); resume with the same case and --set values");
+  together(world, [&] {
+    if (rank_of(world) == 0) prepare_output_folder(folder, !options.resume);
+  });
+  log::open(folder / "log.txt", options.resume);
+  log_heading(simulation, file);
+  if (reader) simulation.load(*reader);
+  Outputs outputs(folder, file, simulation, options.resume);
+  if (reader) {
+    outputs.load(*reader);
+    log::info("resumed at " + std::to_string(simulation.time()) + " s");
+    reader.reset();
+  } else {
+    outputs.initial();
+  }
+
+  ExitCode code = ExitCode::ok;
+  try {
+    code = Run{file, folder, simulation, outputs}.steps();
+  } catch (const Error& failure) {
+    // What was reached is still told; the error goes on to the command line.
+    outputs.finish(failure.code, MPI_Wtime() - begun);
+    throw;
+  }
+  outputs.finish(code, MPI_Wtime() - begun);
+  if (code == ExitCode::ok && simulation.output_settings.report) {
+    together(world, [&] {
+      if (rank_of(world) == 0) write_report(folder);
+    });
+    log::info("report: " + (folder / "report.html").string());
+  }
+  log::info("done after " + duration(MPI_Wtime() - begun) + ": " + folder.string());
+  return code;
+}
+
+ExitCode check_case(const RunOptions& options) {
+  const CaseFile file = CaseFile::read(options.case_file, options.overrides);
+  Simulation simulation(file, world);
+  log_heading(simulation, file);
+  if (simulation.mesh) {
+    const std::string table = quality_table(*simulation.mesh, simulation.mesh_quality);
+    log::info(table);
+  }
+  const std::int64_t n_steps = simulation.time_settings.n_steps();
+  std::ostringstream text;
+  text.precision(3);
+  text << n_steps << " steps of " << simulation.time_settings.step << " s";
+  if (simulation.rags)
+    text << ", each of " << std::ceil(simulation.time_settings.step / simulation.rags->stable_step()) << " sub-steps of the rags";
+  // Orders of magnitude on one core of a present workstation, measured by `snag run` itself: see timing.csv of a run for this machine's.
+  constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 6e3, bytes_per_particle = 2e3;
+  double cost = 0, memory = 1e8;
+  if (simulation.mesh) {
+    cost += static_cast<double>(n_steps * simulation.mesh->n_cells_global) * seconds_per_cell_step;
+    memory += static_cast<double>(simulation.mesh->n_cells_global) * bytes_per_cell;
+  }
+  if (simulation.rags) {
+    cost += static_cast<double>(simulation.rags->n_particles()) * simulation.time_settings.end / simulation.rags->stable_step() *
+            seconds_per_particle_step;
+    memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
+  }
+  text << "\ncost: about " << duration(cost / size_of(world)) << " on " << size_of(world) << " ranks, " << memory / 1e9
+       << " GB\nthe case is ready to run";
+  log::info(text.str());
+  return ExitCode::ok;
+}
+
+}  // namespace snag

@@ -1,0 +1,175 @@
+#include "app/simulation.hpp"
+
+#include <unistd.h>
+
+#include "app/mesh_generator.hpp"
+#include "base/error.hpp"
+#include "dem/contacts/contact_settings.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "mesh/import.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+/// A mesh made for this run only, removed when it has been read.
+struct TemporaryMesh {
+  std::filesystem::path file;
+  ~TemporaryMesh() {
+    std::error_code ignored;
+    if (!file.empty()) std::filesystem::remove(file, ignored);
+  }
+};
+
+/// Reads the table of a settings struct.
+template <class Settings>
+void read(const Table& root, Settings& settings) {
+  const Section section = settings.section();
+  root.table(section.name).read(section.parameters);
+}
+
+std::filesystem::path made_mesh(const MeshSettings& settings, const CaseFile& file) {
+  int process = static_cast<int>(getpid());
+  MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  const auto path = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(process) + ".msh");
+  std::vector<std::string> arguments{settings.geometry};
+  if (!settings.parameters.empty()) arguments.push_back(file.path(settings.parameters).string());
+  arguments.insert(arguments.end(), {"--out", path.string()});
+  const ExitCode code = generate_mesh(arguments);
+  if (code != ExitCode::ok)
+    throw Error(code,
+                "[mesh] geometry = \"" + settings.geometry + "\": no mesh was made; try snag mesh " + settings.geometry + " by itself");
+  return path;
+}
+
+}  // namespace
+
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition) : comm_(comm) {
+  const Table root = file.root();
+  read(root, case_settings);
+  read(root, time_settings);
+  read(root, output_settings);
+  read(root, checkpoint_settings);
+  time_settings.n_steps();
+  read_mesh(file, std::move(partition));
+  build_water(file);
+  build_rags(file);
+  couple(file);
+  if (!water && !rags) throw Error(ExitCode::usage, root.where() + " has neither a mesh nor a rag: nothing to run; give [mesh] or [[rag]]");
+  file.reject_unread();
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::read_mesh(const CaseFile& file, std::optional<std::vector<int>> partition) {
+  read(file.root(), mesh_settings_);
+  ImportOptions options{.scale = mesh_settings_.scale, .partition = std::move(partition)};
+  for (const Table& table : file.root().tables("periodic")) {
+    PeriodicSettings periodic;
+    table.read(periodic.section().parameters);
+    options.periodic.push_back(periodic.pair);
+  }
+  if (mesh_settings_.file.empty() == mesh_settings_.geometry.empty()) {
+    if (mesh_settings_.file.empty()) return;
+    throw Error(ExitCode::usage, "[mesh] gives both a file and a geometry; keep one of them");
+  }
+  TemporaryMesh made;
+  if (!mesh_settings_.geometry.empty()) made.file = made_mesh(mesh_settings_, file);
+  const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
+  mesh = std::make_unique<Mesh>(import_gmsh(path, comm_, options));
+  mesh_quality = quality(*mesh);
+  if (!mesh_quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + mesh_quality.failures.front());
+}
+
+void Simulation::build_water(const CaseFile& file) {
+  if (!mesh) {
+    if (!file.root().has("flow")) return;
+    prescribed_.emplace();
+    read(file.root(), *prescribed_);
+    return;
+  }
+  FlowSettings settings;
+  read(file.root(), settings);
+  water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()));
+}
+
+void Simulation::build_rags(const CaseFile& file) {
+  walls = read_walls(file, mesh.get());
+  ContactSettings contacts;
+  file.root().table("contact").read(contacts.parameters());
+  DemSettings settings;
+  read(file.root(), settings);
+  std::vector<RagPiece> pieces = read_pieces(file);
+  if (pieces.empty()) return;
+  rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
+  rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
+  passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, rags->rags().size());
+}
+
+void Simulation::couple(const CaseFile& file) {
+  if (!rags) return;
+  if (water) {
+    coupled = std::make_unique<CoupledSolver>(read_coupling(file.root()), *rags, water->flow,
+                                              [this](double dt) { flow_report = water->advance(dt); });
+  } else if (prescribed_) {
+    coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
+  } else {
+    Vec3 acceleration;
+    file.root().table("gravity").read({{"acceleration", &acceleration, "m/s2", -1e4, 1e4, Basis::assumed, "Acceleration of gravity."}});
+    rags->set_gravity(acceleration);
+  }
+}
+
+void Simulation::step() {
+  const double begun = MPI_Wtime();
+  if (coupled) {
+    coupled->step(time_settings.step);
+  } else if (water) {
+    flow_report = water->advance(time_settings.step);
+  } else {
+    rags->migrate();
+    rags->advance(time_settings.step);
+  }
+  if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
+  ++time_step_;
+  if (passage) passage->observe(*rags, time());
+}
+
+void Simulation::save(CheckpointWriter& writer) const {
+  if (mesh) {
+    std::vector<std::int64_t> partition;
+    for (const int rank : partition_of(*mesh)) partition.push_back(rank);
+    writer.shared("mesh/partition", std::span<const std::int64_t>(partition));
+  }
+  if (water) water->save(writer);
+  if (rags) {
+    rags->save(writer);
+    writer.shared("passage", std::span<const double>(passage->state()));
+  }
+  if (coupled) coupled->save(writer);
+}
+
+void Simulation::load(CheckpointReader& reader) {
+  time_step_ = reader.stamp().time_step;
+  if (water) water->load(reader);
+  if (rags) {
+    rags->load(reader);
+    passage->restore(reader.shared("passage"));
+  }
+  if (coupled) coupled->load(reader);
+}
+
+Simulation::Seconds Simulation::seconds() const {
+  Seconds spent;
+  if (coupled) {
+    spent = {coupled->seconds().flow, coupled->seconds().rags, coupled->seconds().coupling};
+  } else {
+    (water ? spent.flow : spent.rags) = alone_seconds_;
+  }
+  return {maximum(comm_, spent.flow), maximum(comm_, spent.rags), maximum(comm_, spent.coupling)};
+}
+
+}  // namespace snag

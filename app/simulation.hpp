@@ -1,0 +1,65 @@
+#pragma once
+// Everything a case is made of, put together: mesh, water, walls, rags, coupling. Each part may be absent.
+#include <memory>
+#include <optional>
+
+#include "app/passage.hpp"
+#include "app/settings.hpp"
+#include "base/case_file.hpp"
+#include "coupling/coupled_solver.hpp"
+#include "dem/rag_system.hpp"
+#include "dem/walls.hpp"
+#include "mesh/quality.hpp"
+#include "solver/flow_solver.hpp"
+
+namespace snag {
+
+class Simulation {
+ public:
+  /// Reads the whole case, refuses unknown keys, and builds. `partition`: rank of every cell, of a checkpoint. Collective; throws Error.
+  Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition = {});
+  ~Simulation();
+
+  /// One step of time.step: water, rags, or both. Collective; throws Error.
+  void step();
+  double time() const { return static_cast<double>(time_step_) * time_settings.step; }
+  std::int64_t time_step() const { return time_step_; }
+
+  void save(CheckpointWriter& writer) const;
+  void load(CheckpointReader& reader);
+
+  CaseSettings case_settings;
+  TimeSettings time_settings;
+  OutputSettings output_settings;
+  CheckpointSettings checkpoint_settings;
+
+  // absent parts are null
+  std::unique_ptr<Mesh> mesh;
+  MeshQuality mesh_quality;
+  WallSet walls;
+  std::unique_ptr<FlowSolver> water;
+  std::unique_ptr<RagSystem> rags;
+  std::unique_ptr<CoupledSolver> coupled;
+  std::unique_ptr<Passage> passage;
+  StepReport flow_report;  // of the last step
+
+  struct Seconds {
+    double flow = 0, rags = 0, coupling = 0;
+  };
+  /// Wall clock spent since the start of this process, of the slowest rank. Collective.
+  Seconds seconds() const;
+
+ private:
+  void read_mesh(const CaseFile& file, std::optional<std::vector<int>> partition);
+  void build_water(const CaseFile& file);
+  void build_rags(const CaseFile& file);
+  void couple(const CaseFile& file);
+
+  MPI_Comm comm_;
+  MeshSettings mesh_settings_;
+  std::optional<PrescribedFlow> prescribed_;
+  std::int64_t time_step_ = 0;
+  double alone_seconds_ = 0;  // of water or rags without coupling
+};
+
+}  // namespace snag
