@@ -17,7 +17,8 @@ class GmshReader {
  public:
   explicit GmshReader(const std::filesystem::path& file) : name_(file.string()) {
     std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    if (!stream) throw Error(ExitCode::io, name_ + ": the mesh file cannot be opened; check the path and its permissions");
+    if (!stream || !std::filesystem::is_regular_file(file))
+      throw Error(ExitCode::io, name_ + ": the mesh file cannot be opened; check the path and its permissions");
     const auto size = stream.tellg();
     text_.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
     stream.seekg(0);
