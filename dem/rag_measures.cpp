@@ -172,51 +172,60 @@ double bond_strain_quantile(const RagSystem& rags, int rag, double p) {
   return quantile;
 }
 
-RagSheet gather_sheet(const RagSystem& rags) {
-  constexpr int width = 16;  // id, rag, x v q (10), tension, strain, bond_x, bond_y
-  std::vector<double> mine;
+namespace {
+
+/// What one particle sends to rank 0, as doubles.
+enum Column { c_id, c_rag, c_state, c_tension = c_state + 10, c_strain, c_bond_x, c_bond_y, n_sheet_columns };
+
+std::vector<double> sheet_rows(const RagSystem& rags) {
+  std::vector<double> rows;
   for (const Tile& tile : rags.tiles()) {
     const Rag& rag = rags.rags()[tile.rag];
     std::vector<double> tension(tile.exists.size(), -infinity), strain(tile.exists.size(), -infinity);
     for_bonds(tile, bond_laws(rag), true, [&](int a, int b, const BondForce& bond) {
-      for (const int k : {a, b}) {
+      for (const int k : {a, b})
         tension[k] = std::max(tension[k], bond.tension), strain[k] = std::max(strain[k], bond.length / (2 * rag.radius) - 1);
-      }
     });
     for_particles(tile, [&](int k, int i, int j) {
-      mine.push_back(static_cast<double>(particle_id(rag, tile, i, j))), mine.push_back(tile.rag);
-      for (int f = Tile::x; f <= Tile::qz; ++f) mine.push_back(tile.field(f)[k]);
+      rows.push_back(static_cast<double>(particle_id(rag, tile, i, j))), rows.push_back(tile.rag);
+      for (int f = Tile::x; f <= Tile::qz; ++f) rows.push_back(tile.field(f)[k]);
       const bool bonded = tension[k] > -infinity;
-      mine.push_back(bonded ? tension[k] : 0), mine.push_back(bonded ? strain[k] : 0);
-      mine.push_back(tile.bond_x[k]), mine.push_back(tile.bond_y[k]);
+      rows.push_back(bonded ? tension[k] : 0), rows.push_back(bonded ? strain[k] : 0);
+      rows.push_back(tile.bond_x[k]), rows.push_back(tile.bond_y[k]);
     });
   }
-  const std::vector<double> all = gather(rags.comm(), mine);
-  const std::size_t n = all.size() / width;
-  std::vector<std::size_t> order(n);
-  for (std::size_t k = 0; k < n; ++k) order[k] = k;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all[width * a] < all[width * b]; });
+  return rows;
+}
 
-  RagSheet sheet;
-  std::vector<const double*> rows;
-  for (const std::size_t k : order) {
-    const double* row = &all[width * k];
-    rows.push_back(row);
-    sheet.id.push_back(static_cast<std::int64_t>(row[0])), sheet.rag.push_back(static_cast<int>(row[1]));
-    sheet.position.push_back({row[2], row[3], row[4]}), sheet.velocity.push_back({row[5], row[6], row[7]});
-    sheet.orientation.push_back({row[8], row[9], row[10], row[11]});
-    sheet.tension.push_back(row[12]), sheet.strain.push_back(row[13]);
-  }
+/// Two triangles for each lattice cell with four whole bonds; `rows` in order of ids.
+void add_triangles(const std::vector<Rag>& rags, const std::vector<const double*>& rows, RagSheet& sheet) {
   const auto place = [&](std::int64_t id) {
     return static_cast<int>(std::lower_bound(sheet.id.begin(), sheet.id.end(), id) - sheet.id.begin());
   };
-  for (std::size_t k = 0; k < n; ++k) {
-    constexpr int bond_x = 14, bond_y = 15;
-    if (rows[k][bond_x] < 0.5 || rows[k][bond_y] < 0.5) continue;
-    const int a = static_cast<int>(k), b = a + 1, c = place(sheet.id[k] + rags.rags()[sheet.rag[k]].n_columns);
-    if (rows[b][bond_y] < 0.5 || rows[c][bond_x] < 0.5) continue;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k][c_bond_x] < 0.5 || rows[k][c_bond_y] < 0.5) continue;
+    const int a = static_cast<int>(k), b = a + 1, c = place(sheet.id[k] + rags[sheet.rag[k]].n_columns);
+    if (rows[b][c_bond_y] < 0.5 || rows[c][c_bond_x] < 0.5) continue;
     sheet.triangles.push_back({a, b, c + 1}), sheet.triangles.push_back({a, c + 1, c});
   }
+}
+
+}  // namespace
+
+RagSheet gather_sheet(const RagSystem& rags) {
+  const std::vector<double> all = gather(rags.comm(), sheet_rows(rags));
+  std::vector<const double*> rows;
+  for (std::size_t k = 0; k < all.size(); k += n_sheet_columns) rows.push_back(&all[k]);
+  std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[c_id] < b[c_id]; });
+  RagSheet sheet;
+  for (const double* row : rows) {
+    sheet.id.push_back(static_cast<std::int64_t>(row[c_id])), sheet.rag.push_back(static_cast<int>(row[c_rag]));
+    const double* s = row + c_state;
+    sheet.position.push_back({s[Tile::x], s[Tile::y], s[Tile::z]}), sheet.velocity.push_back({s[Tile::vx], s[Tile::vy], s[Tile::vz]});
+    sheet.orientation.push_back({s[Tile::qw], s[Tile::qx], s[Tile::qy], s[Tile::qz]});
+    sheet.tension.push_back(row[c_tension]), sheet.strain.push_back(row[c_strain]);
+  }
+  add_triangles(rags.rags(), rows, sheet);
   return sheet;
 }
 
