@@ -119,30 +119,31 @@ void WallContacts::find_touches(const Particle& p, int b) {
   const bool moves = body.motion.moves();
   const Vec3 X = moves ? poses_[b].in_wall(p.x) : p.x;
   const double radius = (*rags_)[p.rag].radius;
-  const auto add = [&](const TriangleDistance& seen, int triangle, int part) {
-    touches_.push_back({seen, moves ? poses_[b].turned(seen.direction) : seen.direction, b, triangle, part});
-  };
   for (std::size_t k = 0; k < body.planes.size(); ++k) {
     const WallPlane& plane = body.planes[k];
     const double s = dot(X - plane.point, plane.normal);
-    if (s < radius) add({s, plane.normal, WallFeature::face, {-1, -1}}, static_cast<int>(k), plane.part);
+    if (s < radius) touches_.push_back({s, moves ? poses_[b].turned(plane.normal) : plane.normal, b, static_cast<int>(k), plane.part});
   }
   if (body.triangles.empty()) return;
   for (int t : surfaces_[b].near(X)) {
     if (!surfaces_[b].within(t, X, radius)) continue;
     const TriangleDistance seen = surfaces_[b].distance(t, X);
-    if (std::abs(seen.distance) < radius) add(seen, t, surfaces_[b].part(t));
+    if (!(std::abs(seen.distance) < radius)) continue;
+    Touch& touch = touches_.emplace_back();
+    touch.distance = seen.distance, touch.feature = seen.feature, touch.node = seen.node;
+    touch.direction = moves ? poses_[b].turned(seen.direction) : seen.direction;
+    touch.body = b, touch.triangle = t, touch.part = surfaces_[b].part(t);
   }
 }
 
 /// True if an edge or corner belongs to a nearer triangle, or the direction is nearly that of a contact that acts.
 bool WallContacts::repeats(const Touch& touch, std::size_t before) const {
-  if (touch.seen.feature != WallFeature::face) {
+  if (touch.feature != WallFeature::face) {
     for (std::size_t i = 0; i < before; ++i) {
       if (touches_[i].body != touch.body || walls_->bodies()[touch.body].triangles.empty()) continue;
       const std::array<int, 3>& nodes = surfaces_[touch.body].nodes(touches_[i].triangle);
       const auto has = [&nodes](int node) { return node < 0 || std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
-      if (has(touch.seen.node[0]) && has(touch.seen.node[1])) return true;
+      if (has(touch.node[0]) && has(touch.node[1])) return true;
     }
   }
   return std::any_of(acting_.begin(), acting_.end(), [&](const Touch& a) { return dot(a.direction, touch.direction) > smooth_cosine; });
@@ -150,26 +151,26 @@ bool WallContacts::repeats(const Touch& touch, std::size_t before) const {
 
 void WallContacts::select_touches() {
   std::sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) {
-    const double s = std::abs(a.seen.distance), t = std::abs(b.seen.distance);
+    const double s = std::abs(a.distance), t = std::abs(b.distance);
     if (s != t) return s < t;
-    if (a.seen.feature != b.seen.feature) return a.seen.feature < b.seen.feature;
+    if (a.feature != b.feature) return a.feature < b.feature;
     return a.body != b.body ? a.body < b.body : a.triangle < b.triangle;
   });
   acting_.clear();
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     // Planes have no back: each of them pushes back what is beyond it.
-    const bool behind = i > 0 && touches_[i].seen.distance < 0 && walls_->bodies()[touches_[i].body].planes.empty();
+    const bool behind = i > 0 && touches_[i].distance < 0 && walls_->bodies()[touches_[i].body].planes.empty();
     if (!behind && !repeats(touches_[i], i)) acting_.push_back(touches_[i]);
   }
 }
 
-/// Slip of the old contact of the particle at work with the same wall and nearly the same direction; none: zero.
-Vec3 WallContacts::old_slip(const Touch& touch) {
+/// Slip of the old contact of the particle at work with the same wall and nearly the same direction (frame of the wall); none: zero.
+Vec3 WallContacts::old_slip(int body, const Vec3& direction) {
   double best = smooth_cosine;
   std::size_t found = old_end_;
   for (std::size_t i = old_begin_; i < old_end_; ++i) {
-    const double cosine = dot(old_slips_[i].normal, touch.seen.direction);
-    if (old_slips_[i].body == touch.body && !used_[i - old_begin_] && cosine > best) best = cosine, found = i;
+    const double cosine = dot(old_slips_[i].normal, direction);
+    if (old_slips_[i].body == body && !used_[i - old_begin_] && cosine > best) best = cosine, found = i;
   }
   if (found == old_end_) return {};
   used_[found - old_begin_] = 1;
@@ -180,11 +181,13 @@ void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, 
   const ContactPair& pair = pairs[p.rag];
   const WallPose& pose = poses_[touch.body];
   const bool moves = walls_->bodies()[touch.body].motion.moves();
-  const double s = touch.seen.distance, radius = pair.reach;
+  const double s = touch.distance, radius = pair.reach;
   const Vec3 n = -touch.direction, arm = s * n;
+  const Vec3 direction = moves ? pose.turned_back(touch.direction) : touch.direction;
   const Vec3 u = p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{});
 
-  const ContactMotion contact{std::min(radius - s, 2 * radius), -touch.seen.direction, moves ? pose.turned_back(u) : u, old_slip(touch)};
+  const ContactMotion contact{std::min(radius - s, 2 * radius), -direction, moves ? pose.turned_back(u) : u,
+                              old_slip(touch.body, direction)};
   const ContactForce result = hertz_mindlin(pair.law, contact, step_);
   const Vec3 F = moves ? pose.turned(result.force) : result.force;
   const Vec3 spin = p.w - pose.spin;
@@ -192,7 +195,7 @@ void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, 
   tile.set_vector(Tile::fx, place, tile.vector(Tile::fx, place) + F);
   tile.set_vector(Tile::tx, place, tile.vector(Tile::tx, place) + torque);
 
-  slips.push_back({p.id, touch.body, touch.seen.direction, result.slip});
+  slips.push_back({p.id, touch.body, direction, result.slip});
   ++n_contacts;
   max_overlap_over_radius[p.rag] = std::max(max_overlap_over_radius[p.rag], (radius - s) / radius);
   WallLoad& load = loads[p.rag * walls_->parts().size() + touch.part];
@@ -221,9 +224,9 @@ void WallContacts::note_beyond(const Particle& p, std::size_t& next_old) {
   bool past_plane = false, past_nearest = false;
   double nearest = infinity;
   for (const Touch& touch : touches_) {
-    const bool past = touch.seen.distance < 0;
+    const bool past = touch.distance < 0;
     past_plane = past_plane || (past && !walls_->bodies()[touch.body].planes.empty());
-    if (std::abs(touch.seen.distance) < nearest) nearest = std::abs(touch.seen.distance), past_nearest = past;
+    if (std::abs(touch.distance) < nearest) nearest = std::abs(touch.distance), past_nearest = past;
   }
   const bool is = touches_.empty() ? was : past_plane || past_nearest;
   if (is) beyond.push_back(p.id);

@@ -61,10 +61,12 @@ class WallContacts {
   struct Candidate {
     int particle, body;
   };
-  struct Touch {            // nearest point of one triangle or plane
-    TriangleDistance seen;  // direction in the frame of the wall
-    Vec3 direction;         // fixed frame
-    int body, triangle, part;
+  struct Touch {          // nearest point of one triangle or plane; small, because many are sorted
+    double distance = 0;  // m, negative beyond the wall
+    Vec3 direction;       // fixed frame
+    int body = 0, triangle = 0, part = 0;
+    WallFeature feature = WallFeature::face;
+    std::array<int, 2> node{-1, -1};
   };
   struct Particle {  // the one at work
     int number, rag;
@@ -83,7 +85,7 @@ class WallContacts {
   void select_touches();
   bool repeats(const Touch& touch, std::size_t before) const;
   void add_force(const Particle& p, const Touch& touch, Tile& tile, int place);
-  Vec3 old_slip(const Touch& touch);
+  Vec3 old_slip(int body, const Vec3& direction);
   void note_beyond(const Particle& p, std::size_t& next_old);
   void keep_beyond(const ContactParticles& particles, std::int64_t before, std::size_t& next_old);
 
