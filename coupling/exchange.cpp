@@ -57,13 +57,14 @@ std::vector<Vec3> Exchange::settle() {
 
 ExchangeBalance Exchange::balance() const {
   const MPI_Comm comm = flow_.mesh.comm;
-  std::vector<Vec3> applied(flow_.mesh.n_cells);
-  std::vector<double> exchanged(impulse_.size()), implicit(applied.size());
-  for (std::size_t c = 0; c < applied.size(); ++c) {
+  std::vector<Vec3> applied;
+  std::vector<double> exchanged(impulse_.size()), implicit;
+  for (int c = 0; c < flow_.mesh.n_cells; ++c) {
+    const Vec3 drag = flow_.drag[c] * flow_.velocity[c], force = flow_.reaction[c] - drag;
+    if (flow_.drag[c] == 0 && force == Vec3{}) continue;  // far from all rags
     const double factor = dt_ * flow_.mesh.cell_volume[c];
-    const Vec3 drag = flow_.drag[c] * flow_.velocity[c];
-    applied[c] = factor * (flow_.reaction[c] - drag);
-    implicit[c] = factor * norm(drag);
+    applied.push_back(factor * force);
+    implicit.push_back(factor * norm(drag));
   }
   for (std::size_t b = 0; b < impulse_.size(); ++b) exchanged[b] = norm(impulse_[b]);
   ExchangeBalance balance;

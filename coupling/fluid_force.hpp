@@ -72,6 +72,7 @@ struct Card {
   std::string name, equation, source, valid_for;
   bool reacts_on_fluid = true;  // the water feels the opposite force
   SampleSet samples = {};
+  bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
 };
 
 /// State of one sphere in a fluid, for reference cases and tests.

@@ -42,14 +42,20 @@ class FluidLoad final : public TileForce {
   double max_stiffness(std::span<const Tile> tiles) const;
 
  private:
+  void evaluate(std::size_t index, const Tile& tile, double step);
+  void add_torque(Tile& tile);
+  double* array(int f) { return scratch_.data() + f * scratch_size_; }
+
   const FluidForces& forces_;
   FluidField& field_;
   const std::vector<Rag>& rags_;
   SampleSet needed_;
-  std::vector<bool> reacts_;     // by force
-  std::vector<double> elapsed_;  // since the start of the step, by tile, s
-  TileArrays sums_;              // J, Q
-  AlignedDoubles scratch_;
+  std::vector<bool> reacts_;                                     // by force
+  bool all_react_ = true, torque_ = false, added_mass_ = false;  // what the forces give
+  std::vector<double> elapsed_;                                  // since the start of the step, by tile, s
+  TileArrays sums_;                                              // J, Q
+  AlignedDoubles scratch_;                                       // [n_arrays][scratch_size_]; fields that no force writes stay zero
+  std::size_t scratch_size_ = 0;                                 // places of the largest tile
 };
 
 }  // namespace snag

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
-#include "base/error.hpp"
+#include "coupling/cells_around.hpp"
+#include "coupling/vector_math.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -12,7 +13,6 @@ namespace snag {
 
 namespace {
 
-constexpr double use_holder = -1;   // factor that stands for "the cell that holds the particle, weight 1"
 constexpr double none = -infinity;  // exponent where no cell is in the support
 
 }  // namespace
@@ -89,39 +89,48 @@ std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
   router.forward(sent, 4, received);
 
   const double support = shape_.support_radius(width_);
-  const int n = router.n_received();
-  std::vector<double> answers(4 * static_cast<std::size_t>(n));
+  const std::size_t n = router.n_received();
+  std::vector<Vec3> heard(n);
+  for (std::size_t i = 0; i < n; ++i) heard[i] = {received[4 * i], received[4 * i + 1], received[4 * i + 2]};
+  CellsAround cells_around(mesh_, *locator_, support);
+  std::vector<double> answers(4 * n), volume;
   received_holder_.resize(n);
-  around_.start.assign(1, 0);
-  around_.cell.clear();
-  around_.weight.clear();
-  for (int i = 0; i < n; ++i) {
-    const Vec3 x{received[4 * i], received[4 * i + 1], received[4 * i + 2]};
+  auto& [unused, start, cell, weight] = around_;
+  start.assign(1, 0);
+  cell.clear(), weight.clear();
+  for (std::size_t i = 0; i < n; ++i) {
     Answer answer;
-    const int holder = received_holder_[i] = locator_->find(x, static_cast<int>(received[4 * i + 3]));
+    const int holder = received_holder_[i] = locator_->find(heard[i], static_cast<int>(received[4 * i + 3]));
     if (holder >= 0) answer.holder_id = static_cast<double>(mesh_.cell_id[holder]), answer.holder_cell = holder;
-    if (support > 0) add_weights(x, support, answer.exponent, answer.sum);
-    around_.start.push_back(static_cast<int>(around_.cell.size()));
-    answer.write(&answers[4 * static_cast<std::size_t>(i)]);
+    const std::size_t first = cell.size();
+    if (support > 0) {
+      cells_around.append(heard, i, cell, weight, volume);
+      set_weights(std::span(weight).subspan(first), volume.data(), answer.exponent, answer.sum);
+    }
+    if (answer.exponent == none) {  // no cell here: the holder, should no rank's cell lie in the support
+      const std::size_t end = holder >= 0 ? first + 1 : first;
+      cell.resize(end, holder), weight.resize(end);
+      if (holder >= 0) cell[first] = holder, weight[first] = 1;
+    }
+    start.push_back(static_cast<int>(cell.size()));
+    answer.write(&answers[4 * i]);
   }
   return answers;
 }
 
-/// Cells of this rank in the support about x and V_c g_c exp(-exponent), appended to the stencils; exponent and sum of them.
-void Kernel::add_weights(const Vec3& x, double support, double& exponent, double& sum_of_weights) {
-  auto& [router, start, cell, weight] = around_;
-  const std::size_t first = cell.size();
-  locator_->within(x, support, cell);
-  weight.resize(cell.size());
-  if (first == cell.size()) return;
-  for (std::size_t s = first; s < cell.size(); ++s) weight[s] = norm_squared(mesh_.cell_centre[cell[s]] - x);
-  const std::span<double> added(weight.data() + first, cell.size() - first);
-  shape_.log_weights(added, width_);
-  exponent = *std::max_element(added.begin(), added.end());
-  for (std::size_t s = first; s < cell.size() && exponent > none; ++s) {
-    weight[s] = mesh_.cell_volume[cell[s]] * std::exp(weight[s] - exponent);
-    sum_of_weights += weight[s];
-  }
+/// Squared distances become V_c g_c exp(-exponent); exponent: the largest ln g_c, or none; and their sum.
+void Kernel::set_weights(std::span<double> weights, const double* volume, double& exponent, double& sum_of_weights) const {
+  shape_.log_weights(weights, width_);
+  double* w = weights.data();
+  const std::size_t n = weights.size();
+  double largest = none;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t s = 0; s < n; ++s) largest = std::max(largest, w[s]);
+  exponent = largest;
+  if (exponent == none) return;
+#pragma omp simd
+  for (std::size_t s = 0; s < n; ++s) w[s] = volume[s] * exp(w[s] - largest);
+  sum_of_weights = std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
 /// From the answers of all ranks about one particle: the factor that normalises the weights on each of them.
@@ -153,7 +162,7 @@ std::vector<double> Kernel::weight_factors(std::span<const double> answers, std:
     if (total[b] > 0)
       factors[e] /= total[b];
     else if (holder_rank_[b] == router.rank(e))
-      factors[e] = use_holder;
+      factors[e] = 1;
   }
   std::int64_t outside = 0;
   for (int b = 0; b < n_particles_; ++b) {
@@ -167,25 +176,8 @@ std::vector<double> Kernel::weight_factors(std::span<const double> answers, std:
 
 /// Multiply the weights by their factors; put the holding cell where it stands for the kernel.
 void Kernel::finish_weights(std::span<const double> factors) {
-  std::vector<int> start{0}, cell;
-  std::vector<double> weight;
-  cell.reserve(around_.cell.size() + factors.size());
-  weight.reserve(around_.cell.size() + factors.size());
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    if (factors[i] == use_holder) {
-      cell.push_back(received_holder_[i]);
-      weight.push_back(1);
-    } else if (factors[i] > 0) {
-      for (int s = around_.start[i]; s < around_.start[i + 1]; ++s) {
-        cell.push_back(around_.cell[s]);
-        weight.push_back(around_.weight[s] * factors[i]);
-      }
-    }
-    start.push_back(static_cast<int>(cell.size()));
-  }
-  around_.start.swap(start);
-  around_.cell.swap(cell);
-  around_.weight.swap(weight);
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    for (int s = around_.start[i]; s < around_.start[i + 1]; ++s) around_.weight[s] *= factors[i];
 }
 
 /// Particles that no cell holds and no kernel reaches: every rank names its nearest cell, the nearest of all (lowest cell_id if equal)

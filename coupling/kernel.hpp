@@ -65,7 +65,7 @@ class Kernel {
 
   void plan_by_boxes(std::span<const Vec3> points);
   std::vector<double> search_cells(std::span<const Vec3> points);
-  void add_weights(const Vec3& x, double support, double& exponent, double& sum_of_weights);
+  void set_weights(std::span<double> weights, const double* volume, double& exponent, double& sum_of_weights) const;
   std::vector<double> weight_factors(std::span<const double> answers, std::vector<int>& unresolved);
   void finish_weights(std::span<const double> factors);
   void take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved);

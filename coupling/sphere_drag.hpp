@@ -9,11 +9,7 @@
 #include <numbers>
 
 #include "coupling/fluid_force.hpp"
-
-// The vector variants of pow (glibc's libmvec) are offered to the vectoriser without the rest of -ffast-math.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__)
-extern "C" __attribute__((__simd__("notinbranch"))) double pow(double, double) noexcept;
-#endif
+#include "coupling/vector_math.hpp"
 
 namespace snag {
 

@@ -3,9 +3,11 @@
 // As smooth as the Gaussian in practice, but it ends: a cell enters the support with weight zero, so that weights are continuous in time.
 // R from delta: int_0^1 q^4 (1-q)^4 (1+4q) dq / int_0^1 q^2 (1-q)^4 (1+4q) dq = (1/210)/(1/42) = 1/5 = 3 delta^2/R^2.
 // Source: Wendland (1995), Adv. Comput. Math. 4, 389-396.
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/kernel_shape.hpp"
+#include "coupling/vector_math.hpp"
 
 namespace snag {
 namespace {
@@ -17,9 +19,11 @@ struct WendlandKernel final : KernelShape {
   double support_radius(double width) const override { return std::sqrt(15.0) * width; }
   void log_weights(std::span<double> distance_squared, double width) const override {
     const double R = support_radius(width);
-    for (double& value : distance_squared) {
-      const double q = std::sqrt(value) / R;
-      value = 4 * std::log1p(-q) + std::log1p(4 * q);
+    double* values = distance_squared.data();
+#pragma omp simd
+    for (std::size_t s = 0; s < distance_squared.size(); ++s) {
+      const double q = std::min(std::sqrt(values[s]) / R, 1.0);  // round-off must not put it beyond 1
+      values[s] = 4 * log(1 - q) + log(1 + 4 * q);
     }
   }
 };

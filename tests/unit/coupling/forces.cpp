@@ -9,6 +9,7 @@
 #include "coupling/coupling_settings.hpp"
 #include "coupling/fluid_force.hpp"
 #include "coupling/kernel_shape.hpp"
+#include "mesh/structured.hpp"
 
 namespace snag {
 namespace {
@@ -120,6 +121,15 @@ TEST(Forces, SlopeIsFiniteAndNotNegative) {
   });
 }
 
+// Requirement: a force that gives torque or added mass says so on its card, for nothing else is read.
+TEST(Forces, CardsDeclareWhatIsGiven) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    const auto load = load_on_sphere(force, slanted_state());
+    EXPECT_EQ(norm(load.torque) > 0, force.card().gives_torque);
+    EXPECT_EQ(load.added_mass > 0, force.card().gives_added_mass);
+  });
+}
+
 // Requirement: defaults lie in their ranges, every number has a unit that is known, and a meaning.
 TEST(Forces, ParametersAreComplete) {
   for_each_force([](FluidForce& force, const std::string& name) {
@@ -192,6 +202,25 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
   EXPECT_THROW(read("[coupling]\nforces = [\"gravity\", \"gravity\"]\n"), Error);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\n").forces.size(), 0u);
   EXPECT_THROW(read_coupling(CaseFile::parse("[coupling]\nmode = \"two_way\"\n").root(), false), Error);
+}
+
+// Requirement: kernels that do not fit particles or cells are named with numbers; one that fits is not.
+TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {0, 0, 0}, {0.1, 0.1, 0.1}, {20, 20, 20});  // cells of 5 mm
+  std::vector<Rag> rags(1);
+  rags[0].hydrodynamic_diameter = 2e-3;
+  const auto warnings = [&](const std::string& keys) {
+    return kernel_warnings(read_coupling(CaseFile::parse("[coupling]\n" + keys).root()), rags, mesh);
+  };
+  EXPECT_TRUE(warnings("kernel_width_mm = 5").empty());
+  EXPECT_TRUE(warnings("").empty());
+  ASSERT_EQ(warnings("kernel_width_mm = 1").size(), 2u);
+  EXPECT_NE(warnings("kernel_width_mm = 1")[0].find("0.5 of the particle diameter (2 mm)"), std::string::npos);
+  EXPECT_NE(warnings("kernel_width_mm = 1")[1].find("0.2 of the cell size (mean 5 mm)"), std::string::npos);
+  EXPECT_EQ(warnings("kernel_width_mm = 50").size(), 1u);
+  EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
+  rags[0].hydrodynamic_diameter = 8e-3;
+  EXPECT_EQ(warnings("kernel = \"cell\"").size(), 1u);
 }
 
 // Requirement: every key of the coupling is in the manual's sections.

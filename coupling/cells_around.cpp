@@ -1,0 +1,56 @@
+#include "coupling/cells_around.hpp"
+
+#include <algorithm>
+
+namespace snag {
+
+namespace {
+// A group reaches over half a radius: its ball holds (1.25)^3, about twice, the cells of a single point.
+constexpr double group_diameter = 0.5;  // in radii
+constexpr std::size_t most_points = 64;
+}  // namespace
+
+void CellsAround::start_group(std::span<const Vec3> points, std::size_t i) {
+  Vec3 low = points[i], high = points[i];
+  group_first_ = i;
+  for (group_end_ = i + 1; group_end_ < points.size() && group_end_ < i + most_points; ++group_end_) {
+    Vec3 wider_low = low, wider_high = high;
+    for (int axis = 0; axis < 3; ++axis) {
+      wider_low[axis] = std::min(low[axis], points[group_end_][axis]);
+      wider_high[axis] = std::max(high[axis], points[group_end_][axis]);
+    }
+    if (norm(wider_high - wider_low) > group_diameter * radius_) break;
+    low = wider_low, high = wider_high;
+  }
+  candidate_.clear();
+  locator_.within(0.5 * (low + high), radius_ * (1 + 1e-9) + 0.5 * norm(high - low), candidate_);
+  const std::size_t n = candidate_.size();
+  for (auto* array : {&x_, &y_, &z_, &volume_, &distance_squared_}) array->resize(n);
+  for (std::size_t s = 0; s < n; ++s) {
+    const Vec3& centre = mesh_.cell_centre[candidate_[s]];
+    x_[s] = centre.x, y_[s] = centre.y, z_[s] = centre.z;
+    volume_[s] = mesh_.cell_volume[candidate_[s]];
+  }
+}
+
+void CellsAround::append(std::span<const Vec3> points, std::size_t i, std::vector<int>& cell, std::vector<double>& distance_squared,
+                         std::vector<double>& volume) {
+  if (i < group_first_ || i >= group_end_) start_group(points, i);
+  const Vec3 p = points[i];
+  const std::size_t n = candidate_.size();
+  double* d2 = distance_squared_.data();
+  const double *x = x_.data(), *y = y_.data(), *z = z_.data();
+#pragma omp simd
+  for (std::size_t s = 0; s < n; ++s) d2[s] = (x[s] - p.x) * (x[s] - p.x) + (y[s] - p.y) * (y[s] - p.y) + (z[s] - p.z) * (z[s] - p.z);
+  const std::size_t first = cell.size();
+  cell.resize(first + n), distance_squared.resize(first + n), volume.resize(n);
+  // Without a branch: every candidate is written, and kept by moving on.
+  std::size_t found = 0;
+  for (std::size_t s = 0; s < n; ++s) {
+    cell[first + found] = candidate_[s], distance_squared[first + found] = d2[s], volume[found] = volume_[s];
+    found += d2[s] < radius_ * radius_ ? 1 : 0;
+  }
+  cell.resize(first + found), distance_squared.resize(first + found), volume.resize(found);
+}
+
+}  // namespace snag
