@@ -266,10 +266,15 @@ struct Resolve {
 std::optional<std::string> unit_in_key(const std::string& key, const Parameter& parameter) {
   if (key == parameter.key) return "";
   if (parameter.unit.empty() || !key.starts_with(parameter.key + "_")) return {};
-  const std::string unit = unit_of_suffix(key.substr(parameter.key.size() + 1));
-  const auto parsed = parse_unit(unit);
-  if (!parsed || parsed->exponents != parse_unit(parameter.unit)->exponents) return {};
-  return unit;
+  const std::string suffix = key.substr(parameter.key.size() + 1);
+  // "m_s" is m/s but "Pa_s" is Pa s: the dimension decides.
+  std::string product = suffix;
+  std::replace(product.begin(), product.end(), '_', ' ');
+  for (const std::string& unit : {unit_of_suffix(suffix), product}) {
+    const auto parsed = parse_unit(unit);
+    if (parsed && parsed->exponents == parse_unit(parameter.unit)->exponents) return unit;
+  }
+  return {};
 }
 
 std::string known_spelling(const Parameter& parameter) { return parameter.unit.empty() ? parameter.key : key_with_unit(parameter); }

@@ -71,6 +71,21 @@ forces = ["a", "b"])");
   EXPECT_EQ(s.forces.size(), 2u);
 }
 
+// A unit that is a product is found by its dimension: Pa_s is Pa s, though m_s is m/s.
+TEST(CaseFile, ProductsOfUnitsInKeys) {
+  double viscosity = 0, speed = 0;
+  const std::vector<Parameter> parameters{{"viscosity", &viscosity, "Pa s"}, {"speed", &speed, "m/s"}};
+  const auto file = CaseFile::parse("[flow]\nviscosity_Pa_s = 1e-3\nspeed_mm_s = 2");
+  file.root().table("flow").read(parameters);
+  file.reject_unread();
+  EXPECT_DOUBLE_EQ(viscosity, 1e-3);
+  EXPECT_DOUBLE_EQ(speed, 2e-3);
+  const auto again = CaseFile::parse(file.resolved());
+  again.root().table("flow").read(parameters);
+  again.reject_unread();
+  EXPECT_DOUBLE_EQ(speed, 2e-3);
+}
+
 // Each mistake gets a message with the place, the value, the rule and the remedy.
 TEST(CaseFile, ExplainsMistakes) {
   EXPECT_TRUE(contains(message_of("[rag]\n\ndensty_kg_m3 = 5"), "case.toml:3"));
