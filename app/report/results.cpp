@@ -85,21 +85,21 @@ const char* exit_words(int code) {
 
 std::string rag_words(const std::string& outcome) {
   static const std::map<std::string, std::string> words = {
-      {"exited", "has left the domain"},
-      {"recirculating", "is still going round"},
-      {"stuck_on_tongue", "hangs on the tongue"},
-      {"stuck_on_impeller", "hangs on the impeller"},
-      {"upstream", "has not reached the pump yet"},
-      {"in_domain", "is still in the domain"},
+      {"exited", "has left the domain"},          {"recirculating", "is still going round"},
+      {"stuck_on_tongue", "hangs on the tongue"}, {"stuck_on_impeller", "hangs on the impeller"},
+      {"upstream", "is still upstream"},          {"in_domain", "is still in the domain"},
   };
   const auto found = words.find(outcome);
   return found == words.end() ? "ended as \"" + html::escaped(outcome) + "\"" : found->second;
 }
 
+/// Rag 0, or Rag "wipe" where it has a name of its own.
 std::string name_of(const json& rag) {
-  const json& id = member(rag, "id");
   const std::string name = word(rag, "name");
-  return "Rag " + (id.is_null() ? "" : text_of(id)) + (name.empty() ? "" : " (" + html::escaped(name) + ")");
+  if (name.starts_with("rag")) return "R" + html::escaped(name.substr(1));
+  if (!name.empty()) return "Rag &quot;" + html::escaped(name) + "&quot;";
+  const json& id = member(rag, "id");
+  return id.is_null() ? "The rag" : "Rag " + text_of(id);
 }
 
 std::string rags_sentence(const json& rags) {

@@ -209,9 +209,10 @@ TEST_F(Report, TellsResultsInWords) {
   write_report(dir);
   const auto html = page();
   EXPECT_TRUE(holds(html, "<h1>sheet in a channel</h1>"));
-  EXPECT_TRUE(holds(html,
-                    "The run ended as planned. It covers 0.6 s of operation in 3\u2009000 time steps. Rag 0 (wipe) hangs on the tongue. It "
-                    "has 3 broken bonds."));
+  EXPECT_TRUE(
+      holds(html,
+            "The run ended as planned. It covers 0.6 s of operation in 3\u2009000 time steps. Rag &quot;wipe&quot; hangs on the tongue. It "
+            "has 3 broken bonds."));
   EXPECT_TRUE(holds(html, "<td>Head</td><td>8.1 m</td>"));
   EXPECT_TRUE(holds(html, "<td>3.5 × 10<sup>7</sup> per second</td>"));
   EXPECT_TRUE(holds(html, "<td>my_new_key</td><td>7</td>"));
