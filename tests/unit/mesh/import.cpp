@@ -76,8 +76,12 @@ TEST(Import, ReadsAllShapesInAllFormats) {
     }
     EXPECT_NEAR(test::volume(mesh), 14, 1e-13);
     EXPECT_LT(test::closure(mesh), 1e-15);
-    for (int c = 0; c < mesh.n_cells; ++c)
-      EXPECT_NEAR(mesh.cell_volume[c], (std::array{1.0 / 6, 1.0 / 3, 0.5, 1.0}[static_cast<std::size_t>(mesh.cell_shape[c])]), 1e-15);
+    for (int c = 0; c < mesh.n_cells; ++c) {
+      const auto shape = static_cast<std::size_t>(mesh.cell_shape[c]);
+      EXPECT_NEAR(mesh.cell_volume[c], (std::array{1.0 / 6, 1.0 / 3, 0.5, 1.0}[shape]), 1e-15);
+      EXPECT_NEAR(mesh.cell_centre[c].x, (std::array{1.125, 0.5, 4.0 / 3, 0.5}[shape]), 1e-15);
+      EXPECT_NEAR(mesh.cell_centre[c].z, (std::array{1.25, 1.25, 0.5, 0.5}[shape]), 1e-15);
+    }
   }
 }
 
