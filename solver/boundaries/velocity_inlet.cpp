@@ -1,8 +1,10 @@
-// Inlet with a given velocity:   u = U,  or  u = - U_n n  with n the normal out of the domain;   flux = u.S
+// Inlet with a given velocity:   u = s U,  or  u = - s U_n n  with n the normal out of the domain;   flux = u.S
+// s: profile over the patch with mean 1 (solver/inlet_profile.hpp)
 #include <optional>
 
 #include "base/error.hpp"
 #include "solver/boundary.hpp"
+#include "solver/inlet_profile.hpp"
 
 namespace snag {
 namespace {
@@ -11,24 +13,29 @@ struct VelocityInlet final : Boundary {
   static constexpr const char* name = "velocity_inlet";
   Vec3 velocity;
   std::optional<double> normal_speed;
+  std::string profile = "uniform";
+  std::vector<double> shape;  // s of each face
 
   Section section() override {
     return {.name = name,
-            .meaning = "Uniform velocity.",
+            .meaning = "Velocity, uniform or with the profile of a developed flow.",
             .parameters = {{"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the fluid."},
                            {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed,
-                            "Speed into the domain along the normal, instead."}}};
+                            "Speed into the domain along the normal, instead."},
+                           setting("profile", &profile, "Of the speed over the patch, slower towards its rim; velocity is then the mean.",
+                                   {"uniform", "laminar", "turbulent"})}};
   }
   Fixes fixes() const override { return Fixes::velocity; }
-  void prepare(const Mesh&, const Patch& patch) override {
+  void prepare(const Mesh& mesh, const Patch& patch) override {
     if (normal_speed && norm(velocity) > 0)
       throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": velocity and normal_speed are both given; give one of them");
+    shape = inlet_profile(mesh, patch, profile);
   }
   void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;
       const Vec3& S = flow.mesh.face_vector[f];
-      values.velocity[b] = normal_speed ? -*normal_speed * unit(S) : velocity;
+      values.velocity[b] = shape[f - patch.first] * (normal_speed ? -*normal_speed * unit(S) : velocity);
       values.flux[b] = dot(values.velocity[b], S);
     }
   }
