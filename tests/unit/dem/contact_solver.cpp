@@ -237,6 +237,36 @@ TEST(ContactSolver, HistoryIsPackedAndUnpacked) {
   EXPECT_THROW(after.unpack(*resumed.tiles[0], std::vector<double>{1, 0, 0}), Error);
 }
 
+// Particles that part and touch again, without leaving the list in between, start without slip; so does a particle on a wall.
+TEST(ContactSolver, PartingForgetsSlip) {
+  const double r = 1e-3;
+  const Rag rag = Pieces::sphere(r, 540);
+  WallSet walls;
+  walls.add_plane("floor", {}, {0, 0, 1});
+  Pieces pieces;
+  pieces.add_sphere(rag, {0, 0, 1}), pieces.add_sphere(rag, {1.9 * r, 0, 1}), pieces.add_sphere(rag, {0.1, 0, 0.9 * r});
+  ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+  const auto tiles = pieces.owned();
+  const auto tangential = [&] {
+    pieces.clear_forces();
+    contacts.add_forces(tiles, {}, 0);
+    return Vec3{pieces.get(1, Tile::fx).y, pieces.get(2, Tile::fx).y, 0};
+  };
+  pieces.set(1, Tile::vx, {0, 1, 0}), pieces.set(2, Tile::vx, {0, 1, 0});
+  contacts.add_forces(tiles, {}, 1e-6);
+  pieces.set(1, Tile::vx, {}), pieces.set(2, Tile::vx, {});
+  EXPECT_LT(tangential().x, 0);
+  EXPECT_LT(tangential().y, 0);
+  pieces.set(1, Tile::x, {2.01 * r, 0, 1}), pieces.set(2, Tile::x, {0.1, 0, 1.01 * r});
+  EXPECT_EQ(norm(tangential()), 0);
+  const std::int64_t lists = contacts.measures().n_lists;
+  pieces.set(1, Tile::x, {1.9 * r, 0, 1}), pieces.set(2, Tile::x, {0.1, 0, 0.9 * r});
+  EXPECT_EQ(norm(tangential()), 0);
+  EXPECT_EQ(contacts.measures().n_lists, lists);
+  EXPECT_EQ(contacts.measures().n_contacts, 1);
+  EXPECT_EQ(contacts.measures().n_wall_contacts, 1);
+}
+
 // A particle without a finite position is left out and counted; the others go on.
 TEST(ContactSolver, NotFiniteParticlesAreCounted) {
   Pieces pieces;
