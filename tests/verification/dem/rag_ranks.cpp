@@ -142,6 +142,52 @@ TEST(RagRanks, ResumedRunEqualsTheUninterruptedOneToTheBit) {
   if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder);
 }
 
+TEST(RagRanks, RunWrittenOnOneRankResumesOnAll) {
+  // Requirement: a checkpoint of one rank goes on upon any number of ranks with the same result.
+  const std::string folder =
+      (std::filesystem::temp_directory_path() / ("snag_rag_ranks_one_" + std::to_string(size_of(MPI_COMM_WORLD)))).string();
+  ThrownCloth whole(MPI_COMM_SELF, true);
+  whole.advance(300);
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    std::filesystem::remove_all(folder), std::filesystem::create_directories(folder);
+    CheckpointWriter writer(MPI_COMM_SELF, folder, {.case_sha256 = "none", .ranks = 1, .time_step = 1, .time = whole.rags.time()});
+    whole.rags.save(writer);
+    writer.finish();
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  ThrownCloth spread(MPI_COMM_WORLD, true);
+  {
+    CheckpointReader reader(MPI_COMM_WORLD, folder);
+    spread.rags.load(reader);
+  }
+  whole.advance(150), spread.advance(150);
+  const RagSheet a = gather_sheet(whole.rags), b = gather_sheet(spread.rags);
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    EXPECT_LT(largest_difference(a, b), 1e-12);
+  }
+  EXPECT_EQ(whole.rags.check()[0].broken, spread.rags.check()[0].broken);
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder);
+}
+
+TEST(RagRanks, RanksWithoutCloth) {
+  // Requirement: one particle on many ranks falls by g t^2/2 wherever it is, while it changes hands.
+  RagPiece piece = cloth(1, 1);
+  piece.velocity = {1, 0, 0};
+  RagSystem rags(MPI_COMM_WORLD, {.step = 1e-4, .safety = 1}, {piece});
+  rags.set_gravity({0, 0, -10});
+  const int size = size_of(MPI_COMM_WORLD);
+  for (int k = 0; k < 10; ++k) {
+    rags.migrate([size, k](const std::vector<Vec3>& centres) { return std::vector<int>(centres.size(), k % size); });
+    EXPECT_EQ(rags.tiles().size(), rank_of(MPI_COMM_WORLD) == k % size ? 1u : 0u);
+    rags.advance(0.01);
+  }
+  const RagState s = rag_states(rags)[0];
+  EXPECT_NEAR(s.centre.x, 0.1, 1e-13);
+  EXPECT_NEAR(s.centre.z, -0.05, 1e-13);
+  EXPECT_NEAR(s.end_to_end, 0, 0);
+}
+
 TEST(RagRanks, LostBondIsNoticed) {
   // Requirement: a bond that vanishes without being counted as broken ends the run with the invariant's exit code on every rank.
   ThrownCloth run(MPI_COMM_WORLD);
