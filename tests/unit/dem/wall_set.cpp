@@ -1,11 +1,15 @@
 // Walls: motion, nearest points, search grid, what a particle does to them and case files.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "base/error.hpp"
 #include "dem/wall_triangles.hpp"
 #include "dem/walls.hpp"
+#include "mesh/structured.hpp"
+#include "parallel/session.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 #include "tests/unit/dem/wall_pieces.hpp"
 
@@ -238,6 +242,60 @@ axis = [0, 1, 0]
   EXPECT_NE(message("[[wall]]\nkind = \"patches\"\npatches = [\"casing\"]\n").find("mesh"), std::string::npos);
   EXPECT_NE(message("[[wall]]\nkind = \"cone\"\n").find("plane"), std::string::npos);
   EXPECT_NE(message("[[wall]]\npoint_m = [0,0,0]\n").find("kind"), std::string::npos);
+}
+
+/// ASCII STL of a surface given with normals out of the fluid, written with the opposite turn: that of a solid body.
+std::filesystem::path write_solid_stl(const WallSurface& surface) {
+  const auto path = std::filesystem::temp_directory_path() / ("snag_wall_set_" + std::to_string(rank_of(MPI_COMM_WORLD)) + ".stl");
+  std::ofstream file(path);
+  file.precision(17);
+  file << "solid block\n";
+  for (const WallTriangle& t : surface.triangles) {
+    file << "facet normal " << -t.normal.x << " " << -t.normal.y << " " << -t.normal.z << "\nouter loop\n";
+    for (int i : {0, 2, 1}) file << "vertex " << 1000 * t.node[i].x << " " << 1000 * t.node[i].y << " " << 1000 * t.node[i].z << "\n";
+    file << "endloop\nendfacet\n";
+  }
+  file << "endsolid block\n";
+  return path;
+}
+
+// An STL in millimetres of a solid body pushes a particle away from the body when its normals are said to point into the fluid; its part
+// has the wall's name.
+TEST(WallSettings, Stl) {
+  const auto path = write_solid_stl(test::solid_box({0, 0, 0}, {0.01, 0.02, 0.03}));
+  const std::string table = "[[wall]]\nkind = \"stl\"\nname = \"block\"\nscale = 1e-3\nfile = \"" + path.string() + "\"\n";
+  for (const bool into_fluid : {true, false}) {
+    const WallSet walls = read_walls(CaseFile::parse(table + (into_fluid ? "normals_into_fluid = true\n" : "")), nullptr);
+    EXPECT_EQ(walls.parts(), std::vector<std::string>{"block"});
+    Pieces pieces;
+    pieces.add_sphere(Pieces::sphere(1e-3, 540), {0.0107, 0.012, 0.011});
+    ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+    contacts.add_forces(pieces.owned(), {}, 1e-6);
+    EXPECT_EQ(pieces.get(0, Tile::fx).x > 0, into_fluid);
+    EXPECT_EQ(contacts.measures().beyond_walls[0], into_fluid ? 0 : 1);
+  }
+  std::filesystem::remove(path);
+}
+
+// Patches of a mesh keep their names as parts and push particles into the mesh.
+TEST(WallSettings, Patches) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {0, 0, 0}, {0.04, 0.03, 0.02}, {4, 3, 2});
+  std::string names;
+  for (const Patch& patch : mesh.patches) names += (names.empty() ? "\"" : ", \"") + patch.name + "\"";
+  const WallSet walls = read_walls(CaseFile::parse("[[wall]]\nkind = \"patches\"\npatches = [" + names + "]\n"), &mesh);
+  EXPECT_EQ(walls.parts().size(), mesh.patches.size());
+  Pieces pieces;
+  const Vec3 centre{0.02, 0.015, 0.01};
+  for (const Vec3& e : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) {
+    const double half = std::abs(dot(e, centre));
+    pieces.add_sphere(Pieces::sphere(1e-3, 540), centre + (half - 0.8e-3) * e);
+    ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+    const int last = static_cast<int>(pieces.tiles.size()) - 1;
+    pieces.clear_forces();
+    contacts.add_forces(pieces.owned(), {}, 1e-6);
+    EXPECT_LT(dot(pieces.get(last, Tile::fx), e), 0);
+    EXPECT_NEAR(norm(cross(pieces.get(last, Tile::fx), e)), 0, 1e-12);
+  }
 }
 
 // [contact] reads through its records, defaults within their ranges.
