@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "base/error.hpp"
 #include "dem/contacts/contact_solver.hpp"
@@ -101,30 +100,32 @@ bool RagSystem::ghosts_outdated() const {
   return false;
 }
 
-void RagSystem::find_ghosts() {
+/// For each rank that owns tiles near those of this rank: which tiles to send to it, which to receive, by ascending number. "Near" is
+/// mutual: what one side sends for a pair, the other expects.
+std::map<int, RagSystem::TileLists> RagSystem::exchange_lists() {
   const int rank = rank_of(comm_);
   const std::vector<double> boxes = contacts_ && size_of(comm_) > 1 ? all_boxes() : std::vector<double>();
-  // "Near" is mutual: what this rank sends for a pair, the other sends for it too.
-  std::map<int, std::pair<std::vector<int>, std::vector<int>>> sets;  // rank -> tiles to send, tiles to receive
+  std::map<int, TileLists> lists;
   for (const int mine : numbers_)
     for (int other = 0; other < n_all_tiles(); ++other)
       if (owner_[other] != rank && near(mine, other, boxes)) {
-        sets[owner_[other]].first.push_back(mine);
-        sets[owner_[other]].second.push_back(other);
+        lists[owner_[other]].send.push_back(mine);
+        lists[owner_[other]].receive.push_back(other);
       }
-  const auto sort_unique = [](std::vector<int>& v) {
-    std::sort(v.begin(), v.end());
-    v.erase(std::unique(v.begin(), v.end()), v.end());
-  };
-  ghost_numbers_.clear();
-  for (auto& [other_rank, pair] : sets) {
-    sort_unique(pair.first), sort_unique(pair.second);
-    ghost_numbers_.insert(ghost_numbers_.end(), pair.second.begin(), pair.second.end());
-  }
+  for (auto& [other_rank, list] : lists)
+    for (std::vector<int>* numbers : {&list.send, &list.receive}) {
+      std::sort(numbers->begin(), numbers->end());
+      numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
+    }
+  return lists;
+}
+
+void RagSystem::find_ghosts() {
+  const std::map<int, TileLists> lists = exchange_lists();
+  ghost_numbers_.clear(), ghosts_.clear(), ghost_pointers_.clear();
+  for (const auto& [other_rank, list] : lists) ghost_numbers_.insert(ghost_numbers_.end(), list.receive.begin(), list.receive.end());
   std::sort(ghost_numbers_.begin(), ghost_numbers_.end());
-  ghosts_.clear();
   for (const int number : ghost_numbers_) ghosts_.push_back(tile_at_birth(number));
-  ghost_pointers_.clear();
   for (const Tile& tile : ghosts_) ghost_pointers_.push_back(&tile);
 
   const auto place = [](const std::vector<int>& list, int number) {
@@ -132,11 +133,11 @@ void RagSystem::find_ghosts() {
     return found != list.end() && *found == number ? static_cast<int>(found - list.begin()) : -1;
   };
   std::vector<TileHalo::Neighbour> neighbours;
-  for (const auto& [other_rank, pair] : sets) {
+  for (const auto& [other_rank, list] : lists) {
     TileHalo::Neighbour n;
     n.rank = other_rank;
-    for (const int number : pair.first) n.send.push_back(place(numbers_, number));
-    for (const int number : pair.second) n.receive.push_back(place(ghost_numbers_, number));
+    for (const int number : list.send) n.send.push_back(place(numbers_, number));
+    for (const int number : list.receive) n.receive.push_back(place(ghost_numbers_, number));
     neighbours.push_back(std::move(n));
   }
   halo_ = std::make_unique<TileHalo>(comm_, std::move(neighbours), tiles_, ghosts_);
@@ -145,9 +146,11 @@ void RagSystem::find_ghosts() {
     const int owned = place(numbers_, number);
     return owned >= 0 ? &tiles_[owned] : &ghosts_[place(ghost_numbers_, number)];
   };
-  for (std::size_t i = 0; i < tiles_.size(); ++i)
-    halo_->add_ring(tiles_[i], local(neighbour_number(numbers_[i], -1, 0)), local(neighbour_number(numbers_[i], 1, 0)),
-                    local(neighbour_number(numbers_[i], 0, -1)), local(neighbour_number(numbers_[i], 0, 1)));
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    const int n = numbers_[i];
+    halo_->add_ring(tiles_[i], local(neighbour_number(n, -1, 0)), local(neighbour_number(n, 1, 0)), local(neighbour_number(n, 0, -1)),
+                    local(neighbour_number(n, 0, 1)));
+  }
 }
 
 void RagSystem::migrate(const OwnerOf& owner_of) {

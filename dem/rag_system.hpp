@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -111,6 +112,10 @@ class RagSystem {
   void set_limit();
   void exchange_state();
   void evaluate_and_move(double step, double drift_step, TileForce* force);
+  struct TileLists {
+    std::vector<int> send, receive;  // tile numbers
+  };
+  std::map<int, TileLists> exchange_lists();
   void find_ghosts();
   bool ghosts_outdated() const;
   std::vector<double> all_boxes();
