@@ -5,6 +5,7 @@
 
 namespace snag {
 
+/// Of one rank: the others keep none, or their lines would mix.
 class Progress {
  public:
   /// `total`: the amount of work (seconds to simulate, steps); `start`: the amount done before (a resume).

@@ -68,7 +68,7 @@ Series::Series(const std::filesystem::path& file, std::vector<std::string> colum
   std::string kept = header + "\n";
   if (resume && std::filesystem::exists(file)) {
     const auto found = for_each_record(file, [&](const std::string& line, const std::vector<double>& values) {
-      if (values[0] <= from_time) kept += line + "\n";
+      if (!is_later(values[0], from_time)) kept += line + "\n";
     });
     if (!found.empty() && found != header)
       throw Error(ExitCode::io, file.string() + ": has the columns \"" + found + "\", this run writes \"" + header +

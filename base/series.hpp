@@ -1,11 +1,15 @@
 #pragma once
 // Monitors: one CSV file a series, header with units, a line a record, flushed; no line twice after a resume.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 namespace snag {
+
+/// True if `time` lies after `reference` by more than the round-off of a clock that adds up a great many steps.
+inline bool is_later(double time, double reference) { return time - reference > 1e-9 * std::abs(reference); }
 
 class Series {
  public:

@@ -18,6 +18,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/series.hpp"
 
 namespace snag {
 
@@ -245,12 +246,12 @@ VtkCollection::VtkCollection(std::filesystem::path file, bool resume, double fro
     const auto [end, failure] = std::from_chars(time.data(), time.data() + time.size(), seconds);
     if (failure != std::errc() || end != time.data() + time.size() || name.empty())
       fail(file_, "line \"" + line + "\" is no entry of a series; delete the file to start a new one");
-    if (seconds <= from_time) entries_.emplace_back(seconds, name);
+    if (!is_later(seconds, from_time)) entries_.emplace_back(seconds, name);
   }
 }
 
 void VtkCollection::add(double time, const std::string& relative_file) {
-  std::erase_if(entries_, [time](const auto& entry) { return entry.first >= time; });
+  std::erase_if(entries_, [time](const auto& entry) { return !is_later(time, entry.first); });
   entries_.emplace_back(time, relative_file);
   std::ostringstream xml;
   xml.precision(17);

@@ -1,9 +1,10 @@
 #pragma once
 // Checkpoints: HDF5, two alternating slots, valid only when complete. A run resumes from the newest valid slot on any number of ranks.
 //
-//   DIR/slot_a.h5, DIR/slot_b.h5     root attributes: complete (written last), case_sha256, ranks, time_step, time_s, wall-clock date, version
-// Arrays are stored rank by rank (each rank its rows, in rank order) beside the ids of the rows, so that
-//   on the same ranks with the same ids every value returns to its place to the bit, and on others it is sent to the rank that asks for its id.
+//   DIR/slot_a.h5, DIR/slot_b.h5     root attributes: complete (written last), case_sha256, ranks, time_step, time_s, date, version,
+//                                    sequence (counts the checkpoints of the folder: the newest is the one written last)
+// Arrays are stored rank by rank (each rank its rows, in rank order) beside the ids of the rows and a checksum, so that on the same ranks
+//   with the same ids every value returns to its place to the bit, and on others it is sent to the rank that asks for its id.
 #include <mpi.h>
 
 #include <cstdint>
@@ -19,7 +20,7 @@ struct CheckpointStamp {
   std::string case_sha256;
   int ranks = 1;
   std::int64_t time_step = 0;
-  double time = 0;   // s
+  double time = 0;  // s
 };
 
 class CheckpointWriter {
@@ -44,7 +45,8 @@ class CheckpointWriter {
 
 class CheckpointReader {
  public:
-  /// Opens the newest complete slot. Collective; throws Error(io) that names the folder, what was found wrong with each slot (truncated, incomplete, other case) and the remedy.
+  /// Opens the complete slot that was written last. Collective; throws Error(io) that names the folder, what is wrong with each slot
+  /// (absent, truncated, incomplete) and the remedy. Whether it belongs to this case is for the caller to compare: stamp().case_sha256.
   CheckpointReader(MPI_Comm comm, const std::filesystem::path& folder);
   ~CheckpointReader();
   const CheckpointStamp& stamp() const;
