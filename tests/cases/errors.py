@@ -84,7 +84,7 @@ class Mistakes(harness.CaseTest):
         self.refused(2, ["outlett", "outlet"], self.channel('patch = "outlet"', 'patch = "outlett"'))
 
     def test_step_above_the_limit(self):
-        self.refused(2, ["step", "limit"], self.sheets("[dem]\nstep_s = 8e-6", "[dem]\nstep_s = 2e-4"))
+        self.refused(2, ["step", "is above the stable step", "set by"], self.sheets("[dem]\nstep_s = 8e-6", "[dem]\nstep_s = 2e-4"))
 
     def test_set_without_value(self):
         self.refused(2, ["time.end_s"], self.sheets(), "--set", "time.end_s")
@@ -116,7 +116,7 @@ class Mistakes(harness.CaseTest):
     def test_resume_of_another_case(self):
         case = self.case(TWO_SHEETS + "[checkpoint]\ninterval_s = 4e-4\n")
         self.run_case(case, 2, "--set", "time.end_s=8e-4")
-        self.refused(2, ["--resume"], case, "--resume", "--set", "time.end_s=8e-4", "--set", "rag.0.width_mm=60")
+        self.refused(2, ["another case"], case, "--resume", "--set", "time.end_s=8e-4", "--set", "rag.0.width_mm=60")
 
     def test_unknown_command(self):
         run = harness.snag(["rnu"], 2)

@@ -30,7 +30,7 @@ ENVIRONMENT = dict(
 # mpirun adds its own paragraphs to the stderr of a program that ends with a code other than 0.
 MPIRUN_CHATTER = re.compile(
     r"^-{20,}$|^$|^Primary job +terminated normally|^a non-zero exit code\. *Per user-direction|^mpirun detected that one or more processes"
-    r"|^a non-zero status, thus causing|^The first process to do so was|^ +Process name:|^ +Exit code:|^\[.*\] +\d+ more process"
+    r"|^a non-zero status, thus causing|^the job to be terminated|^The first process to do so was|^ +Process name:|^ +Exit code:|^\[.*\] +\d+ more process"
     r"|^MPI_ABORT was invoked|^with errorcode|^NOTE: invoking MPI_ABORT|^You may or may not see output|^exactly when Open MPI kills them"
 )
 
@@ -52,7 +52,7 @@ class Monitor:
 
     def physical(self):
         """Columns of the state: neither the clock, nor the route of a linear solver, nor what is left of a quantity that should be zero."""
-        return [c for c in self.columns if not re.search(r"iterations|residual|seconds|wall|_s \[s\]$|rebuilt|_rel \[1\]|continuity", c)]
+        return [c for c in self.columns if not re.search(r"iterations|residual|seconds|_s \[s\]$|rebuilt|_rel \[1\]|continuity", c)]
 
 
 class Run:
