@@ -90,33 +90,31 @@ void RagSystem::advance(double dt, TileForce* force) {
   if (contacts_) contacts_->set_time(time_ + step / 2);
   for (Tile& tile : tiles_) drift(tile, step / 2);
   for (int k = 0; k < n; ++k) {
-    exchange_state();
+    exchange_ghosts();
     evaluate_and_move(step, k + 1 < n ? step : step / 2, force);
   }
   time_ += dt, n_sub_steps_ += n, n_particle_steps_ += n * n_owned_particles_;
-  exchange_state();
+  halo_->exchange();
   check();
 }
 
-void RagSystem::exchange_state() {
+void RagSystem::exchange_ghosts() {
   if (contacts_ && size_of(comm_) > 1) {
     int outdated = ghosts_outdated(), any = 0;
     MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, comm_);
     if (any) find_ghosts();
   }
-  halo_->exchange();
+  halo_->exchange_ghosts();
 }
 
 void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
-    const Rag& rag = rags_[tile.rag];
-    broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rag.breakage, tile);
+    halo_->fill_ring(i);  // here, where the tile is about to be in the cache
+    broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
     if (force) force->add(i, tile, step);
-    if (!contacts_) kick_and_drift(tile, inertia_of(rag, gravity_), step, drift_step);
   }
-  if (!contacts_) return;
-  contacts_->add_forces(owned_pointers_, ghost_pointers_, step);
+  if (contacts_) contacts_->add_forces(owned_pointers_, ghost_pointers_, step);
   for (Tile& tile : tiles_) kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);
 }
 

@@ -110,7 +110,7 @@ class RagSystem {
 
  private:
   void set_limit();
-  void exchange_state();
+  void exchange_ghosts();
   void evaluate_and_move(double step, double drift_step, TileForce* force);
   struct TileLists {
     std::vector<int> send, receive;  // tile numbers

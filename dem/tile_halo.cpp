@@ -45,7 +45,7 @@ void TileHalo::add_ring(Tile& tile, const Tile* left, const Tile* right, const T
   rings_.push_back({&tile, {left, right, below, above}});
 }
 
-void TileHalo::exchange() {
+void TileHalo::exchange_ghosts() {
   constexpr int tag = 71;
   int r = 0;
   for (Neighbour& n : neighbours_) MPI_Irecv(n.in.data(), static_cast<int>(n.in.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
@@ -59,14 +59,20 @@ void TileHalo::exchange() {
     const double* in = n.in.data();
     for (const int t : n.receive) in = unpack_state(ghosts_[t], in);
   }
-  for (const Ring& ring : rings_) {
-    Tile& t = *ring.tile;
-    const auto& [left, right, below, above] = ring.from;
-    if (left) copy_line(t, t.index(-1, 0), t.stride, *left, left->index(left->nx - 1, 0), left->stride, t.ny);
-    if (right) copy_line(t, t.index(t.nx, 0), t.stride, *right, right->index(0, 0), right->stride, t.ny);
-    if (below) copy_line(t, t.index(0, -1), 1, *below, below->index(0, below->ny - 1), 1, t.nx);
-    if (above) copy_line(t, t.index(0, t.ny), 1, *above, above->index(0, 0), 1, t.nx);
-  }
+}
+
+void TileHalo::fill_ring(std::size_t i) {
+  Tile& t = *rings_[i].tile;
+  const auto& [left, right, below, above] = rings_[i].from;
+  if (left) copy_line(t, t.index(-1, 0), t.stride, *left, left->index(left->nx - 1, 0), left->stride, t.ny);
+  if (right) copy_line(t, t.index(t.nx, 0), t.stride, *right, right->index(0, 0), right->stride, t.ny);
+  if (below) copy_line(t, t.index(0, -1), 1, *below, below->index(0, below->ny - 1), 1, t.nx);
+  if (above) copy_line(t, t.index(0, t.ny), 1, *above, above->index(0, 0), 1, t.nx);
+}
+
+void TileHalo::exchange() {
+  exchange_ghosts();
+  for (std::size_t i = 0; i < rings_.size(); ++i) fill_ring(i);
 }
 
 }  // namespace snag

@@ -23,7 +23,11 @@ class TileHalo {
   TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts);
   /// Lists what the ring of an owned tile is copied from: the tiles left, right, below and above (null at the edge of the piece).
   void add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above);
-  /// Brings ghosts and rings up to date. Collective over the neighbours.
+  /// Brings ghosts up to date. Collective over the neighbours.
+  void exchange_ghosts();
+  /// Fills the ring of the tile that was added as number i, from owned and ghost tiles as they are.
+  void fill_ring(std::size_t i);
+  /// Both, for all tiles.
   void exchange();
 
  private:
