@@ -7,7 +7,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
-#include "solver/patch_monitors.hpp"
+#include "solver/monitors.hpp"
 
 namespace snag {
 
@@ -102,8 +102,8 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
       residuals_ = open("residuals", residual_columns());
       std::vector<std::string> columns{"time [s]"};
       for (const Patch& patch : simulation.mesh->patches) {
-        columns.push_back(patch.name + "_flow [m3/s]");
-        columns.push_back(patch.name + "_pressure [Pa]");
+        for (const char* quantity : {"_flow [m3/s]", "_pressure [Pa]", "_force_x [N]", "_force_y [N]", "_force_z [N]"})
+          columns.push_back(patch.name + quantity);
       }
       patches_ = open("patches", columns);
     }
@@ -171,10 +171,12 @@ void Outputs::write_water_monitors() {
   const StepReport& report = simulation_.flow_report;
   std::vector<double> patches{simulation_.time()};
   double through = 0;
-  for (std::size_t p = 0; p < simulation_.mesh->patches.size(); ++p) {
-    const double flow_rate = patch_flow_rate(simulation_.water->flow, p);
-    patches.insert(patches.end(), {flow_rate, patch_mean_pressure(simulation_.water->flow, p)});
-    through += std::abs(flow_rate) / 2;
+  const Flow& flow = simulation_.water->flow;
+  for (int p = 0; p < static_cast<int>(simulation_.mesh->patches.size()); ++p) {
+    const double rate = flow_rate(flow, p);
+    const Vec3 force = patch_force(flow, p, {}).force();
+    patches.insert(patches.end(), {rate, mean_pressure(flow, p), force.x, force.y, force.z});
+    through += std::abs(rate) / 2;
   }
   if (through > 0) largest_imbalance_ = std::max(largest_imbalance_, std::abs(report.continuity_global) / through);
   if (rank_of(MPI_COMM_WORLD) != 0) return;

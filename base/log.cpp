@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include "base/error.hpp"
+#include "base/terminal.hpp"
 
 namespace snag::log {
 
@@ -12,7 +13,8 @@ namespace {
 
 spdlog::logger& logger() {
   static auto instance = [] {
-    auto terminal = std::make_shared<spdlog::sinks::stdout_color_sink_mt>();
+    auto terminal =
+        std::make_shared<spdlog::sinks::stdout_color_sink_mt>(is_watched() ? spdlog::color_mode::automatic : spdlog::color_mode::never);
     terminal->set_pattern("%^%v%$");
     auto made = std::make_shared<spdlog::logger>("snag", terminal);
     made->set_level(spdlog::level::info);

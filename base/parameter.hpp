@@ -29,7 +29,7 @@ struct Parameter {
   double minimum = -infinity;  // inclusive
   double maximum = infinity;   // inclusive
   Basis basis = Basis::assumed;
-  std::string meaning;
+  std::string meaning = {};
   std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any
   bool required = false;
 };

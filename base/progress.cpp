@@ -1,14 +1,11 @@
 #include "base/progress.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 
 #include "base/log.hpp"
+#include "base/terminal.hpp"
 
 namespace snag {
 
@@ -17,16 +14,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds terminal_interval{200};
 constexpr std::chrono::seconds batch_interval{30};
-
-/// True if a person watches standard output. A launcher of MPI gives its processes a terminal of its own, whatever its own output is: that
-/// one counts.
-bool is_watched() {
-  if (isatty(STDOUT_FILENO) == 0) return false;
-  if (std::getenv("OMPI_COMM_WORLD_RANK") == nullptr) return true;
-  std::error_code failure;
-  const auto output = std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", failure);
-  return !failure && (output.string().starts_with("/dev/pts/") || output.string().starts_with("/dev/tty"));
-}
 
 double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
 

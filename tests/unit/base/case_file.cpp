@@ -74,7 +74,8 @@ forces = ["a", "b"])");
 // A unit that is a product is found by its dimension: Pa_s is Pa s, though m_s is m/s.
 TEST(CaseFile, ProductsOfUnitsInKeys) {
   double viscosity = 0, speed = 0;
-  const std::vector<Parameter> parameters{{"viscosity", &viscosity, "Pa s"}, {"speed", &speed, "m/s"}};
+  const std::vector<Parameter> parameters{{.key = "viscosity", .target = &viscosity, .unit = "Pa s"},
+                                          {.key = "speed", .target = &speed, .unit = "m/s"}};
   const auto file = CaseFile::parse("[flow]\nviscosity_Pa_s = 1e-3\nspeed_mm_s = 2");
   file.root().table("flow").read(parameters);
   file.reject_unread();
