@@ -1,5 +1,6 @@
 #include "solver/boundary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -108,6 +109,13 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
 void BoundarySet::update(const Flow& flow, double time) {
   for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->update(flow, mesh_.patches[p], time, values_);
   if (!fixes_pressure_) check_net_flux();
+}
+
+BoundaryValues BoundarySet::at_rest() {
+  const BoundaryValues before = values_;
+  std::fill(values_.flux.begin(), values_.flux.end(), 0.0);
+  std::fill(values_.acceleration.begin(), values_.acceleration.end(), Vec3{});
+  return before;
 }
 
 void BoundarySet::check_net_flux() const {

@@ -17,9 +17,9 @@ enum class Fixes { velocity, pressure, symmetry };
 
 /// Values at the boundary faces, face f at f - n_interior.
 struct BoundaryValues {
-  std::vector<Vec3> velocity;    // where velocity is fixed, m/s
-  std::vector<double> flux;      // where velocity is fixed, out of the domain, m3/s
-  std::vector<double> pressure;  // where pressure is fixed, Pa
+  std::vector<Vec3> velocity;      // where velocity is fixed, m/s
+  std::vector<double> flux;        // where velocity is fixed, out of the domain, m3/s
+  std::vector<double> pressure;    // where pressure is fixed, Pa
   std::vector<Vec3> acceleration;  // of the fluid at a wall where it is known, for the pressure there, m/s2
 };
 
@@ -59,6 +59,9 @@ class BoundarySet {
   void update(const Flow& flow, double time);
 
   const BoundaryValues& values() const { return values_; }
+  /// Set all fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
+  BoundaryValues at_rest();
+  void restore(const BoundaryValues& values) { values_ = values; }
   Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// True if some patch fixes the pressure.

@@ -20,7 +20,7 @@ std::vector<Side> pressure_sides(const Mesh& mesh, const BoundarySet& boundary) 
   std::vector<Side> sides;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     const Fixes fixes = boundary.fixes(static_cast<int>(p));
-    sides.push_back(fixes == Fixes::velocity ? Side::none : fixes == Fixes::pressure ? Side::value : Side::zero_normal);
+    sides.push_back(fixes == Fixes::pressure ? Side::value : Side::slope);
   }
   return sides;
 }
@@ -28,14 +28,19 @@ std::vector<Side> pressure_sides(const Mesh& mesh, const BoundarySet& boundary) 
 }  // namespace
 
 Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings)
-    : mesh_(mesh),
+    : history(mesh),
+      wall_slope(mesh.n_faces - mesh.n_interior),
+      mesh_(mesh),
       settings_(settings),
       squares_(mesh, pressure_sides(mesh, boundary)),
       poisson_(mesh, settings.multigrid, !boundary.fixes_pressure()),
       mobility_(mesh.n_all_cells()),
+      weight_(mesh.weight),
+      face_mobility_(mesh.n_interior),
       coefficient_(mesh.n_faces),
       preconditioner_(mesh.n_faces),
       correction_(mesh.n_all_cells()),
+      given_(mesh.n_faces - mesh.n_interior),
       boundary_correction_(mesh.n_faces - mesh.n_interior),
       slope_(mesh.n_all_cells()),
       gradient_(mesh.n_all_cells()),
@@ -43,36 +48,66 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       right_side_(mesh.n_all_cells()) {}
 
 void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
-  flow.boundary_pressure = boundary.values().pressure;
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const int b = f - mesh_.n_interior;
+      given_[b] = boundary.fixes(static_cast<int>(p)) == Fixes::pressure ? boundary.values().pressure[b] : wall_slope[b];
+    }
   mesh_.halo.exchange(flow.pressure);
-  squares_.gradient(flow.pressure, flow.boundary_pressure, slope_);
-  fill_boundary(mesh_, squares_, flow.pressure, slope_, flow.boundary_pressure);
-  gauss_gradient(mesh_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
+  squares_.gradient(weight_, flow.pressure, given_, slope_);
+  fill_boundary(mesh_, squares_, flow.pressure, slope_, given_, flow.boundary_pressure);
+  gauss_gradient(mesh_, weight_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
 }
 
 void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient) {
   inertia_ = 1;
   std::fill(mobility_.begin(), mobility_.end(), 1.0);
+  std::fill(face_mobility_.begin(), face_mobility_.end(), 1.0);
+  weight_ = mesh_.weight;
   predict_flux(flow, boundary, gradient, false);
-  std::fill(boundary_correction_.begin(), boundary_correction_.end(), 0.0);
+  std::fill(given_.begin(), given_.end(), 0.0);
   solve(flow, boundary);
   correct_cells(flow, false);
 }
 
-ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, double inertia, const std::vector<Mat3>& gradient) {
-  set_mobility(flow, inertia);
+ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient) {
+  inertia_over_a0_ = flow.density / time.dt;
+  set_mobility(flow, time.now * inertia_over_a0_);
   predict_flux(flow, boundary, gradient, true);
-  for (std::size_t b = 0; b < boundary_correction_.size(); ++b)
-    boundary_correction_[b] = boundary.values().pressure[b] - flow.boundary_pressure[b];
+  give_boundary(flow, boundary);
   const ContinuityReport report = solve(flow, boundary);
   correct_cells(flow, true);
   return report;
+}
+
+/// What the boundary gives to p': the change of the fixed pressure, or of the normal slope.
+void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    const bool fixed = boundary.fixes(static_cast<int>(p)) == Fixes::pressure;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const int P = mesh_.owner[f], b = f - mesh_.n_interior;
+      if (fixed) {
+        given_[b] = boundary.values().pressure[b] - flow.boundary_pressure[b];
+        continue;
+      }
+      const Vec3 force =
+          flow.body_force + flow.reaction[P] - flow.drag[P] * flow.velocity[P] - flow.density * boundary.values().acceleration[b];
+      const double slope = dot(force, unit(mesh_.face_vector[f]));
+      given_[b] = slope - wall_slope[b];
+      wall_slope[b] = slope;
+    }
+  }
 }
 
 void Continuity::set_mobility(const Flow& flow, double inertia) {
   inertia_ = inertia;
   for (int c = 0; c < mesh_.n_cells; ++c) mobility_[c] = 1 / (inertia + flow.drag[c]);
   mesh_.halo.exchange(mobility_);
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const double w = mesh_.weight[f], owner = w * mobility_[mesh_.owner[f]], neighbour = (1 - w) * mobility_[mesh_.neighbour[f]];
+    weight_[f] = owner / (owner + neighbour);
+    face_mobility_[f] = mobility_[mesh_.owner[f]] * mobility_[mesh_.neighbour[f]] / (owner + neighbour);
+  }
 }
 
 void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
@@ -85,9 +120,10 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
     double flux = dot(blend(w, u[P], u[N]) + blend(w, gradient[P], gradient[N]) * skewness(mesh_, f), S);
     if (with_pressure) {
       const Vec3& d = mesh_.delta[f];
-      const double c = conductance(S, d), m = w * mobility_[P] + (1 - w) * mobility_[N];
-      const double compact = c * (flow.pressure[N] - flow.pressure[P]) + dot(S - c * d, blend(w, g[P], g[N]));
-      flux += dot(blend(w, mobility_[P] * g[P], mobility_[N] * g[N]), S) - m * compact;
+      const double c = conductance(S, d), m = face_mobility_[f];
+      const Vec3 mg = blend(w, mobility_[P] * g[P], mobility_[N] * g[N]);
+      // [m grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
+      flux += c * (dot(mg, d) - m * (flow.pressure[N] - flow.pressure[P])) + m * inertia_over_a0_ * history.inherited()[f];
     }
     flow.flux[f] = flux;
   }
@@ -108,7 +144,9 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
         flow.flux[f] = dot(flow.velocity[P] + gradient[P] * along_face(d, unit(S)), S);
         const double c = conductance(S, d);
         // S.g - [c (p_b - p_P) + T.g] = c (d.g - (p_b - p_P))
-        if (with_pressure) flow.flux[f] += mobility_[P] * c * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P]));
+        if (with_pressure)
+          flow.flux[f] +=
+              mobility_[P] * (c * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) + inertia_over_a0_ * history.inherited()[f]);
       }
     }
   }
@@ -116,9 +154,7 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
 
 void Continuity::set_coefficients(const BoundarySet& boundary) {
   for (int f = 0; f < mesh_.n_interior; ++f) {
-    const double w = mesh_.weight[f];
-    const double m = w * mobility_[mesh_.owner[f]] + (1 - w) * mobility_[mesh_.neighbour[f]];
-    coefficient_[f] = inertia_ * m * conductance(mesh_.face_vector[f], mesh_.delta[f]);
+    coefficient_[f] = inertia_ * face_mobility_[f] * conductance(mesh_.face_vector[f], mesh_.delta[f]);
   }
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const bool fixed = boundary.fixes(static_cast<int>(p)) == Fixes::pressure;
@@ -151,9 +187,9 @@ ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
   const double floor = rounding * std::sqrt(squares[1]);
   for (int k = 0; k <= settings_.n_non_orthogonal; ++k) {
     if (k > 0) {
-      squares_.gradient(correction_, boundary_correction_, slope_);
-      fill_boundary(mesh_, squares_, correction_, slope_, boundary_correction_);
-      gauss_gradient(mesh_, correction_, boundary_correction_, slope_, gradient_);
+      squares_.gradient(weight_, correction_, given_, slope_);
+      fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
+      gauss_gradient(mesh_, weight_, correction_, boundary_correction_, slope_, gradient_);
     }
     add_cross_flux();
     const double tolerance = k == settings_.n_non_orthogonal ? settings_.tolerance : settings_.tolerance_intermediate;
@@ -172,8 +208,8 @@ void Continuity::add_cross_flux() {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d), m = w * mobility_[P] + (1 - w) * mobility_[N];
-    const double cross = inertia_ * m * dot(S - c * d, blend(w, gradient_[P], gradient_[N]));
+    const double w = mesh_.weight[f], c = conductance(S, d);
+    const double cross = inertia_ * dot(S - c * d, blend(w, mobility_[P] * gradient_[P], mobility_[N] * gradient_[N]));
     right_side_[P] += cross;
     right_side_[N] -= cross;
   }
@@ -181,8 +217,8 @@ void Continuity::add_cross_flux() {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    right_side_[P] += coefficient_[f] * boundary_correction_[f - mesh_.n_interior] +
-                      inertia_ * mobility_[P] * dot(S - conductance(S, d) * d, gradient_[P]);
+    right_side_[P] +=
+        coefficient_[f] * given_[f - mesh_.n_interior] + inertia_ * mobility_[P] * dot(S - conductance(S, d) * d, gradient_[P]);
   }
 }
 
@@ -191,22 +227,23 @@ void Continuity::correct_flux(Flow& flow) {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d), m = w * mobility_[P] + (1 - w) * mobility_[N];
-    flow.flux[f] -= m * (c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, gradient_[P], gradient_[N])));
+    const double w = mesh_.weight[f], c = conductance(S, d), m = face_mobility_[f];
+    flow.flux[f] -=
+        m * c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, mobility_[P] * gradient_[P], mobility_[N] * gradient_[N]));
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
     const double c = conductance(S, d);
-    flow.flux[f] -= mobility_[P] * (c * (boundary_correction_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
+    flow.flux[f] -= mobility_[P] * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
   }
 }
 
 void Continuity::correct_cells(Flow& flow, bool with_pressure) {
-  squares_.gradient(correction_, boundary_correction_, slope_);
-  fill_boundary(mesh_, squares_, correction_, slope_, boundary_correction_);
-  gauss_gradient(mesh_, correction_, boundary_correction_, slope_, gradient_);
+  squares_.gradient(weight_, correction_, given_, slope_);
+  fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
+  gauss_gradient(mesh_, weight_, correction_, boundary_correction_, slope_, gradient_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_[c] * gradient_[c];
   if (!with_pressure) return;
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.pressure[c] += correction_[c], flow.pressure_gradient[c] += gradient_[c];

@@ -1,7 +1,7 @@
 #pragma once
 // Continuity: fluxes without divergence from the predicted velocity, and the pressure that makes them so.
 //
-//   flux~ = [u* + m grad p]_f.S - m_f (S.grad p)_f               m = 1/(a0 rho/dt + beta): mobility, m3 s/kg
+//   flux~ = [u* + m grad p]_f.S - m_f (S.grad p)_f + m_f (rho/dt) psi~       m = 1/(a0 rho/dt + beta): mobility, m3 s/kg
 //   div(m grad p') = div(flux~),    flux = flux~ - m_f (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
 //
 // [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference damps pressure that alternates from cell
@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "solver/boundary.hpp"
+#include "solver/flux_history.hpp"
 #include "solver/gradient.hpp"
 #include "solver/poisson.hpp"
 
@@ -36,16 +37,21 @@ class Continuity {
   void start_pressure(Flow& flow, const BoundarySet& boundary);
   /// Make the given velocity and its fluxes divergence-free; the pressure stays. Collective.
   void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient);
-  /// One pressure correction; `inertia` = a0 rho/dt, kg/(m3 s); `gradient` of velocity, for skewness. Collective.
-  ContinuityReport correct(Flow& flow, const BoundarySet& boundary, double inertia, const std::vector<Mat3>& gradient);
+  /// One pressure correction; `gradient` of velocity, for skewness. Collective.
+  ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
 
-  Poisson& poisson() { return poisson_; }
+  FluxHistory history;
+  std::vector<double>
+      wall_slope;  // dp/dn in force where velocity is fixed or at a symmetry, [n_faces - n_interior], Pa/m; kept in the checkpoint
+
+  const Poisson& poisson() const { return poisson_; }
   /// Coefficients that the preconditioner was last set up with, [n_faces].
   const std::vector<double>& preconditioner_coefficients() const { return preconditioner_; }
   /// Set the preconditioner up again from stored coefficients (a resume). Collective.
   void restore(std::vector<double> coefficients, double fresh_cost, bool rebuild_due);
 
  private:
+  void give_boundary(const Flow& flow, const BoundarySet& boundary);
   void set_mobility(const Flow& flow, double inertia);
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
@@ -59,13 +65,15 @@ class Continuity {
   ContinuitySettings settings_;
   LeastSquares squares_;
   Poisson poisson_;
-  double inertia_ = 1;
-  std::vector<double> mobility_;     // [n_all_cells]
-  std::vector<double> coefficient_;  // inertia m_f c: near c, whatever the step, so that the preconditioner lasts; [n_faces]
+  double inertia_ = 1, inertia_over_a0_ = 1;  // a0 rho/dt, rho/dt
+  std::vector<double> mobility_;              // [n_all_cells]
+  std::vector<double> weight_;         // of the owner's pressure at a face: in proportion to the mobilities, so that m dp/dn is continuous
+  std::vector<double> face_mobility_;  // m_f, harmonic: 1/m_f = (1 - w)/m_P + w/m_N, [n_interior]
+  std::vector<double> coefficient_;    // inertia m_f c: near c, whatever the step, so that the preconditioner lasts; [n_faces]
   std::vector<double> preconditioner_;
-  std::vector<double> correction_;  // p'
-  std::vector<double> boundary_correction_;
-  std::vector<Vec3> slope_, gradient_;  // of p': least squares, Gauss
+  std::vector<double> correction_;                   // p'
+  std::vector<double> given_, boundary_correction_;  // p' or its slope at the boundary as given; p' there
+  std::vector<Vec3> slope_, gradient_;               // of p': least squares, Gauss
   std::vector<double> imbalance_, right_side_;
 };
 

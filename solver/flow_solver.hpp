@@ -63,6 +63,7 @@ class FlowSolver {
 
  private:
   void start();
+  void balance_body_force();
   void begin_step(const TimeScheme& time);
   void correct_once(int outer, const TimeScheme& time, StepReport& report);
   void update_gradient();

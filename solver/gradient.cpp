@@ -18,6 +18,8 @@ inline void add_product(Mat3& g, const Vec3& a, const Vec3& e) { g[0] += a.x * e
 
 // Normal derivative times distance at a mirror: u.n goes to zero at the face.
 inline double mirrored(double, const Vec3&) { return 0; }
+inline double normal_slope(double given) { return given; }
+inline Vec3 normal_slope(const Vec3&) { return {}; }
 inline Vec3 mirrored(const Vec3& u, const Vec3& n) { return -dot(u, n) * n; }
 
 inline std::span<double> flat(std::vector<Vec3>& g) { return {g.empty() ? nullptr : &g[0].x, 3 * g.size()}; }
@@ -91,7 +93,7 @@ void LeastSquares::invert_moments() {
 }
 
 template <class Value, class Gradient>
-void LeastSquares::solve(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const {
+void LeastSquares::add_interior(std::span<const Value> phi, std::vector<Gradient>& g) const {
   std::fill(g.begin(), g.end(), Gradient{});
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
@@ -101,9 +103,13 @@ void LeastSquares::solve(std::span<const Value> phi, std::span<const Value> boun
     add_product(g[P], change, e);
     add_product(g[N], change, e);
   }
+}
+
+template <class Value, class Gradient>
+void LeastSquares::finish(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const {
   for (std::size_t p = 0; p < sides_.size(); ++p) {
     const Patch& patch = mesh_.patches[p];
-    if (sides_[p] == Side::none || sides_[p] == Side::zero_normal) continue;
+    if (sides_[p] == Side::none) continue;
     for (int f = patch.first; f < patch.end(); ++f) {
       const int P = mesh_.owner[f];
       const Vec3& d = mesh_.delta[f];
@@ -111,7 +117,10 @@ void LeastSquares::solve(std::span<const Value> phi, std::span<const Value> boun
         add_product(g[P], boundary[f - mesh_.n_interior] - phi[P], d / norm_squared(d));
       } else {
         const Vec3 n = unit(mesh_.face_vector[f]);
-        add_product(g[P], mirrored(phi[P], n), n / dot(d, n));
+        if (sides_[p] == Side::slope)
+          add_product(g[P], normal_slope(boundary[f - mesh_.n_interior]), n);
+        else
+          add_product(g[P], mirrored(phi[P], n), n / dot(d, n));
       }
     }
   }
@@ -148,33 +157,56 @@ void LeastSquares::fill_open(std::vector<Gradient>& g) const {
 }
 
 void LeastSquares::gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const {
-  solve<double, Vec3>(phi, boundary, g);
+  add_interior<double, Vec3>(phi, g);
+  finish<double, Vec3>(phi, boundary, g);
+}
+
+void LeastSquares::gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
+                            std::vector<Vec3>& g) const {
+  std::fill(g.begin(), g.end(), Vec3{});
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3& d = mesh_.delta[f];
+    const double w = mesh_.weight[f];
+    const Vec3 e = (phi[N] - phi[P]) / norm_squared(d) * d;
+    g[P] += (1 - weight[f]) / (1 - w) * e;
+    g[N] += weight[f] / w * e;
+  }
+  finish<double, Vec3>(phi, boundary, g);
 }
 
 void LeastSquares::gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const {
-  solve<Vec3, Mat3>(u, boundary, g);
+  add_interior<Vec3, Mat3>(u, g);
+  finish<Vec3, Mat3>(u, boundary, g);
 }
 
 void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
-                   std::span<double> boundary) {
+                   std::span<const double> given, std::span<double> values) {
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    if (squares.side(p) == Side::value) continue;
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
-      const int P = mesh.owner[f];
+      const int P = mesh.owner[f], b = f - mesh.n_interior;
       const Vec3& d = mesh.delta[f];
-      const Vec3 way = squares.side(p) == Side::none ? d : along_face(d, unit(mesh.face_vector[f]));
-      boundary[f - mesh.n_interior] = phi[P] + dot(g[P], way);
+      if (squares.side(p) == Side::value) {
+        values[b] = given[b];
+      } else if (squares.side(p) == Side::slope) {
+        const Vec3 n = unit(mesh.face_vector[f]);
+        values[b] = phi[P] + dot(g[P], along_face(d, n)) + given[b] * dot(d, n);
+      } else {
+        values[b] = phi[P] + dot(g[P], d);
+      }
     }
   }
 }
 
-void gauss_gradient(const Mesh& mesh, std::span<const double> phi, std::span<const double> boundary, std::span<const Vec3> slope,
-                    std::vector<Vec3>& g) {
+void gauss_gradient(const Mesh& mesh, std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
+                    std::span<const Vec3> slope, std::vector<Vec3>& g) {
   std::fill(g.begin(), g.end(), Vec3{});
   for (int f = 0; f < mesh.n_interior; ++f) {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
-    const double w = mesh.weight[f];
-    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(skewness(mesh, f), blend(w, slope[P], slope[N]));
+    const double w = weight[f];
+    // From the point on the line of centres that the weight stands for to the face centre.
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (1 - w) * mesh.delta[f];
+    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(way, blend(w, slope[P], slope[N]));
     const Vec3 term = phi_f * mesh.face_vector[f];
     g[P] += term;
     g[N] -= term;

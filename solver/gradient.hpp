@@ -17,10 +17,10 @@ namespace snag {
 
 /// What is known at the faces of a patch.
 enum class Side {
-  value,        // phi at the face centre
-  zero_normal,  // d phi / dn = 0
-  mirror,       // of a vector u: u.n = 0 and the tangential part has d/dn = 0; of a scalar the same as zero_normal
-  none          // nothing: the face does not enter
+  value,   // phi at the face centre
+  slope,   // of a scalar: d phi/dn is given; of a vector: it is zero
+  mirror,  // of a vector u: u.n = 0 and the tangential part has d/dn = 0; not for scalars
+  none     // nothing: the face does not enter
 };
 
 class LeastSquares {
@@ -30,6 +30,9 @@ class LeastSquares {
   /// Again after the mesh has moved. Collective.
   void update();
 
+  /// Gradient of a scalar by its values at the faces, w phi_P + (1 - w) phi_N with the weights of a piecewise linear phi that is steep in
+  /// some cells only.
+  void gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const;
   /// Gradient of a scalar; `phi` [n_all_cells], `boundary` values at boundary faces (read where known), `g` [n_all_cells], ghosts filled.
   /// Collective.
   void gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const;
@@ -48,7 +51,9 @@ class LeastSquares {
   void sum_moments();
   void invert_moments();
   template <class Value, class Gradient>
-  void solve(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const;
+  void add_interior(std::span<const Value> phi, std::vector<Gradient>& g) const;
+  template <class Value, class Gradient>
+  void finish(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const;
   template <class Gradient>
   void fill_open(std::vector<Gradient>& g) const;
 
@@ -59,12 +64,13 @@ class LeastSquares {
   bool open_anywhere_ = false;
 };
 
-/// Values of a scalar at the boundary faces: known, or extrapolated with the gradient.
+/// Values of a scalar at the boundary faces from what is given there (value or slope, by side) and its gradient.
 void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
-                   std::span<double> boundary);
+                   std::span<const double> given, std::span<double> values);
 
-/// Gauss gradient from least-squares gradients `slope` and boundary values; `g` [n_all_cells], ghosts filled. Collective.
-void gauss_gradient(const Mesh& mesh, std::span<const double> phi, std::span<const double> boundary, std::span<const Vec3> slope,
-                    std::vector<Vec3>& g);
+/// Gauss gradient from least-squares gradients `slope` and boundary values; `weight` of the owner's value at interior faces (mesh.weight,
+/// or another); `g` [n_all_cells], ghosts filled. Collective.
+void gauss_gradient(const Mesh& mesh, std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
+                    std::span<const Vec3> slope, std::vector<Vec3>& g);
 
 }  // namespace snag

@@ -8,17 +8,11 @@
 #include "solver/cell_matrix.hpp"
 #include "solver/gradient.hpp"
 #include "solver/limiter.hpp"
+#include "solver/time_scheme.hpp"
 
 namespace snag {
 
 enum class Convection { upwind, linear_upwind, central, limited_linear };
-
-/// du/dt ~ (now u^(n+1) + old u^n + older u^(n-1)) / dt. Second order for any ratio of the steps; exact for parabolas in t.
-struct TimeScheme {
-  double dt = 0, now = 1, old = -1, older = 0;
-  double ratio = 0;  // dt / dt_old; 0 in the first step, which has no history: u^(n+1) is then guessed as u^n
-};
-TimeScheme bdf(double dt, double dt_old);
 
 struct MomentumSettings {
   Convection convection = Convection::linear_upwind;
@@ -41,6 +35,8 @@ class Momentum {
 
   /// Gradient of velocity for the explicit terms, [n_all_cells], 1/s.
   const std::vector<Mat3>& gradient_guess() const { return gradient_; }
+  /// Rates of convection and of diffusion times the volume, [2 n_all_cells], m3/s.
+  const std::vector<double>& rates() const { return rate_; }
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face

@@ -31,6 +31,7 @@ struct MovingWall final : Boundary {
       const int b = f - flow.mesh.n_interior;
       values.velocity[b] = velocity + cross(omega, flow.mesh.face_centre[f] - origin);
       values.flux[b] = flow.mesh_flux[f];
+      values.acceleration[b] = cross(omega, cross(omega, flow.mesh.face_centre[f] - origin));
     }
   }
 };

@@ -9,8 +9,11 @@ namespace snag::test {
 
 struct Manufactured {
   double rho = 1.2, mu = 0.05;
+  bool from_rest = false;
 
-  static double amplitude(double t) { return 1 + 0.5 * std::sin(2 * t); }
+  double amplitude(double t) const { return from_rest ? 10 * t * t : 1 + 0.5 * std::sin(2 * t); }
+  double amplitude_rate(double t) const { return from_rest ? 20 * t : std::cos(2 * t); }
+  double pressure_amplitude(double t) const { return from_rest ? 10 * t * t : 1; }
   static Vec3 shape(const Vec3& x) {
     const double sx = std::sin(pi * x.x), sy = std::sin(pi * x.y), sz = std::sin(pi * x.z);
     const double cx = std::cos(pi * x.x), cy = std::cos(pi * x.y), cz = std::cos(pi * x.z);
@@ -22,20 +25,23 @@ struct Manufactured {
     return {pi * Vec3{cx * cy * cz, -sx * sy * cz, -sx * cy * sz}, pi * Vec3{-sx * sy * cz, cx * cy * cz, -cx * sy * sz},
             -2 * pi * Vec3{-sx * cy * sz, -cx * sy * sz, cx * cy * cz}};
   }
-  static Vec3 velocity(const Vec3& x, double t) { return amplitude(t) * shape(x); }
-  static double pressure(const Vec3& x, double t) { return std::sin(x.x + 2 * x.y - x.z + t); }
+  Vec3 velocity(const Vec3& x, double t) const { return amplitude(t) * shape(x); }
+  VectorField velocity_field() const {
+    return [exact = *this](const Vec3& x, double t) { return exact.velocity(x, t); };
+  }
+  double pressure(const Vec3& x, double t) const { return pressure_amplitude(t) * std::sin(x.x + 2 * x.y - x.z + t); }
   Vec3 force(const Vec3& x, double t) const {
     const double T = amplitude(t);
     const Vec3 u = T * shape(x);
-    return rho * (std::cos(2 * t) * shape(x) + T * (shape_gradient(x) * u)) + std::cos(x.x + 2 * x.y - x.z + t) * Vec3{1, 2, -1} +
-           3 * pi * pi * mu * u;
+    const double slope = pressure_amplitude(t) * std::cos(x.x + 2 * x.y - x.z + t);
+    return rho * (amplitude_rate(t) * shape(x) + T * (shape_gradient(x) * u)) + slope * Vec3{1, 2, -1} + 3 * pi * pi * mu * u;
   }
 
   /// Solver in the exact state at t = 0.
   std::unique_ptr<FlowSolver> solver(const Mesh& mesh, FlowSettings settings) const {
     settings.density = rho, settings.dynamic_viscosity = mu;
     std::vector<PatchBoundary> exact;
-    for (const Patch& patch : mesh.patches) add_exact(exact, patch.name, velocity, false);
+    for (const Patch& patch : mesh.patches) add_exact(exact, patch.name, velocity_field(), false);
     auto made = std::make_unique<FlowSolver>(mesh, settings, std::move(exact));
     for (int c = 0; c < mesh.n_cells; ++c) {
       made->flow.velocity[c] = velocity(mesh.cell_centre[c], 0);

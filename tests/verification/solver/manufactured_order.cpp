@@ -22,8 +22,8 @@ Errors errors_on(const std::function<Mesh(int)>& mesh_of, const std::vector<int>
     const int steps = 2 * n;
     for (int i = 0; i < steps; ++i) exact.advance(*solver, 0.4 / steps);
     errors.h.push_back(1.0 / n);
-    errors.velocity.push_back(velocity_error(solver->flow, Manufactured::velocity));
-    errors.pressure.push_back(pressure_error(solver->flow, Manufactured::pressure));
+    errors.velocity.push_back(velocity_error(solver->flow, exact.velocity_field()));
+    errors.pressure.push_back(pressure_error(solver->flow, [&](const Vec3& x, double t) { return exact.pressure(x, t); }));
   }
   return errors;
 }
@@ -44,5 +44,5 @@ TEST(ManufacturedOrder, hexahedra) {
 TEST(ManufacturedOrder, tetrahedra) {
   const Errors errors = errors_on(tetrahedra, {6, 8, 12, 16}, sharp_settings());
   EXPECT_GT(observed_order("velocity, tetrahedra", errors.h, errors.velocity), 1.8);
-  EXPECT_GT(observed_order("pressure, tetrahedra", errors.h, errors.pressure), 1.0);
+  EXPECT_GT(observed_order("pressure, tetrahedra", errors.h, errors.pressure), 1.4);
 }

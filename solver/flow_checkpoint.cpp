@@ -1,0 +1,153 @@
+// What a resume of the flow needs, by cell id. Values on faces are written cell by cell, as seen from the cell (fluxes out of it), its
+// faces sorted by (neighbour's id or patch, way to it): an order that does not depend on ranks. A face between two ranks is written by both
+// and read by each from its own.
+#include <algorithm>
+#include <tuple>
+
+#include "parallel/checkpoint.hpp"
+#include "parallel/sum.hpp"
+#include "solver/flow_solver.hpp"
+
+namespace snag {
+
+namespace {
+
+std::span<const std::int64_t> owned_ids(const Mesh& mesh) { return {mesh.cell_id.data(), static_cast<std::size_t>(mesh.n_cells)}; }
+
+/// Places of the faces of all owned cells in rows of equal length.
+class FaceRows {
+ public:
+  explicit FaceRows(const Mesh& mesh) : mesh_(mesh) {
+    std::int64_t longest = 0;
+    for (int c = 0; c < mesh.n_cells; ++c) longest = std::max<std::int64_t>(longest, mesh.cell_face_start[c + 1] - mesh.cell_face_start[c]);
+    length_ = static_cast<int>(maximum(mesh.comm, static_cast<double>(longest)));
+  }
+  int length() const { return length_; }
+
+  /// Call visit(face, place, sign) for each face of each owned cell; sign is -1 where the cell is the face's neighbour.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    std::vector<std::tuple<std::int64_t, double, double, double, int, double>> order;
+    for (int c = 0; c < mesh_.n_cells; ++c) {
+      order.clear();
+      for (int k = mesh_.cell_face_start[c]; k < mesh_.cell_face_start[c + 1]; ++k) {
+        const int f = mesh_.cell_face[k];
+        const double sign = mesh_.owner[f] == c ? 1 : -1;
+        const Vec3 way = sign * mesh_.delta[f];
+        order.emplace_back(key(f, c), way.x, way.y, way.z, f, sign);
+      }
+      std::sort(order.begin(), order.end());
+      std::size_t place = static_cast<std::size_t>(c) * length_;
+      for (const auto& face : order) visit(std::get<4>(face), place++, std::get<5>(face));
+    }
+  }
+
+ private:
+  std::int64_t key(int f, int c) const {
+    if (f < mesh_.n_interior) return mesh_.cell_id[mesh_.owner[f] == c ? mesh_.neighbour[f] : mesh_.owner[f]];
+    std::int64_t patch = 0;
+    while (f >= mesh_.patches[patch].end() || f < mesh_.patches[patch].first) ++patch;
+    return -1 - patch;
+  }
+  const Mesh& mesh_;
+  int length_ = 0;
+};
+
+void write_cells(CheckpointWriter& checkpoint, const std::string& name, const Mesh& mesh, const double* values, int components) {
+  checkpoint.rows(name, owned_ids(mesh), std::span(values, static_cast<std::size_t>(mesh.n_cells) * components), components);
+}
+
+void read_cells(CheckpointReader& checkpoint, const std::string& name, const Mesh& mesh, std::span<double> values, int components) {
+  const auto stored = checkpoint.rows(name, owned_ids(mesh), components);
+  std::copy(stored.begin(), stored.end(), values.begin());
+  mesh.halo.exchange(values, components);
+}
+
+std::span<double> flat(std::vector<Vec3>& field) { return {field.empty() ? nullptr : &field[0].x, 3 * field.size()}; }
+std::span<double> flat(std::vector<Mat3>& field) { return {field.empty() ? nullptr : &field[0][0].x, 9 * field.size()}; }
+const double* first(const std::vector<Vec3>& field) { return field.empty() ? nullptr : &field[0].x; }
+const double* first(const std::vector<Mat3>& field) { return field.empty() ? nullptr : &field[0][0].x; }
+
+/// `signed_by_side`: the value changes its sign with the side it is seen from (a flux).
+void write_faces(CheckpointWriter& checkpoint, const std::string& name, const FaceRows& rows, const Mesh& mesh,
+                 std::span<const double> values, bool signed_by_side) {
+  std::vector<double> stored(static_cast<std::size_t>(mesh.n_cells) * rows.length());
+  rows.for_each([&](int f, std::size_t place, double sign) { stored[place] = signed_by_side ? sign * values[f] : values[f]; });
+  checkpoint.rows(name, owned_ids(mesh), std::span<const double>(stored), rows.length());
+}
+
+void read_faces(CheckpointReader& checkpoint, const std::string& name, const FaceRows& rows, const Mesh& mesh, std::span<double> values,
+                bool signed_by_side) {
+  const auto stored = checkpoint.rows(name, owned_ids(mesh), rows.length());
+  rows.for_each([&](int f, std::size_t place, double sign) { values[f] = signed_by_side ? sign * stored[place] : stored[place]; });
+}
+
+/// Values of boundary faces as values of all faces, and back.
+std::vector<double> on_all_faces(const Mesh& mesh, const std::vector<double>& boundary) {
+  std::vector<double> all(mesh.n_faces);
+  std::copy(boundary.begin(), boundary.end(), all.begin() + mesh.n_interior);
+  return all;
+}
+
+void read_boundary(CheckpointReader& checkpoint, const std::string& name, const FaceRows& rows, const Mesh& mesh,
+                   std::vector<double>& boundary) {
+  std::vector<double> all(mesh.n_faces);
+  read_faces(checkpoint, name, rows, mesh, all, false);
+  std::copy(all.begin() + mesh.n_interior, all.end(), boundary.begin());
+}
+
+}  // namespace
+
+void FlowSolver::save(CheckpointWriter& checkpoint) const {
+  const Mesh& mesh = flow.mesh;
+  const FaceRows rows(mesh);
+  const Poisson& poisson = continuity_.poisson();
+  checkpoint.shared("flow/scalars", std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step),
+                                                        started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0});
+  write_cells(checkpoint, "flow/velocity", mesh, first(flow.velocity), 3);
+  write_cells(checkpoint, "flow/velocity_old", mesh, first(flow.velocity_old), 3);
+  write_cells(checkpoint, "flow/velocity_gradient", mesh, first(flow.velocity_gradient), 9);
+  write_cells(checkpoint, "flow/velocity_gradient_old", mesh, first(flow.velocity_gradient_old), 9);
+  write_cells(checkpoint, "flow/pressure", mesh, flow.pressure.data(), 1);
+  write_cells(checkpoint, "flow/pressure_gradient", mesh, first(flow.pressure_gradient), 3);
+  write_cells(checkpoint, "flow/reaction", mesh, first(flow.reaction), 3);
+  write_cells(checkpoint, "flow/drag", mesh, flow.drag.data(), 1);
+  write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
+  write_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
+  write_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
+  write_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.psi, true);
+  write_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
+  write_faces(checkpoint, "flow/boundary_pressure", rows, mesh, on_all_faces(mesh, flow.boundary_pressure), false);
+  write_faces(checkpoint, "flow/wall_slope", rows, mesh, on_all_faces(mesh, continuity_.wall_slope), false);
+  write_faces(checkpoint, "flow/preconditioner", rows, mesh, continuity_.preconditioner_coefficients(), false);
+}
+
+void FlowSolver::load(CheckpointReader& checkpoint) {
+  const Mesh& mesh = flow.mesh;
+  const FaceRows rows(mesh);
+  const auto scalars = checkpoint.shared("flow/scalars");
+  flow.time = scalars.at(0), flow.time_step_size = scalars.at(1), flow.time_step = static_cast<std::int64_t>(scalars.at(2));
+  started_ = scalars.at(3) != 0;
+  read_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity), 3);
+  read_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old), 3);
+  read_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient), 9);
+  read_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(flow.velocity_gradient_old), 9);
+  read_cells(checkpoint, "flow/pressure", mesh, flow.pressure, 1);
+  read_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient), 3);
+  // Owned cells only: these fields have no ghosts.
+  const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
+  std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
+  flow.drag = checkpoint.rows("flow/drag", owned_ids(mesh), 1);
+  flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
+  read_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
+  read_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
+  read_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.psi, true);
+  read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
+  read_boundary(checkpoint, "flow/boundary_pressure", rows, mesh, flow.boundary_pressure);
+  read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
+  std::vector<double> preconditioner(mesh.n_faces);
+  read_faces(checkpoint, "flow/preconditioner", rows, mesh, preconditioner, false);
+  if (started_) continuity_.restore(std::move(preconditioner), scalars.at(4), scalars.at(5) != 0);
+}
+
+}  // namespace snag

@@ -1,0 +1,38 @@
+// Explicit in psi:   inherited = - a1 psi^n - a2 psi^(n-1) - min(kappa dt, 1) (extrapolated psi)
+// Stable to kappa dt = 4/3 with BDF2; the bound of 1 keeps it so for any step.
+#include "solver/flux_history.hpp"
+
+#include <algorithm>
+
+#include "solver/face.hpp"
+
+namespace snag {
+
+FluxHistory::FluxHistory(const Mesh& mesh) : psi(mesh.n_faces), psi_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces) {}
+
+void FluxHistory::begin_step(const std::vector<double>& rate, const TimeScheme& time) {
+  const auto rate_of = [&](int c) { return (rate[2 * c] + rate[2 * c + 1]) / mesh_.cell_volume[c]; };
+  for (int f = 0; f < mesh_.n_faces; ++f) {
+    const int P = mesh_.owner[f], N = f < mesh_.n_interior ? mesh_.neighbour[f] : P;
+    const double fading = std::min(1.0, 0.5 * (rate_of(P) + rate_of(N)) * time.dt);
+    inherited_[f] = -time.old * psi[f] - time.older * psi_old[f] - fading * ((1 + time.ratio) * psi[f] - time.ratio * psi_old[f]);
+  }
+}
+
+void FluxHistory::end_step(const Flow& flow, const std::vector<Mat3>& gradient) {
+  std::swap(psi, psi_old);
+  const auto& u = flow.velocity;
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double w = mesh_.weight[f];
+    const Vec3 u_f = blend(w, u[P], u[N]) + blend(w, gradient[P], gradient[N]) * skewness(mesh_, f);
+    psi[f] = flow.flux[f] - dot(u_f, mesh_.face_vector[f]);
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    const int P = mesh_.owner[f];
+    const Vec3& S = mesh_.face_vector[f];
+    psi[f] = flow.flux[f] - dot(u[P] + gradient[P] * along_face(mesh_.delta[f], unit(S)), S);
+  }
+}
+
+}  // namespace snag

@@ -1,0 +1,128 @@
+// ranks: 1 2 3
+#include <gtest/gtest.h>
+
+#include "solver/monitors.hpp"
+#include "tests/verification/solver/flow_cases.hpp"
+
+using namespace snag;
+using namespace snag::test;
+
+namespace {
+
+const char* const channel = R"(
+[[boundary]]
+patches = ["z0", "z1"]
+kind = "wall"
+[[boundary]]
+patches = ["y0", "y1"]
+kind = "symmetry"
+[[boundary]]
+patch = "x0"
+kind = "velocity_inlet"
+normal_speed = "1 m/s"
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+)";
+
+Mesh tetrahedra() { return tetrahedral_box(MPI_COMM_WORLD, {.upper = {2, 1, 1}, .distortion = 0.15}, {10, 5, 6}); }
+
+FlowSettings settings_of(double kinematic_viscosity) {
+  FlowSettings settings = sharp_settings();
+  settings.kinematic_viscosity = kinematic_viscosity;
+  return settings;
+}
+
+/// A porous body in the middle that drags the water towards a velocity of its own.
+void put_rag(Flow& flow, double drag) {
+  for (int c = 0; c < flow.mesh.n_cells; ++c) {
+    if (norm(flow.mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) > 0.3) continue;
+    flow.drag[c] = drag;
+    flow.reaction[c] = drag * Vec3{0.2, 0, 0.1};
+  }
+}
+
+}  // namespace
+
+// The momentum of the whole domain changes by what crosses its boundary, by the body force and by what the rags give, to 1e-8; mass is kept
+// in each cell.
+TEST(Balance, momentum_and_mass) {
+  const Mesh mesh = tetrahedra();
+  FlowSettings settings = settings_of(0.01);
+  settings.body_force = {0.3, -0.2, 0.1};
+  FlowSolver solver(mesh, settings, conditions(channel));
+  put_rag(solver.flow, 50);
+  for (int i = 0; i < 10; ++i) {
+    const StepReport report = solver.advance(0.02);
+    const MomentumBalance balance = solver.momentum_balance();
+    const double size =
+        norm(balance.pressure) + norm(balance.friction) + norm(balance.convection) + norm(balance.given) + norm(balance.body);
+    EXPECT_LT(norm(balance.residual()), 1e-8 * size);
+    EXPECT_GT(norm(balance.given), 1e-3 * size);
+    EXPECT_LT(report.continuity_local, 1e-9);
+    EXPECT_NEAR(flow_rate(solver.flow, mesh.patch_index("x1")), 1, 1e-9);
+  }
+}
+
+// The forces that the patches report are those of the momentum balance.
+TEST(Balance, forces_of_patches) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings_of(0.01), conditions(channel));
+  for (int i = 0; i < 3; ++i) solver.advance(0.02);
+  Vec3 pressure, friction;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+    const PatchForce force = patch_force(solver.flow, p, {});
+    pressure += force.pressure, friction += force.friction;
+  }
+  const MomentumBalance balance = solver.momentum_balance();
+  EXPECT_LT(norm(pressure - balance.pressure), 1e-10 * norm(balance.pressure));
+  EXPECT_LT(norm(friction - balance.friction), 1e-10 * norm(balance.friction));
+}
+
+// Water at rest in a closed box under its weight stays at rest on tetrahedra: the pressure balances the force exactly.
+TEST(Balance, hydrostatic) {
+  const Mesh mesh = tetrahedra();
+  FlowSettings settings = settings_of(1e-3);
+  settings.body_force = {1, 2, -9.81 * 1.2};
+  FlowSolver solver(mesh, settings,
+                    conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n"));
+  for (int i = 0; i < 10; ++i) solver.advance(0.02);
+  EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.velocity[c]); }), 1e-6);
+  EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.pressure_gradient[c] - settings.body_force); }), 1e-4);
+}
+
+// Uniform drag in a periodic box: u decays as exp(-beta t / rho), second order in time.
+TEST(Balance, drag_decay) {
+  const Mesh mesh = tetrahedral_box(MPI_COMM_WORLD, {.distortion = 0.1}, {3, 3, 3}, {true, true, true});
+  std::vector<double> h, error;
+  for (const int steps : {10, 20, 40}) {
+    FlowSettings settings = settings_of(0.01);
+    settings.initial_velocity = {1, -0.5, 0.2};
+    FlowSolver solver(mesh, settings, {});
+    std::fill(solver.flow.drag.begin(), solver.flow.drag.end(), 2.4);
+    for (int i = 0; i < steps; ++i) solver.advance(0.5 / steps);
+    h.push_back(0.5 / steps);
+    error.push_back(
+        velocity_error(solver.flow, [&](const Vec3&, double t) { return std::exp(-2.4 * t / 1.2) * settings.initial_velocity; }));
+  }
+  EXPECT_GT(observed_order("decay by drag, in time", h, error), 1.85);
+}
+
+// Drag that is a million times stiffer than the step stays stable and holds the water in the rag near the rag's velocity (1 m/s outside,
+// through cells at its edge that share faces with free ones); the balance holds.
+TEST(Balance, stiff_drag) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings_of(0.001), conditions(channel));
+  put_rag(solver.flow, 1e6 * 1.2 / 0.02);
+  for (int i = 0; i < 10; ++i) solver.advance(0.02);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    EXPECT_LT(norm(solver.flow.velocity[c]), 10);
+    if (solver.flow.drag[c] > 0) {
+      EXPECT_LT(norm(solver.flow.velocity[c] - Vec3{0.2, 0, 0.1}), 0.15);
+    }
+  }
+  const MomentumBalance balance = solver.momentum_balance();
+  double exchanged = 0;  // N: what reaction and drag, nearly equal, each give
+  for (int c = 0; c < mesh.n_cells; ++c) exchanged += mesh.cell_volume[c] * norm(solver.flow.reaction[c]);
+  EXPECT_LT(norm(balance.residual()), 1e-12 * sum(mesh.comm, exchanged));
+}
