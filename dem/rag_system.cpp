@@ -112,10 +112,13 @@ void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* for
     Tile& tile = tiles_[i];
     halo_->fill_ring(i);  // here, where the tile is about to be in the cache
     broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
-    if (force) force->add(i, tile, step);
   }
   if (contacts_) contacts_->add_forces(owned_pointers_, ghost_pointers_, step);
-  for (Tile& tile : tiles_) kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    Tile& tile = tiles_[i];
+    if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces
+    kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);
+  }
 }
 
 void RagSystem::clamp(const std::function<bool(std::int64_t)>& held) {
