@@ -134,7 +134,7 @@ def largest_difference(a, b):
     differences = {}
     for column in a.physical():
         difference = numpy.abs(a.column(column) - b.column(column)).max(initial=0)
-        differences[column] = difference / scale[quantity(column)] if difference > 0 else 0.0
+        differences[column] = 0.0 if difference == 0 else difference / scale[quantity(column)]  # not a number stays so, and is no agreement
     return differences
 
 
