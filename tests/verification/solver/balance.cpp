@@ -42,7 +42,47 @@ void put_rag(Flow& flow, double drag) {
   }
 }
 
+/// A pressure outlet whose pressure rises with time.
+struct RisingPressure final : Boundary {
+  double rate = 0;  // Pa/s
+  Section section() override { return {}; }
+  Fixes fixes() const override { return Fixes::pressure; }
+  void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
+    for (int f = patch.first; f < patch.end(); ++f) values.pressure[f - flow.mesh.n_interior] = rate * time;
+  }
+};
+
 }  // namespace
+
+// A pressure that rises at the outlet lifts the pressure everywhere and changes nothing else.
+TEST(Balance, rising_outlet_pressure) {
+  const Mesh mesh = tetrahedra();
+  const auto pressure_and_velocity = [&](double rate) {
+    auto boundary = conditions(channel);
+    auto rising = std::make_unique<RisingPressure>();
+    rising->rate = rate;
+    boundary.back().boundary = std::move(rising);
+    FlowSolver solver(mesh, settings_of(0.01), std::move(boundary));
+    for (int i = 0; i < 5; ++i) solver.advance(0.02);
+    return std::pair(solver.flow.pressure, solver.flow.velocity);
+  };
+  const auto level = pressure_and_velocity(0), lifted = pressure_and_velocity(500);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    EXPECT_NEAR(lifted.first[c], level.first[c] + 500 * 0.1, 1e-6);
+    EXPECT_LT(norm(lifted.second[c] - level.second[c]), 1e-7);
+  }
+}
+
+// A pressure that alternates from cell to cell in water at rest is gone after three steps on tetrahedra: fluxes see it though cell
+// gradients hardly do.
+TEST(Balance, checkerboard) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings_of(0.01),
+                    conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n"));
+  for (int c = 0; c < mesh.n_cells; ++c) solver.flow.pressure[c] = mesh.cell_id[c] % 2 == 0 ? 1 : -1;
+  for (int i = 0; i < 3; ++i) solver.advance(0.02);
+  EXPECT_LT(pressure_error(solver.flow, [](const Vec3&, double) { return 0; }), 0.05);
+}
 
 // The momentum of the whole domain changes by what crosses its boundary, by the body force and by what the rags give, to 1e-8; mass is kept
 // in each cell.

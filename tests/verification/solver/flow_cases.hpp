@@ -43,7 +43,7 @@ inline std::vector<PatchBoundary> conditions(const std::string& toml) { return r
 inline FlowSettings sharp_settings() {
   FlowSettings settings;
   settings.density = 1.2;
-  settings.momentum_tolerance = settings.pressure_tolerance = 1e-11;
+  settings.momentum_tolerance = settings.pressure_tolerance = settings.pressure_tolerance_intermediate = 1e-11;
   return settings;
 }
 

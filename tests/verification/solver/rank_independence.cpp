@@ -39,7 +39,7 @@ struct Duct {
   }
   static FlowSettings settings(bool sharp) {
     FlowSettings chosen = sharp_settings();
-    if (!sharp) chosen.momentum_tolerance = 1e-8, chosen.pressure_tolerance = 1e-6;
+    if (!sharp) chosen.momentum_tolerance = 1e-8, chosen.pressure_tolerance = 1e-6, chosen.pressure_tolerance_intermediate = 1e-2;
     chosen.kinematic_viscosity = 0.005;
     return chosen;
   }

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "mesh/structured.hpp"
+#include "solver/flow_solver.hpp"
+
+using namespace snag;
+
+namespace {
+
+std::vector<PatchBoundary> conditions(const std::string& toml) { return read_boundaries(CaseFile::parse(toml).root()); }
+
+/// The message of the Error(usage) that a piece of work throws.
+template <class Work>
+std::string usage_error(const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    return error.what();
+  }
+  ADD_FAILURE() << "no error was thrown";
+  return "";
+}
+
+bool mentions(const std::string& message, const std::string& word) { return message.find(word) != std::string::npos; }
+
+const char* const walls = "[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\"]\nkind = \"wall\"\n";
+
+Mesh box() { return structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {3, 3, 3}); }
+
+}  // namespace
+
+// Every kind of condition registers itself.
+TEST(Conditions, registry) {
+  const std::vector<std::string> known{"flow_rate_inlet", "moving_wall", "pressure_outlet", "symmetry", "velocity_inlet", "wall"};
+  for (const std::string& name : known) EXPECT_NO_THROW(boundaries().make(name, "test"));
+  EXPECT_GE(boundary_sections().size(), known.size() + 1);
+}
+
+// A patch without a condition is named, with the kinds that could be given.
+TEST(Conditions, missing) {
+  const Mesh mesh = box();
+  const auto message = usage_error([&] { FlowSolver(mesh, {}, conditions(walls)); });
+  EXPECT_TRUE(mentions(message, "z1")) << message;
+  EXPECT_TRUE(mentions(message, "pressure_outlet")) << message;
+}
+
+// A condition for a patch that the mesh does not have is named with its table and the patches there are.
+TEST(Conditions, unknown_patch) {
+  const Mesh mesh = box();
+  const auto message =
+      usage_error([&] { FlowSolver(mesh, {}, conditions(std::string(walls) + "[[boundary]]\npatch = \"z2\"\nkind = \"wall\"\n")); });
+  EXPECT_TRUE(mentions(message, "z2")) << message;
+  EXPECT_TRUE(mentions(message, "z1")) << message;
+}
+
+// Two conditions for one patch are an error.
+TEST(Conditions, twice) {
+  const Mesh mesh = box();
+  const auto message = usage_error([&] { FlowSolver(mesh, {}, conditions(std::string(walls) + walls)); });
+  EXPECT_TRUE(mentions(message, "x0")) << message;
+}
+
+// A misspelt kind is an error that names the nearest.
+TEST(Conditions, unknown_kind) {
+  const auto message = usage_error([] { conditions("[[boundary]]\npatch = \"x0\"\nkind = \"presure_outlet\"\n"); });
+  EXPECT_TRUE(mentions(message, "pressure_outlet")) << message;
+}
+
+// Fluid that flows in and cannot leave is an error, not a wrong pressure.
+TEST(Conditions, net_flux) {
+  const Mesh mesh = box();
+  FlowSolver solver(mesh, {},
+                    conditions(std::string(walls) + "[[boundary]]\npatch = \"z1\"\nkind = \"velocity_inlet\"\nnormal_speed = \"1 m/s\"\n"));
+  const auto message = usage_error([&] { solver.advance(0.1); });
+  EXPECT_TRUE(mentions(message, "pressure_outlet")) << message;
+}
+
+// Exactly one viscosity may be given; water's is the default.
+TEST(FlowSettings, viscosity) {
+  FlowSettings settings;
+  EXPECT_DOUBLE_EQ(settings.viscosity(), 1.003e-3);
+  settings.kinematic_viscosity = 2e-6;
+  EXPECT_DOUBLE_EQ(settings.viscosity(), 2e-6 * 998.2);
+  settings.dynamic_viscosity = 1e-3;
+  usage_error([&] { settings.viscosity(); });
+}
+
+// A run that diverges says in which step, field and place.
+TEST(Divergence, place) {
+  const Mesh mesh = box();
+  FlowSolver solver(mesh, {}, conditions(std::string(walls) + "[[boundary]]\npatch = \"z1\"\nkind = \"wall\"\n"));
+  solver.advance(0.1);
+  solver.flow.reaction[0].x = std::nan("");
+  try {
+    solver.advance(0.1);
+    ADD_FAILURE() << "no error was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::diverged);
+    EXPECT_TRUE(mentions(error.what(), "step 2")) << error.what();
+    EXPECT_TRUE(mentions(error.what(), "velocity")) << error.what();
+  }
+}
