@@ -1,3 +1,5 @@
+# timeout: 1200
+# processors: 2
 """Requirement: a case of cases/ gives the numbers of its expected.toml, each within its tolerance and for the reason given there.
 
 expected.py CASE [--long]     entries with `long = true` are checked with --long only; the case then runs as it stands, else with [short] set = [...].
