@@ -17,7 +17,8 @@ namespace {
 ExitCode judge(const std::string& file, double scale) {
   const Mesh mesh = import_gmsh(file, MPI_COMM_WORLD, {.scale = scale});
   const MeshQuality found = quality(mesh);
-  if (rank_of(MPI_COMM_WORLD) == 0) std::cout << quality_table(mesh, found) << std::flush;
+  const std::string table = quality_table(mesh, found);
+  if (rank_of(MPI_COMM_WORLD) == 0) std::cout << table << std::flush;
   return found.failures.empty() ? ExitCode::ok : ExitCode::mesh;
 }
 
