@@ -81,6 +81,9 @@ class ResumedRun(harness.CaseTest):
     def by_signal(self, mpirun, folder):
         os.kill(harness.program_processes(mpirun)[-1], signal.SIGTERM)  # one rank is told, all stop
 
+    def by_signal_to_mpirun(self, mpirun, folder):
+        os.kill(mpirun.pid, signal.SIGUSR1)  # which hands it on; a SIGTERM it would answer by killing its ranks
+
     def by_file(self, mpirun, folder):
         (folder / "stop").touch()
 
@@ -104,6 +107,9 @@ class ResumedRun(harness.CaseTest):
 
     def test_signal_to_one_of_two_ranks(self):
         self.to_tolerance(2, self.by_signal, 2)
+
+    def test_signal_to_mpirun(self):
+        self.stopped_run(self.channel(), 2, self.by_signal_to_mpirun)
 
     def test_stop_file_and_other_ranks(self):
         self.to_tolerance(2, self.by_file, 3)
