@@ -3,9 +3,10 @@
 // What PETSc 3.18 needs or would get wrong:
 //   hybrid 0     otherwise prisms beside tetrahedra get another order of nodes
 //   periodic 0   otherwise coordinates of joined ends do not close the cells; Snag joins periodic patches itself
-//   no regions   labels by name would also collect the *elementary* tags of MSH 2.2 files; the first tag of "Cell Sets" and "Face Sets" is
-//   the physical one cells        are numbered tetrahedra, hexahedra, prisms, pyramids, each in the order of the file: the outline gives
-//   back the file's numbers
+//   no regions   labels by name would also collect the *elementary* tags of MSH 2.2 files; the first tag of "Cell Sets" and "Face Sets"
+//                is the physical one
+//   cells        are numbered tetrahedra, hexahedra, prisms, pyramids, each in the order of the file: the outline gives back the file's
+//                numbers
 #include "mesh/import.hpp"
 
 #include <petscdmplex.h>
@@ -16,6 +17,7 @@
 
 #include "base/error.hpp"
 #include "mesh/gmsh_outline.hpp"
+#include "mesh/partition.hpp"
 #include "mesh/parts.hpp"
 #include "mesh/shapes.hpp"
 #include "parallel/session.hpp"
@@ -107,7 +109,22 @@ std::vector<PetscInt> file_numbers(const GmshOutline& outline) {
   return number;
 }
 
-/// The partition of an earlier run, to be used again.
+/// Rank of every cell of the file, by the graph of cells that share a face; all cells are on rank 0. Collective; empty on the other ranks.
+std::vector<int> fresh_partition(MPI_Comm comm, const Plex& plex, const std::vector<PetscInt>& number) {
+  PetscInt n = 0, *offset = nullptr, *neighbour = nullptr;
+  check_petsc(DMPlexCreatePartitionerGraph(plex.dm, 0, &n, &offset, &neighbour, nullptr), "DMPlexCreatePartitionerGraph");
+  std::vector<int> rank_of_cell(number.size());
+  together(comm, [&] {
+    if (n == 0) return;
+    const std::vector<int> part = partition_graph({offset, offset + n + 1}, {neighbour, neighbour + offset[n]}, size_of(comm));
+    for (std::size_t c = 0; c < number.size(); ++c) rank_of_cell[number[c]] = part[c];
+  });
+  PetscFree(offset);
+  PetscFree(neighbour);
+  return rank_of_cell;
+}
+
+/// Cells go to the ranks that `rank_of_cell` names, by their number in the file.
 void prescribe_partition(PetscPartitioner partitioner, const std::vector<int>& rank_of_cell, const std::vector<PetscInt>& number,
                          int size) {
   std::vector<PetscInt> count(static_cast<std::size_t>(size), 0), points(number.size());
@@ -124,11 +141,7 @@ void distribute(MPI_Comm comm, Plex& plex, const ImportOptions& options, const s
   check_petsc(DMSetBasicAdjacency(plex.dm, PETSC_TRUE, PETSC_FALSE), "DMSetBasicAdjacency");
   PetscPartitioner partitioner = nullptr;
   check_petsc(DMPlexGetPartitioner(plex.dm, &partitioner), "DMPlexGetPartitioner");
-  if (options.partition) {
-    prescribe_partition(partitioner, *options.partition, number, size_of(comm));
-  } else {
-    check_petsc(PetscPartitionerSetType(partitioner, PETSCPARTITIONERPTSCOTCH), "PetscPartitionerSetType");
-  }
+  prescribe_partition(partitioner, options.partition ? *options.partition : fresh_partition(comm, plex, number), number, size_of(comm));
   DM spread = nullptr;
   check_petsc(DMPlexDistribute(plex.dm, 1, &plex.migration, &spread), "DMPlexDistribute");
   if (!spread) return;

@@ -14,7 +14,7 @@ struct ImportOptions {
 };
 
 /// Cells and nodes carry their numbers in the file, from 0; nodes that no element uses are not counted.
-/// Read, distribute (PTScotch) and flatten a mesh; cells in bandwidth-reducing order. Collective.
+/// Read, distribute (SCOTCH, mesh/partition.hpp) and flatten a mesh; cells in bandwidth-reducing order; the same on every run. Collective.
 /// Throws Error(io) if the file is missing or unreadable, Error(mesh) if it holds no volume cells, unnamed boundary faces, or an unmatched
 /// periodic pair.
 Mesh import_gmsh(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options = {});
