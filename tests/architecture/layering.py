@@ -14,7 +14,7 @@ ALLOWED = {
     "coupling": ["solver", "dem", "mesh", "parallel", "base"],
     "app": ["coupling", "observe", "solver", "dem", "mesh", "parallel", "base"],
 }
-HEAVY = re.compile(r"(toml\+\+|spdlog|nlohmann|CLI|petsc|hdf5|gmsh)")
+HEAVY = re.compile(r"(toml\+\+|spdlog|nlohmann/json.hpp|CLI|petsc|hdf5|gmsh)")
 TOP = set(ALLOWED) | {"cases", "tests", "docs", "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "snag", "build", "results"}
 
 problems = []
@@ -22,6 +22,8 @@ for path in root.iterdir():
     if path.name not in TOP and not path.name.startswith("."):
         problems.append(f"{path.name}: not a part of the tree's top level; put it into one of its folders")
 checked = 0
+heavy = {}     # headers that include a heavy one
+includes = []
 for folder, allowed in ALLOWED.items():
     for path in sorted((root / folder).rglob("*.[ch]pp")):
         checked += 1
@@ -39,8 +41,13 @@ for folder, allowed in ALLOWED.items():
                 elif first != folder and first not in allowed:
                     problems.append(f"{place}: {folder}/ includes {target}; it may include {', '.join(allowed) or 'nothing'} only")
             if path.suffix == ".hpp" and HEAVY.match(target):
-                problems.append(f"{place}: {target} in a header; include it in a .cpp file")
+                heavy[path.relative_to(root).as_posix()] = f"{place}: {target} in a header"
+            includes.append((path, target, place))
             if target.startswith("gmsh") and not generator:
                 problems.append(f"{place}: gmsh is linked to the mesh generator only")
+# Such a header may serve the .cpp files of its own folder only.
+for path, target, place in includes:
+    if target in heavy and (path.suffix == ".hpp" or path.relative_to(root).parts[0] != target.split("/")[0]):
+        problems.append(f"{heavy[target]}, which {place} includes; only .cpp files of the same folder may")
 print("\n".join(problems) or f"{checked} files are layered")
 sys.exit(1 if problems or checked < 10 else 0)
