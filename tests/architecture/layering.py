@@ -45,9 +45,17 @@ for folder, allowed in ALLOWED.items():
             includes.append((path, target, place))
             if target.startswith("gmsh") and not generator:
                 problems.append(f"{place}: gmsh is linked to the mesh generator only")
-# Such a header may serve the .cpp files of its own folder only.
+# Such headers, and headers that include them, may serve their own folder only.
+grown = True
+while grown:
+    grown = False
+    for path, target, place in includes:
+        name = path.relative_to(root).as_posix()
+        if target in heavy and path.suffix == ".hpp" and name not in heavy:
+            heavy[name] = heavy[target]
+            grown = True
 for path, target, place in includes:
-    if target in heavy and (path.suffix == ".hpp" or path.relative_to(root).parts[0] != target.split("/")[0]):
-        problems.append(f"{heavy[target]}, which {place} includes; only .cpp files of the same folder may")
+    if target in heavy and path.relative_to(root).parts[0] != target.split("/")[0]:
+        problems.append(f"{heavy[target]}, which {place} includes; only files of the same folder may")
 print("\n".join(problems) or f"{checked} files are layered")
 sys.exit(1 if problems or checked < 10 else 0)
