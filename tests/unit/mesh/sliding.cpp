@@ -1,0 +1,214 @@
+// ranks: 1 2 3 5
+#include "base/error.hpp"
+#include "check.hpp"
+#include "mesh/import.hpp"
+#include "sliding_check.hpp"
+#include "sliding_shells.hpp"
+
+namespace {
+
+using namespace snag;
+using test::Shells;
+
+constexpr double pi = std::numbers::pi;
+
+Mesh imported(const Shells& shells) {
+  const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
+  return import_gmsh(file.path(), MPI_COMM_WORLD);
+}
+
+double exact_area(const Shells& s) {
+  return 2 * pi * s.radius * s.height + (s.has_lid ? pi * (s.radius * s.radius - s.inner * s.inner) : 0);
+}
+
+void expect_exact(const Shells& shells, std::initializer_list<double> angles) {
+  Mesh mesh = imported(shells);
+  const SlidingInterface interface(mesh, shells.description());
+  interface.curve(mesh);
+  for (const double angle : angles) {
+    SCOPED_TRACE(angle);
+    const auto errors = test::interface_errors(mesh, interface, angle);
+    EXPECT_LT(errors.tiling, 1e-12);
+    EXPECT_LT(errors.coverage, 1e-12);
+    EXPECT_LT(errors.closure, 1e-12);
+    EXPECT_NEAR(errors.area, exact_area(shells), 1e-12 * exact_area(shells));
+  }
+  EXPECT_LT(test::swept_by_cells(mesh, interface), 1e-12);
+}
+
+// Facets tile every face of both sides and cells close at any angle, cylinder and disc with both rims in one interface, for both shapes.
+TEST(Sliding, FacetsTileBothSidesAndCellsClose) {
+  for (const bool tetrahedra : {true, false}) {
+    SCOPED_TRACE(tetrahedra);
+    expect_exact({.tetrahedra = tetrahedra}, {0, 0.05, 0.7, -2.9, pi, 1e4});
+  }
+}
+
+// It does not matter where the axis points nor where it lies.
+TEST(Sliding, WorksAboutAnyAxis) { expect_exact({.origin = {0.3, -0.2, 0.1}, .axis = {1, -2, 0.5}}, {0.3, 4}); }
+
+// Three faces around are the coarsest circle.
+TEST(Sliding, WorksOnVeryCoarseAndVeryDifferentMeshes) {
+  expect_exact({.rotor = {3, 1, 1}, .stator = {40, 6, 9}, .tetrahedra = false}, {0, 0.4, 2});
+  expect_exact({.rotor = {64, 5, 20}, .stator = {5, 1, 1}, .tetrahedra = false}, {0, 0.4, 2});
+  expect_exact({.rotor = {64, 5, 20}, .stator = {11, 1, 1}}, {0, 0.4, 2});
+}
+
+// Where the meshes coincide, each face is one facet with the face opposite, and no sliver comes of round-off; one face further the same.
+TEST(Sliding, CoincidingFacesAreSingleFacets) {
+  for (const bool tetrahedra : {true, false}) {
+    Shells shells{.rotor = {24, 3, 4}, .stator = {24, 3, 4}, .stator_start = 0, .tetrahedra = tetrahedra};
+    Mesh mesh = imported(shells);
+    const SlidingInterface interface(mesh, shells.description());
+    interface.curve(mesh);
+    for (const int steps : {0, 1, -5, 24}) {
+      const auto errors = test::interface_errors(mesh, interface, steps * 2 * pi / 24);
+      EXPECT_EQ(errors.facets, mesh.patches[mesh.patch_index("interface_rotor")].count_global) << steps;
+      EXPECT_LT(errors.tiling, 1e-12);
+    }
+  }
+}
+
+// A sliver between nearly coinciding edges is kept: its area is that of the shift.
+TEST(Sliding, KeepsSlivers) {
+  Shells shells{.rotor = {24, 3, 4}, .stator = {24, 3, 4}, .stator_start = 0, .tetrahedra = false, .has_lid = false};
+  Mesh mesh = imported(shells);
+  const SlidingInterface interface(mesh, shells.description());
+  interface.curve(mesh);
+  for (const double shift : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    double slivers = 0;
+    std::int64_t n_slivers = 0;
+    for (const Facet& facet : interface.facets(shift)) {
+      if (facet.rotor.rank != rank_of(mesh.comm)) continue;
+      const double r = std::hypot(facet.centre.x, facet.centre.y);
+      EXPECT_NEAR(r, shells.radius, 0.01 * shells.radius);
+      if (facet.area < 0.2 * exact_area(shells) / 96) slivers += facet.area, ++n_slivers;
+    }
+    EXPECT_EQ(sum(mesh.comm, n_slivers), 96) << shift;
+    EXPECT_NEAR(sum(mesh.comm, slivers), 24 * shift * shells.radius * shells.height, 1e-3 * 24 * shift * shells.radius * shells.height);
+  }
+}
+
+// Volumes with curved edges fill the zones exactly: up to the interface the rings are round, at the inner and outer walls polygons.
+TEST(Sliding, VolumesFillTheZones) {
+  const auto polygon = [](double r, int n) { return 0.5 * n * r * r * std::sin(2 * pi / n); };
+  for (const bool tetrahedra : {true, false}) {
+    SCOPED_TRACE(tetrahedra);
+    const Shells s{.tetrahedra = tetrahedra};
+    Mesh mesh = imported(s);
+    const SlidingInterface interface(mesh, s.description());
+    interface.curve(mesh);
+    std::array<double, 2> volume{};
+    Vec3 moment;
+    for (int c = 0; c < mesh.n_cells; ++c) {
+      volume[static_cast<std::size_t>(mesh.cell_zone[c])] += mesh.cell_volume[c];
+      if (mesh.cell_zone[c] == 0) moment += mesh.cell_volume[c] * mesh.cell_centre[c];
+    }
+    for (double& V : volume) V = sum(mesh.comm, V);
+    const double circle = pi * s.radius * s.radius, lid = polygon(s.radius, s.stator[0]) - polygon(s.inner, s.stator[0]);
+    EXPECT_NEAR(volume[0], s.height * (circle - polygon(s.inner, s.rotor[0])), 1e-12 * volume[0]);
+    EXPECT_NEAR(volume[1], s.height * (polygon(s.outer, s.stator[0]) - circle) + (s.top - s.height) * lid, 1e-12 * volume[1]);
+    const Vec3 centre = sum(mesh.comm, std::span(&moment, 1)) / volume[0];
+    EXPECT_LT(norm(centre - Vec3{0, 0, s.height / 2}), 1e-5);
+  }
+}
+
+// Facets do not depend on the number of ranks, to the bit, and come in the same order on both ranks of a facet.
+TEST(Sliding, FacetsAreTheSameOnAnyNumberOfRanks) {
+  const Shells shells;
+  const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
+  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD), whole = import_gmsh(file.path(), MPI_COMM_SELF);
+  const SlidingInterface interface(mesh, shells.description()), reference(whole, shells.description());
+  const int rank = rank_of(MPI_COMM_WORLD);
+  std::map<std::int64_t, int> mine;
+  for (int c = 0; c < mesh.n_cells; ++c) mine[mesh.cell_id[c]] = c;
+  for (const double angle : {0.0, 0.37}) {
+    const std::vector<Facet> facets = interface.facets(angle);
+    std::size_t next = 0;
+    for (const Facet& expected : reference.facets(angle)) {
+      const auto rotor = mine.find(expected.rotor.cell_id), stator = mine.find(expected.stator.cell_id);
+      if (rotor == mine.end() && stator == mine.end()) continue;
+      ASSERT_LT(next, facets.size());
+      const Facet& facet = facets[next++];
+      EXPECT_EQ(facet.rotor.cell_id, expected.rotor.cell_id);
+      EXPECT_EQ(facet.stator.cell_id, expected.stator.cell_id);
+      EXPECT_EQ(facet.rotor.rank == rank, rotor != mine.end());
+      EXPECT_EQ(facet.stator.rank == rank, stator != mine.end());
+      EXPECT_EQ(facet.vector, expected.vector);
+      EXPECT_EQ(facet.centre, expected.centre);
+      EXPECT_EQ(facet.area, expected.area);
+    }
+    EXPECT_EQ(next, facets.size());
+  }
+}
+
+/// The message of the error that work ends with, the same code on every rank.
+template <class Work>
+std::string failure(const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::mesh);
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return "";
+}
+
+// Zones that do not touch are an error that names the place.
+TEST(Sliding, NamesThePlaceWhereZonesDoNotTouch) {
+  const Shells apart{.stator_radius = 0.051};
+  const Mesh mesh = imported(apart);
+  const SlidingInterface interface(mesh, apart.description());
+  const std::string message = failure([&] { interface.facets(0); });
+  EXPECT_NE(message.find("covered by the other side to 0 %"), std::string::npos) << message;
+  EXPECT_NE(message.find("side at ("), std::string::npos) << message;
+}
+
+// A wrong axis, and patches exchanged, are errors.
+TEST(Sliding, RejectsSurfacesThatDoNotRevolve) {
+  const Shells shells;
+  const Mesh mesh = imported(shells);
+  SlidingDescription shifted = shells.description(), exchanged = shifted, unknown = shifted;
+  shifted.origin = {0.01, 0, 0};
+  std::swap(exchanged.rotor_patch, exchanged.stator_patch);
+  unknown.rotor_zone = "impeller";
+  const Shells coarse{.rotor = {5, 1, 1}};
+  const Mesh crossing = imported(coarse);
+  EXPECT_NE(failure([&] { SlidingInterface(crossing, coarse.description()); }).find("cuts the circle of the inner rim"), std::string::npos);
+  EXPECT_NE(failure([&] { SlidingInterface(mesh, shifted); }).find("neither a cylinder nor a disc"), std::string::npos);
+  EXPECT_NE(failure([&] { SlidingInterface(mesh, exchanged); }).find("must be the turning side"), std::string::npos);
+  EXPECT_NE(failure([&] { SlidingInterface(mesh, unknown); }).find("\"impeller\" is not in the mesh"), std::string::npos);
+}
+
+// The area of a polygon inside a circle is exact, whichever vertices lie inside.
+TEST(SlidingClip, CutsPolygonsAtCircles) {
+  Polygon square;
+  for (const Point2 x : {Point2{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) square.add(x);
+  EXPECT_NEAR(moments_inside(square, {}, 1.5).area, 4, 1e-15);
+  const double R = 1.2, half = std::acos(1 / R);
+  EXPECT_NEAR(moments_inside(square, {}, R).area, pi * R * R - 4 * R * R * (half - std::sin(half) * std::cos(half)), 1e-14);
+  EXPECT_NEAR(moments_inside(square, {1, 1}, 1).area, pi / 4, 1e-15);
+  EXPECT_NEAR(moments_inside(square, {3, 0}, 1).area, 0, 1e-15);
+  const Moments quarter = moments_inside(square, {-1, 1}, 1);
+  EXPECT_NEAR(quarter.first.x / quarter.area, -1 + 4 / (3 * pi), 0.01);
+}
+
+// The intersection of convex polygons has the area and the middle it should, and none where they only touch.
+TEST(SlidingClip, CutsPolygonsAtPolygons) {
+  Polygon square, diamond, beside;
+  for (const Point2 x : {Point2{0, 0}, {2, 0}, {2, 2}, {0, 2}}) square.add(x), beside.add(x + Point2{2, 0});
+  for (const Point2 x : {Point2{2, 0.5}, {3, 1.5}, {2, 2.5}, {1, 1.5}}) diamond.add(x);
+  const Polygon common = intersection(square, diamond);
+  EXPECT_NEAR(moments(common).area, 0.875, 1e-15);
+  EXPECT_NEAR(moments(intersection(diamond, square)).area, 0.875, 1e-15);
+  EXPECT_NEAR(moments(intersection(square, square)).area, 4, 0);
+  EXPECT_EQ(moments(intersection(square, beside)).area, 0);
+  const Moments m = moments(common);
+  EXPECT_NEAR(middle(common).x, m.first.x / m.area, 1e-15);
+  EXPECT_TRUE(is_convex(square));
+  std::swap(square.point[0], square.point[1]);
+  EXPECT_FALSE(is_convex(square));
+}
+
+}  // namespace
