@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "mesh/place.hpp"
 #include "mesh/sliding_bins.hpp"
+#include "mesh/sliding_geometry.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -132,20 +133,16 @@ class FacetCutter {
 
 }  // namespace
 
-struct SlidingInterface::Search {
-  SlidingBins bins;
-};
-
 SlidingInterface::SlidingInterface(const Mesh& mesh, const SlidingDescription& description)
     : description_(description),
       comm_(mesh.comm),
       surface_(std::make_unique<RevolvedSurface>(revolved_surface(mesh, description))),
-      search_(std::make_unique<Search>(Search{SlidingBins(*surface_)})) {}
+      bins_(std::make_unique<SlidingBins>(*surface_)) {}
 SlidingInterface::~SlidingInterface() = default;
 SlidingInterface::SlidingInterface(SlidingInterface&&) noexcept = default;
 
 std::vector<Facet> SlidingInterface::facets(double angle) const {
-  FacetCutter cutter(*surface_, search_->bins, rank_of(comm_), angle_of(reduced(angle)));
+  FacetCutter cutter(*surface_, *bins_, rank_of(comm_), angle_of(reduced(angle)));
   std::vector<Facet> result = cutter.cut();
   together(comm_, [&] { cutter.require_cover(); });
   return result;

@@ -15,8 +15,8 @@ struct Shells {
   double inner = 0.03, radius = 0.05, outer = 0.08, height = 0.04, top = 0.06;  // m
   std::array<int, 3> rotor{14, 3, 4}, stator{17, 4, 5};                         // cells around, along r, along z
   double stator_start = 0.1;                                                    // angle of the stator's first nodes, rad
-  bool tetrahedra = true, has_lid = true;
-  double stator_radius = radius;  // m
+  bool tetrahedra = true, has_lid = true, is_periodic = false;                  // without a lid it may be periodic along its axis
+  double stator_radius = radius;                                                // m
   Vec3 origin{}, axis{0, 0, 1};
 
   SlidingDescription description() const { return {.origin = origin, .axis = axis}; }
@@ -69,8 +69,10 @@ inline Sample sample_of(const Shells& s) {
   Sample sample;
   sample.volumes = {{1, "rotor"}, {2, "stator"}};
   sample.surfaces = {{1, "interface_rotor"}, {2, "interface_stator"}, {3, "wall"}};
-  add_ring(sample, {1, s.inner, s.radius, 0, s.height, 0, s.rotor, {3, 1, 3, s.has_lid ? 1 : 3}}, s);
-  add_ring(sample, {2, s.stator_radius, s.outer, 0, s.height, s.stator_start, s.stator, {2, 3, 3, 3}}, s);
+  if (s.is_periodic) sample.surfaces.insert(sample.surfaces.end(), {{4, "bottom"}, {5, "top"}});
+  const int bottom = s.is_periodic ? 4 : 3, top = s.is_periodic ? 5 : 3;
+  add_ring(sample, {1, s.inner, s.radius, 0, s.height, 0, s.rotor, {3, 1, bottom, s.has_lid ? 1 : top}}, s);
+  add_ring(sample, {2, s.stator_radius, s.outer, 0, s.height, s.stator_start, s.stator, {2, 3, bottom, top}}, s);
   if (s.has_lid) add_ring(sample, {2, s.inner, s.radius, s.height, s.top, s.stator_start, {s.stator[0], s.stator[1], 2}, {3, 3, 2, 3}}, s);
   return sample;
 }
