@@ -6,6 +6,7 @@
 
 #include "coupling/cells_around.hpp"
 #include "coupling/vector_math.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -185,14 +186,11 @@ void Kernel::finish_weights(std::span<const double> factors) {
 void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved) {
   const MPI_Comm comm = mesh_.comm;
   const int ranks = size_of(comm), me = rank_of(comm), mine = static_cast<int>(unresolved.size());
-  std::vector<int> count(ranks), start(ranks, 0), words(ranks), word_start(ranks);
-  MPI_Allgather(&mine, 1, MPI_INT, count.data(), 1, MPI_INT, comm);
-  for (int r = 1; r < ranks; ++r) start[r] = start[r - 1] + count[r - 1];
-  for (int r = 0; r < ranks; ++r) words[r] = 3 * count[r], word_start[r] = 3 * start[r];
-  const int n = start.back() + count.back();
-  std::vector<Vec3> own(mine), all(n);
+  std::vector<Vec3> own(unresolved.size());
   for (int i = 0; i < mine; ++i) own[i] = points[unresolved[i]];
-  MPI_Allgatherv(own.data(), 3 * mine, MPI_DOUBLE, all.data(), words.data(), word_start.data(), MPI_DOUBLE, comm);
+  const std::vector<int> start = row_starts(comm, own.size());
+  const std::vector<Vec3> all = gathered(comm, std::span<const Vec3>(own), start);
+  const int n = start.back();
 
   std::vector<int> cell(n);
   std::vector<double> offers(2 * n), all_offers(2 * static_cast<std::size_t>(n) * ranks);  // squared distance, cell_id

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dem/bonds/bond_law.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -122,13 +123,6 @@ std::vector<RagState> rag_states(const RagSystem& rags) {
   return states;
 }
 
-std::vector<double> bond_tensions(const RagSystem& rags) {
-  std::vector<double> tensions;
-  for (const Tile& tile : rags.tiles())
-    for_bonds(tile, bond_laws(rags.rags()[tile.rag]), false, [&](int, int, const BondForce& bond) { tensions.push_back(bond.tension); });
-  return tensions;
-}
-
 Vec3 force_on_clamped(const RagSystem& rags, int rag) {
   std::vector<Vec3> forces;
   for (const Tile& tile : rags.tiles())
@@ -139,29 +133,13 @@ Vec3 force_on_clamped(const RagSystem& rags, int rag) {
   return sum(rags.comm(), std::span<const Vec3>(forces));
 }
 
-namespace {
-
-/// All ranks' values on rank 0, in order of ranks.
-std::vector<double> gather(MPI_Comm comm, const std::vector<double>& mine) {
-  const int size = size_of(comm);
-  const int n = static_cast<int>(mine.size());
-  std::vector<int> count(size), start(size + 1, 0);
-  MPI_Gather(&n, 1, MPI_INT, count.data(), 1, MPI_INT, 0, comm);
-  for (int r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  std::vector<double> all(rank_of(comm) == 0 ? start[size] : 0);
-  MPI_Gatherv(mine.data(), n, MPI_DOUBLE, all.data(), count.data(), start.data(), MPI_DOUBLE, 0, comm);
-  return all;
-}
-
-}  // namespace
-
 double bond_strain_quantile(const RagSystem& rags, int rag, double p) {
   std::vector<double> mine;
   for (const Tile& tile : rags.tiles())
     if (tile.rag == rag)
       for_bonds(tile, bond_laws(rags.rags()[rag]), false,
                 [&](int, int, const BondForce& bond) { mine.push_back(bond.length / (2 * rags.rags()[rag].radius) - 1); });
-  std::vector<double> all = gather(rags.comm(), mine);
+  std::vector<double> all = gathered_on_first(rags.comm(), mine);
   double quantile = 0;
   if (!all.empty()) {
     const auto place = all.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(p * all.size()), std::ssize(all) - 1);
@@ -213,7 +191,7 @@ void add_triangles(const std::vector<Rag>& rags, const std::vector<const double*
 }  // namespace
 
 RagSheet gather_sheet(const RagSystem& rags) {
-  const std::vector<double> all = gather(rags.comm(), sheet_rows(rags));
+  const std::vector<double> all = gathered_on_first(rags.comm(), sheet_rows(rags));
   std::vector<const double*> rows;
   for (std::size_t k = 0; k < all.size(); k += n_sheet_columns) rows.push_back(&all[k]);
   std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[c_id] < b[c_id]; });

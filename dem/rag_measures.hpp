@@ -41,9 +41,6 @@ struct RagSheet {
 };
 RagSheet gather_sheet(const RagSystem& rags);
 
-/// Tensions (N) of this rank's whole bonds along the row and between rows, in order of tiles and places.
-std::vector<double> bond_tensions(const RagSystem& rags);
-
 /// Sum of the bond, contact and outside forces of the last sub-step on the clamped particles of a rag, N: what the clamp holds. Collective.
 Vec3 force_on_clamped(const RagSystem& rags, int rag);
 

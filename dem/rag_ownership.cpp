@@ -8,6 +8,7 @@
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/tile_halo.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -216,13 +217,12 @@ void RagSystem::move_tiles(const std::vector<int>& owner) {
     parcels[to].push_back(numbers_[i]), parcels[to].push_back(static_cast<double>(values.size()));
     parcels[to].insert(parcels[to].end(), values.begin(), values.end());
   }
-  std::vector<int> n_out(size), n_in(size), out_start(size + 1, 0), in_start(size + 1, 0);
-  for (int r = 0; r < size; ++r) n_out[r] = static_cast<int>(parcels[r].size());
-  MPI_Alltoall(n_out.data(), 1, MPI_INT, n_in.data(), 1, MPI_INT, comm_);
-  for (int r = 0; r < size; ++r) out_start[r + 1] = out_start[r] + n_out[r], in_start[r + 1] = in_start[r] + n_in[r];
-  std::vector<double> out, in(in_start[size]);
-  for (const auto& parcel : parcels) out.insert(out.end(), parcel.begin(), parcel.end());
-  MPI_Alltoallv(out.data(), n_out.data(), out_start.data(), MPI_DOUBLE, in.data(), n_in.data(), in_start.data(), MPI_DOUBLE, comm_);
+  Letters<double> out;
+  for (const auto& parcel : parcels) {
+    out.counts.push_back(static_cast<int>(parcel.size()));
+    out.rows.insert(out.rows.end(), parcel.begin(), parcel.end());
+  }
+  const std::vector<double> in = exchanged(comm_, out).rows;
   for (std::size_t k = 0; k < in.size();) {
     const int number = static_cast<int>(in[k]);
     const std::size_t n = static_cast<std::size_t>(in[k + 1]);

@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "mesh/geometry.hpp"
-#include "parallel/session.hpp"
+#include "parallel/rows.hpp"
 
 namespace snag {
 namespace {
@@ -16,16 +16,6 @@ struct WallFace {
   std::array<Vec3, 4> node;
   int part, n_nodes;
 };
-
-std::vector<WallFace> gathered(MPI_Comm comm, const std::vector<WallFace>& mine) {
-  const int size = size_of(comm), bytes = static_cast<int>(mine.size() * sizeof(WallFace));
-  std::vector<int> count(static_cast<std::size_t>(size)), start(static_cast<std::size_t>(size) + 1, 0);
-  MPI_Allgather(&bytes, 1, MPI_INT, count.data(), 1, MPI_INT, comm);
-  for (int r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  std::vector<WallFace> all(static_cast<std::size_t>(start[size]) / sizeof(WallFace));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), count.data(), start.data(), MPI_BYTE, comm);
-  return all;
-}
 
 WallFace wall_face(const Mesh& mesh, int face, int part) {
   WallFace result{};

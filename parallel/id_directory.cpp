@@ -5,17 +5,14 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
 
 namespace {
 
-/// Rows of integers sorted by the rank they go to, and how many go to each.
-struct Letters {
-  std::vector<std::int64_t> values;
-  std::vector<int> counts;  // [n_ranks], values
-};
+using Numbers = Letters<std::int64_t>;
 
 std::vector<int> starts(const std::vector<int>& counts) {
   std::vector<int> result(counts.size());
@@ -23,34 +20,23 @@ std::vector<int> starts(const std::vector<int>& counts) {
   return result;
 }
 
-Letters exchanged(MPI_Comm comm, const Letters& sent) {
-  Letters received;
-  received.counts.resize(sent.counts.size());
-  MPI_Alltoall(sent.counts.data(), 1, MPI_INT, received.counts.data(), 1, MPI_INT, comm);
-  const auto from = starts(sent.counts), to = starts(received.counts);
-  received.values.resize(std::accumulate(received.counts.begin(), received.counts.end(), std::size_t{0}));
-  MPI_Alltoallv(sent.values.data(), sent.counts.data(), from.data(), MPI_INT64_T, received.values.data(), received.counts.data(), to.data(),
-                MPI_INT64_T, comm);
-  return received;
-}
-
 /// Rank that knows about an id; ids may be any number.
 int directory_rank(std::int64_t id, int n_ranks) { return static_cast<int>(static_cast<std::uint64_t>(id) % n_ranks); }
 
 /// The ids for each directory rank with their indices here, as pairs or (without indices) alone.
-Letters addressed(std::span<const std::int64_t> ids, int n_ranks, bool with_index, std::vector<int>* order = nullptr) {
+Numbers addressed(std::span<const std::int64_t> ids, int n_ranks, bool with_index, std::vector<int>* order = nullptr) {
   const int width = with_index ? 2 : 1;
-  Letters letters;
+  Numbers letters;
   letters.counts.assign(n_ranks, 0);
   for (const auto id : ids) letters.counts[directory_rank(id, n_ranks)] += width;
   auto at = starts(letters.counts);
-  letters.values.resize(ids.size() * width);
+  letters.rows.resize(ids.size() * width);
   if (order) order->resize(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     int& place = at[directory_rank(ids[i], n_ranks)];
     if (order) (*order)[place / width] = static_cast<int>(i);
-    letters.values[place] = ids[i];
-    if (with_index) letters.values[place + 1] = static_cast<std::int64_t>(i);
+    letters.rows[place] = ids[i];
+    if (with_index) letters.rows[place + 1] = static_cast<std::int64_t>(i);
     place += width;
   }
   return letters;
@@ -62,13 +48,13 @@ struct Entry {
 };
 
 /// Entries of the ids this rank knows about, sorted by id. Throws if one occurs twice.
-std::vector<Entry> directory(const Letters& held, const std::string& what) {
+std::vector<Entry> directory(const Numbers& held, const std::string& what) {
   std::vector<Entry> entries;
-  entries.reserve(held.values.size() / 2);
+  entries.reserve(held.rows.size() / 2);
   std::size_t at = 0;
   for (std::size_t rank = 0; rank < held.counts.size(); ++rank)
     for (const std::size_t end = at + held.counts[rank]; at < end; at += 2)
-      entries.push_back({held.values[at], static_cast<int>(rank), static_cast<int>(held.values[at + 1])});
+      entries.push_back({held.rows[at], static_cast<int>(rank), static_cast<int>(held.rows[at + 1])});
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
   const auto twice = std::adjacent_find(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.id == b.id; });
   if (twice != entries.end())
@@ -81,31 +67,31 @@ std::vector<Entry> directory(const Letters& held, const std::string& what) {
 
 RowPlaces find_rows(MPI_Comm comm, std::span<const std::int64_t> held, std::span<const std::int64_t> wanted, const std::string& what) {
   const int n_ranks = size_of(comm);
-  const Letters known = exchanged(comm, addressed(held, n_ranks, true));
+  const Numbers known = exchanged(comm, addressed(held, n_ranks, true));
   std::vector<int> order;  // position in a question -> index in `wanted`
-  const Letters asked = exchanged(comm, addressed(wanted, n_ranks, false, &order));
+  const Numbers asked = exchanged(comm, addressed(wanted, n_ranks, false, &order));
 
-  Letters answer;
+  Numbers answer;
   together(comm, [&] {
     const auto entries = directory(known, what);
-    answer.values.reserve(2 * asked.values.size());
-    for (const auto id : asked.values) {
+    answer.rows.reserve(2 * asked.rows.size());
+    for (const auto id : asked.rows) {
       const auto found =
           std::lower_bound(entries.begin(), entries.end(), id, [](const Entry& entry, std::int64_t i) { return entry.id < i; });
       if (found == entries.end() || found->id != id)
         throw Error(ExitCode::io,
                     what + ": no row with id " + std::to_string(id) + "; was the checkpoint written by another case or mesh?");
-      answer.values.push_back(found->rank);
-      answer.values.push_back(found->index);
+      answer.rows.push_back(found->rank);
+      answer.rows.push_back(found->index);
     }
   });
   for (const int count : asked.counts) answer.counts.push_back(2 * count);
-  const Letters places = exchanged(comm, answer);
+  const Numbers places = exchanged(comm, answer);
 
   RowPlaces result{std::vector<int>(wanted.size()), std::vector<int>(wanted.size())};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    result.rank[order[i]] = static_cast<int>(places.values[2 * i]);
-    result.index[order[i]] = static_cast<int>(places.values[2 * i + 1]);
+    result.rank[order[i]] = static_cast<int>(places.rows[2 * i]);
+    result.index[order[i]] = static_cast<int>(places.rows[2 * i + 1]);
   }
   return result;
 }

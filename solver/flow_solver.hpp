@@ -59,7 +59,6 @@ class FlowSolver {
   void load(CheckpointReader& checkpoint);
 
   const BoundarySet& boundary() const { return boundary_; }
-  const LeastSquares& velocity_squares() const { return squares_; }
 
  private:
   void start();

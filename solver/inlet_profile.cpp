@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "parallel/session.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -28,13 +28,7 @@ std::vector<Edge> edges_of_all_ranks(const Mesh& mesh, const Patch& patch) {
       mine.push_back({mesh.node_id[n], mesh.node_id[m], mesh.node[n], mesh.node[m]});
     }
   }
-  const int ranks = size_of(mesh.comm), bytes = static_cast<int>(mine.size() * sizeof(Edge));
-  std::vector<int> count(ranks), start(ranks, 0);
-  MPI_Allgather(&bytes, 1, MPI_INT, count.data(), 1, MPI_INT, mesh.comm);
-  for (int r = 1; r < ranks; ++r) start[r] = start[r - 1] + count[r - 1];
-  std::vector<Edge> all(static_cast<std::size_t>(start.back() + count.back()) / sizeof(Edge));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), count.data(), start.data(), MPI_BYTE, mesh.comm);
-  return all;
+  return gathered(mesh.comm, mine);
 }
 
 /// Edges that belong to one face of the patch only.
