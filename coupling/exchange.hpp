@@ -3,8 +3,7 @@
 //
 //   given:     f_c = 1/V_c sum_b w_bc (-J_b/dt) + beta_c u_c^n,    beta_c = 1/V_c sum_b w_bc Q_b/dt
 //   applied:   f_c - beta_c u_c^(n+1)                              by the solver, with its final velocity
-//   settled:   dJ_b = Q_b sum_c w_bc (u_c^(n+1) - u_c^n)           the part of the drag that the water felt beyond -J_b, kicked to the
-//   particle
+//   settled:   dJ_b = Q_b sum_c w_bc (u_c^(n+1) - u_c^n)           drag that the water felt beyond -J_b, kicked to the particle
 //
 // so that  sum_b (J_b + dJ_b) + dt sum_c V_c (f_c - beta_c u_c^(n+1)) = 0  to round-off, and the drag is implicit in the flow: any dt is
 // stable. For Q_b above the particle's mass the exchange lags by about Q_b/m_b steps (still stable, still conservative): the stiffness is

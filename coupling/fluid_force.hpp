@@ -59,7 +59,7 @@ struct Particles {
   double volume;                                     // V_h, hydrodynamic, m3
 };
 
-/// What a force adds to. The integrator solves (m + added_mass + step/2 slope) a = F + all other forces.
+/// What a force adds to. FluidLoad solves (m + added_mass) a = (F + all other forces) phi, phi by the slope (coupling/fluid_load.hpp).
 struct Forces {
   VectorSum force;     // N
   VectorSum torque;    // N m

@@ -1,8 +1,7 @@
-// Equations and symbols: geometry.hpp. Further, per interior face with owner P and neighbour N, x_N taken across the period where there is
-// one:
+// Equations and symbols: geometry.hpp. Further, per interior face with owner P and neighbour N, x_N taken across the period if any:
 //
-//   delta = x_N - x_P,   weight w = S.(x_N - x_f) / S.(x_N - x_P)        phi_f = w phi_P + (1 - w) phi_N, exact for linear phi where delta
-//   meets x_f
+//   delta = x_N - x_P,   weight w = S.(x_N - x_f) / S.(x_N - x_P)
+//   phi_f = w phi_P + (1 - w) phi_N       exact for linear phi where delta meets x_f
 #include "mesh/geometry.hpp"
 
 #include "mesh/shapes.hpp"

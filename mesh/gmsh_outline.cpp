@@ -7,8 +7,8 @@
 //   $Nodes 4.1      blocks count min max, then blocks: dimension entity parametric n, n numbers, n times x y z
 //   $Elements 2.2   ASCII:  count, then number type n_tags tags... nodes...
 //                   binary: count, then blocks of ints: type n n_tags, n times (number tags... nodes...)
-//   $Elements 4.1   blocks count min max, then blocks: dimension entity type n, n times (tag nodes...); sizes are 8 bytes in binary, block
-//   heads ints
+//   $Elements 4.1   blocks count min max, then blocks: dimension entity type n, n times (tag nodes...);
+//                   in binary sizes have 8 bytes, and block heads are ints
 #include "mesh/gmsh_outline.hpp"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 // Gradients of cell fields: least squares over the faces (exact for linear fields), and the Gauss form that conserves momentum.
 //
-//   least squares:   minimise sum_f (g.e_f - D_f)^2,   e_f = d/|d|,   D_f = (phi_N - phi_P)/|d|          g = M^-1 sum_f D_f e_f,   M =
-//   sum_f e_f e_f Gauss:           V g = sum_f phi_f S,   phi_f with skewness correction by least squares: sums of V g telescope to the
-//   boundary
+//   least squares:   minimise sum_f (g.e_f - D_f)^2,   e_f = d/|d|,   D_f = (phi_N - phi_P)/|d|
+//                    g = M^-1 sum_f D_f e_f,   M = sum_f e_f e_f
+//   Gauss:           V g = sum_f phi_f S,   phi_f with skewness correction by least squares: sums of V g telescope to the boundary
 //
 // A cell with few neighbours (a tetrahedron with two faces on walls where the value is unknown) leaves directions open: eigenvalues of M
 // near zero. In these directions it takes the mean gradient of its neighbours, so that linear fields stay exact. First order on any mesh,

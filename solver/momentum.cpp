@@ -170,8 +170,8 @@ void Momentum::add_interior(const Flow& flow) {
   }
 }
 
-/// Coefficients of boundary face f with its cell P:   friction on the fluid = source - implicit * u_P,   convection out = F (carried ? u_P
-/// : 0) + given.
+/// Coefficients of boundary face f with its cell P:
+///   friction on the fluid = friction_source - friction_slope * u_P,   convection out = convection_slope u_P + convection_source
 struct Momentum::BoundaryFace {
   Vec3 friction_slope, friction_source;  // kg/s, N
   double convection_slope = 0;           // kg/s

@@ -2,9 +2,10 @@
 // What a pair of bodies in contact has in common: coefficients of the laws, geometry, and the steps that resolve it.
 //
 //   Rayleigh time (of a surface wave along a particle)   T_R = pi r sqrt(rho/G) / (0.1631 nu + 0.8766)
-//   Hertz time (of an elastic impact at speed u)         T_H = 2.9432 (m*^2 / (k^2 u))^(1/5),  k = 16/15 E* sqrt(R*);  deepest overlap d =
-//   (m* u^2 / k)^(2/5) stability of the damped contact spring at d          dt < 2/omega (sqrt(1 + zeta^2) - zeta),  omega^2 = S q/m*, zeta
-//   = sqrt(5/6) |B| sqrt(q)
+//   Hertz time (of an elastic impact at speed u)         T_H = 2.9432 (m*^2 / (k^2 u))^(1/5),  k = 16/15 E* sqrt(R*)
+//   deepest overlap of that impact                       d = (m* u^2 / k)^(2/5)
+//   stability of the damped contact spring at d          dt < 2/omega (sqrt(1 + zeta^2) - zeta)
+//                                                        omega^2 = S q/m*,  zeta = sqrt(5/6) |B| sqrt(q)
 //     q = 1 for the normal spring, 7/2 for the tangential one (the sphere also turns); velocities lag half a step
 // Sources: Rayleigh time, Thornton (2015); impact, Johnson (1985) section 11.4.
 #include <string>

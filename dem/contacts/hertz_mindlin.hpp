@@ -1,17 +1,18 @@
 #pragma once
 // Hertz-Mindlin contact of two elastic spheres, damped, with the history of slip:
 //
-//   F_n = 4/3 E* sqrt(R*) d^(3/2) + 2 sqrt(5/6) |B| sqrt(S_n m*) u_n       S_n = 2 E* sqrt(R* d)     (> 0: pushes apart; also pulls at the
-//   end of a damped impact,
-//                                                                                                  as published: only so is the restitution
-//                                                                                                  e)
+//   F_n = 4/3 E* sqrt(R*) d^(3/2) + 2 sqrt(5/6) |B| sqrt(S_n m*) u_n       S_n = 2 E* sqrt(R* d)
 //   F_t = -S_t xi - 2 sqrt(5/6) |B| sqrt(S_t m*) u_t                       S_t = 8 G* sqrt(R* d)
 //   |S_t xi| <= mu max(F_n, 0),  |F_t| <= mu max(F_n, 0)                   B = ln e / sqrt(ln^2 e + pi^2)
 //
-//   d overlap, m; n unit normal from body 1 to body 2; u velocity of body 1 relative to body 2 at the contact, u_n = u.n (rate of d), u_t =
-//   u - u_n n; xi slip (elastic tangential displacement), m: turned with the normal, grows by u_t dt, cut back where the spring alone would
-//   exceed the Coulomb limit 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2,  1/G* = (2 - nu_1)/G_1 + (2 - nu_2)/G_2,  E = 2 G (1 + nu),  1/R*
-//   = 1/R_1 + 1/R_2,  1/m* = 1/m_1 + 1/m_2
+//   F_n > 0 pushes apart; it also pulls at the end of a damped impact, as published: only so is the restitution e.
+//   d    overlap, m
+//   n    unit normal from body 1 to body 2
+//   u    velocity of body 1 relative to body 2 at the contact, u_n = u.n (rate of d), u_t = u - u_n n
+//   xi   slip (elastic tangential displacement), m: turned with the normal, grows by u_t dt, cut back where the spring alone would exceed
+//        the Coulomb limit
+//   1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2,  1/G* = (2 - nu_1)/G_1 + (2 - nu_2)/G_2,  E = 2 G (1 + nu)
+//   1/R* = 1/R_1 + 1/R_2,  1/m* = 1/m_1 + 1/m_2
 //
 // Source: Jensen (2018) Eqs. 3.3-3.9 and 3.23, after Tsuji et al. (1992). The damping makes d^(5/4) a damped oscillator, so that e is exact
 // for every speed (Antypov and Elliott 2011). An elastic impact at speed u lasts 2.9432 (m*^2/(k^2 u))^(1/5), k = 16/15 E* sqrt(R*).

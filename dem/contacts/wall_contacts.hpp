@@ -4,12 +4,10 @@
 // A particle sees of every triangle and plane in reach its nearest point. Which of these are contacts (sorted by distance; faces before
 // edges before corners):
 //   - an edge or corner acts only if no nearer triangle has it as well: so nothing is counted twice where triangles meet;
-//   - of two contacts whose directions differ by less than `smooth_angle` the nearer one acts: so a faceted curved wall, or two walls that
-//   are flush,
-//     is one wall; in a sharper concave corner both walls act;
-//   - if the nearest of all says that the centre is beyond the wall, it pushes the centre back; other walls act only on centres in front of
-//   them, so the
-//     back of a thin plate does nothing. Overlap: r - distance (up to 2 r, where the centre is r beyond).
+//   - of two contacts whose directions differ by less than `smooth_angle` the nearer one acts: so a faceted curved wall,
+//     or two walls that are flush, is one wall; in a sharper concave corner both walls act;
+//   - if the nearest of all says that the centre is beyond the wall, it pushes the centre back; other walls act only on centres in
+//     front of them, so the back of a thin plate does nothing. Overlap: r - distance (up to 2 r, where the centre is r beyond).
 // The slip of a contact belongs to the particle, the wall and the direction (frame of the wall): it slides over from triangle to triangle.
 #include <cstdint>
 #include <span>

@@ -1,5 +1,6 @@
-// Inlet with a given volume flow Q over the patch, uniform along its mean normal:   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q
-// exactly
+// Inlet with a given volume flow Q over the patch, uniform along its mean normal:
+//
+//   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q exactly
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
 #include "solver/boundary.hpp"

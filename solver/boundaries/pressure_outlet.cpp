@@ -1,5 +1,6 @@
-// Outlet with a given static pressure:   p = p_out,   du/dn = 0;   where fluid enters instead, it comes along the normal:   u = (flux/|S|)
-// n
+// Outlet with a given static pressure:
+//
+//   p = p_out,   du/dn = 0;      where fluid enters instead, it comes along the normal:   u = (flux/|S|) n
 #include "solver/boundary.hpp"
 
 namespace snag {
