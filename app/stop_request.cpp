@@ -17,7 +17,7 @@ constexpr int stop_file_seen = 1000;  // above every signal number
 
 }  // namespace
 
-StopRequest::StopRequest(MPI_Comm comm, std::filesystem::path folder) : comm_(comm), file_(std::move(folder) / "stop") {
+StopRequest::StopRequest(MPI_Comm comm, const std::filesystem::path& folder) : comm_(comm), file_(folder / "stop") {
   signal_received = 0;
   for (const int number : handled) std::signal(number, remember_signal);
   std::error_code ignored;

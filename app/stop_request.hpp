@@ -11,7 +11,7 @@ namespace snag {
 class StopRequest {
  public:
   /// Handles the signals from now on; `folder` is looked at for the file. A `stop` file left by an earlier run is removed. Collective.
-  StopRequest(MPI_Comm comm, std::filesystem::path folder);
+  StopRequest(MPI_Comm comm, const std::filesystem::path& folder);
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;

@@ -53,7 +53,7 @@ std::vector<int> bandwidth_reducing_order(int n_owned, const std::vector<LocalFa
 std::vector<int> number_cells(const MeshParts& parts, const std::vector<LocalFace>& faces, Mesh& mesh) {
   const int n_owned = mesh.n_cells = parts.n_owned;
   const int n_ghosts = mesh.n_ghosts = static_cast<int>(parts.ghost_rank.size());
-  const auto n_all = static_cast<std::size_t>(n_owned + n_ghosts);
+  const auto n_all = static_cast<std::size_t>(n_owned) + parts.ghost_rank.size();
 
   std::vector<int> old_of(bandwidth_reducing_order(n_owned, faces));
   std::vector<std::int64_t> number_at_owner(n_all);

@@ -19,10 +19,8 @@ struct Pixels {
     if (twice_area < 0) std::swap(x[1], x[2]), std::swap(y[1], y[2]);
     const auto [x_low, x_high] = std::minmax({x[0], x[1], x[2]});
     const auto [y_low, y_high] = std::minmax({y[0], y[1], y[2]});
-    const int i0 = std::max(0, static_cast<int>((x_low - x0) / side - 0.5)),
-              i1 = std::min(nx - 1, static_cast<int>((x_high - x0) / side + 0.5));
-    const int j0 = std::max(0, static_cast<int>((y_low - y0) / side - 0.5)),
-              j1 = std::min(ny - 1, static_cast<int>((y_high - y0) / side + 0.5));
+    const int i0 = std::max(0, static_cast<int>((x_low - x0) / side - 0.5)), i1 = std::min(nx - 1, static_cast<int>((x_high - x0) / side));
+    const int j0 = std::max(0, static_cast<int>((y_low - y0) / side - 0.5)), j1 = std::min(ny - 1, static_cast<int>((y_high - y0) / side));
     for (int j = j0; j <= j1; ++j) {
       const double py = y0 + (j + 0.5) * side;
       for (int i = i0; i <= i1; ++i) {

@@ -105,9 +105,10 @@ struct CheckpointFile {
     hdf5::Handle dataset(
         on_all("writing " + name, [&] { return H5Dcreate2(file, name.c_str(), FileType<T>::file(), space, links, creation, H5P_DEFAULT); }),
         H5Dclose);
-    const auto [memory, selected] = selection(space, slab, shape[1]);
+    const auto spaces = selection(space, slab, shape[1]);
     if (rows > 0)
-      on_all("writing " + name, [&] { return H5Dwrite(dataset, FileType<T>::memory(), memory, selected, collective, values.data()); });
+      on_all("writing " + name,
+             [&] { return H5Dwrite(dataset, FileType<T>::memory(), spaces.first, spaces.second, collective, values.data()); });
     const auto sum = checksum(values.data(), values.size_bytes());
     on_all("writing " + name, [&] { return hdf5::write_attribute(dataset, "crc32", sum); });
     return dataset;
@@ -131,10 +132,11 @@ struct CheckpointFile {
     const auto [rows, components] = shape(dataset);
     const hdf5::Handle space(H5Dget_space(dataset), H5Sclose), type(H5Dget_type(dataset), H5Tclose);
     if (H5Tequal(type, FileType<T>::file()) <= 0) fail(name + " holds other numbers than are asked for (integers or floating point)");
-    const auto [memory, selected] = selection(space, slab, components);
+    const auto spaces = selection(space, slab, components);
     std::vector<T> values(slab.count * components);
     if (rows > 0)
-      on_all("reading " + name, [&] { return H5Dread(dataset, FileType<T>::memory(), memory, selected, collective, values.data()); });
+      on_all("reading " + name,
+             [&] { return H5Dread(dataset, FileType<T>::memory(), spaces.first, spaces.second, collective, values.data()); });
     const auto written = hdf5::integer_attribute(dataset, "crc32");
     if (!written || checksum(values.data(), values.size() * sizeof(T)) != *written)
       fail(name + " does not have the checksum it was written with, the file is spoilt; remove it to resume from the other slot");

@@ -95,7 +95,7 @@ std::vector<int> rotor_solid(const PumpDimensions& pump) {
   const int disc = cylinder({0, 0, 0}, {0, 0, b2}, pump.sliding_radius());
   // The eye turns with the impeller: the leading edge, which reaches into it, stays off the interface.
   const int eye = cylinder({0, 0, b2}, {0, 0, pump.eye_length}, pump.inlet_diameter / 2);
-  const auto rotor = cut(fused({disc, eye}), {vane(pump)});
+  auto rotor = cut(fused({disc, eye}), {vane(pump)});
   occ::rotate(with_dimension(3, rotor), 0, 0, 0, 0, 0, 1, pump.rotor_angle);
   return rotor;
 }
