@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "app/command.hpp"
-#include "base/case_file.hpp"
+#include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/version.hpp"
+#include "base/words.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/words.hpp"
 #include "mesh/wall_surface.hpp"
 #include "parallel/session.hpp"
 
@@ -34,22 +35,6 @@ VtkPiece grid_of(const Mesh& mesh) {
   return piece;
 }
 
-VtkArray array_of(const std::string& name, const std::vector<double>& values, int n, bool single) {
-  return {name, 1, {values.begin(), values.begin() + n}, single};
-}
-
-VtkArray array_of(const std::string& name, const std::vector<Vec3>& values, int n, bool single) {
-  VtkArray array{name, 3, {}, single};
-  array.values.reserve(3 * static_cast<std::size_t>(n));
-  for (int c = 0; c < n; ++c) array.values.insert(array.values.end(), {values[c].x, values[c].y, values[c].z});
-  return array;
-}
-
-std::string numbered(const std::string& stem, std::int64_t number) {
-  std::string digits = std::to_string(number);
-  return stem + "_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
-}
-
 }  // namespace
 
 FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time)
@@ -61,10 +46,13 @@ FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool si
 
 void FieldOutput::write(const Flow& flow) {
   const int n = mesh_.n_cells, rank = rank_of(mesh_.comm), size = size_of(mesh_.comm);
-  piece_.cell_arrays = {array_of("velocity [m/s]", flow.velocity, n, single_precision_),
-                        array_of("pressure [Pa]", flow.pressure, n, single_precision_),
-                        array_of("solid_fraction [1]", flow.solid_fraction, n, single_precision_),
-                        array_of("reaction [N/m3]", flow.reaction, n, single_precision_),
+  const auto owned = [&](const std::string& name, const auto& values) {
+    return vtk_array(name, std::span(values).first(static_cast<std::size_t>(n)), single_precision_);
+  };
+  piece_.cell_arrays = {owned("velocity [m/s]", flow.velocity),
+                        owned("pressure [Pa]", flow.pressure),
+                        owned("solid_fraction [1]", flow.solid_fraction),
+                        owned("reaction [N/m3]", flow.reaction),
                         {"rank [1]", 1, std::vector<double>(n, rank), true}};
   piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
   const std::string stem = numbered("water", flow.time_step);

@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "app/sections.hpp"
+#include "base/parameter_text.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -15,36 +17,13 @@ std::string number(double value) {
   return out.str();
 }
 
-std::string list(const Vec3& v) { return "[" + number(v.x) + ", " + number(v.y) + ", " + number(v.z) + "]"; }
-
-template <class Range, class Print>
-std::string list(const Range& range, Print print) {
-  std::string text = "[";
-  for (const auto& element : range) text += (text.size() > 1 ? ", " : "") + print(element);
-  return text + "]";
+std::string default_text(const Parameter& p) {
+  const std::string text = toml_text(p.target, number);
+  return text.empty() ? "chosen" : text;
 }
 
-struct Default {
-  std::string operator()(const double* v) const { return number(*v); }
-  std::string operator()(const std::optional<double>* v) const { return *v ? number(**v) : "chosen"; }
-  std::string operator()(const int* v) const { return std::to_string(*v); }
-  std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
-  std::string operator()(const std::string* v) const { return "\"" + *v + "\""; }
-  std::string operator()(const Vec3* v) const { return list(*v); }
-  std::string operator()(const Mat3* v) const {
-    return list(*v, [](const Vec3& row) { return list(row); });
-  }
-  std::string operator()(const std::vector<double>* v) const { return list(*v, number); }
-  std::string operator()(const std::vector<Vec3>* v) const {
-    return list(*v, [](const Vec3& x) { return list(x); });
-  }
-  std::string operator()(const std::vector<std::string>* v) const {
-    return list(*v, [](const std::string& x) { return "\"" + x + "\""; });
-  }
-};
-
 std::string range(const Parameter& p) {
-  if (!p.choices.empty()) return list(p.choices, [](const std::string& word) { return word; });
+  if (!p.choices.empty()) return "[" + joined(p.choices) + "]";
   const bool low = p.minimum > -infinity, high = p.maximum < infinity;
   if (!low && !high) return "";
   return (low ? number(p.minimum) : "") + " ... " + (high ? number(p.maximum) : "");
@@ -59,7 +38,7 @@ std::string section_text(const Section& section) {
   text += "| key | unit | default | range | basis | meaning |\n|---|---|---|---|---|---|\n";
   for (const Parameter& p : section.parameters) {
     text += "| `" + key_with_unit(p) + "` | " + (p.unit == "1" ? "" : p.unit) + " | " +
-            (p.required ? std::string("required") : "`" + std::visit(Default{}, p.target) + "`") + " | " + range(p) + " | " +
+            (p.required ? std::string("required") : "`" + default_text(p) + "`") + " | " + range(p) + " | " +
             (p.unit.empty() ? "" : name(p.basis)) + " | " + p.meaning + " |\n";
   }
   return text + "\n";

@@ -1,34 +1,22 @@
 #include "app/rag_output.hpp"
 
+#include "base/words.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
 
 namespace {
 
-VtkArray scalars(const std::string& name, const std::vector<double>& values) { return {name, 1, values, true}; }
-
-VtkArray vectors(const std::string& name, const std::vector<Vec3>& values) {
-  VtkArray array{name, 3, {}, true};
-  array.values.reserve(3 * values.size());
-  for (const Vec3& v : values) array.values.insert(array.values.end(), {v.x, v.y, v.z});
-  return array;
-}
-
 std::vector<VtkArray> point_arrays(const RagSheet& sheet, const std::vector<Rag>& rags) {
   std::vector<double> radius;
-  for (const int rag : sheet.rag) radius.push_back(rags[rag].radius);
-  return {scalars("id [1]", {sheet.id.begin(), sheet.id.end()}),
-          scalars("rag [1]", {sheet.rag.begin(), sheet.rag.end()}),
-          vectors("velocity [m/s]", sheet.velocity),
-          scalars("tension [N]", sheet.tension),
-          scalars("strain [1]", sheet.strain),
-          scalars("radius [m]", radius)};
-}
-
-std::string numbered(const std::string& stem, std::int64_t number) {
-  const std::string digits = std::to_string(number);
-  return stem + "_" + std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + ".vtp";
+  for (const int index : sheet.rag) radius.push_back(rags[index].radius);
+  const std::vector<double> id(sheet.id.begin(), sheet.id.end()), rag(sheet.rag.begin(), sheet.rag.end());
+  return {vtk_array("id [1]", id),
+          vtk_array("rag [1]", rag),
+          vtk_array("velocity [m/s]", sheet.velocity),
+          vtk_array("tension [N]", sheet.tension),
+          vtk_array("strain [1]", sheet.strain),
+          vtk_array("radius [m]", radius)};
 }
 
 }  // namespace
@@ -55,10 +43,11 @@ void RagOutput::write(const RagSystem& rags, std::int64_t time_step, double time
       dots.connectivity.push_back(static_cast<std::int64_t>(i));
       dots.offsets.push_back(static_cast<std::int64_t>(i) + 1);
     }
-    write_vtk(folder_ / numbered("rags", time_step), VtkKind::polygons, piece);
-    write_vtk(folder_ / numbered("particles", time_step), VtkKind::vertices, dots);
-    sheets_.add(time, numbered("rags", time_step));
-    particles_.add(time, numbered("particles", time_step));
+    const std::string rags_file = numbered("rags", time_step) + ".vtp", particles_file = numbered("particles", time_step) + ".vtp";
+    write_vtk(folder_ / rags_file, VtkKind::polygons, piece);
+    write_vtk(folder_ / particles_file, VtkKind::vertices, dots);
+    sheets_.add(time, rags_file);
+    particles_.add(time, particles_file);
 
     silhouettes_.clear();
     for (std::size_t rag = 0; rag < rags.rags().size(); ++rag) {

@@ -11,6 +11,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -18,13 +19,13 @@ namespace {
 
 constexpr std::size_t log_tail = 6000;  // bytes
 
-std::string problem(const std::string& text) { return "<p class=\"problem\">" + html::escaped(text) + "</p>\n"; }
+std::string problem(const std::string& text) { return "<p class=\"problem\">" + escaped(text) + "</p>\n"; }
 
 std::string picture_section(const Pictures& pictures) {
   std::string instants, slices, unreadable;
   for (const auto& picture : pictures.made) {
     try {
-      const auto caption = html::escaped(picture.caption);
+      const auto caption = escaped(picture.caption);
       const auto image = "<img src=\"" + html::embedded_png(picture.file) + "\" alt=\"" + caption + "\">";
       if (picture.group == "rag")  // the time stands in the picture
         instants += "<figure>" + image + "</figure>\n";
@@ -52,7 +53,7 @@ std::string plot_section(const MonitorPlots& monitors) {
   for (const auto& plot : monitors.plots) content += figure(plot);
   if (!content.empty()) content = "<div class=\"plots\">\n" + content + "</div>\n";
   std::vector<std::vector<std::string>> constants;
-  for (const auto& [title, value] : monitors.constants) constants.push_back({html::escaped(title), html::number(value)});
+  for (const auto& [title, value] : monitors.constants) constants.push_back({escaped(title), html::number(value)});
   if (!constants.empty()) content += html::table({"Kept one value throughout", "Value"}, constants);
   for (const auto& text : monitors.problems) content += problem("A monitor could not be drawn: " + text);
   return content;
@@ -74,7 +75,7 @@ std::string paraview_section(const std::filesystem::path& dir) {
 }
 
 std::string folded(const std::string& title, const std::string& text) {
-  return text.empty() ? "" : "<details><summary>" + title + "</summary>\n<pre>" + html::escaped(text) + "</pre></details>\n";
+  return text.empty() ? "" : "<details><summary>" + title + "</summary>\n<pre>" + escaped(text) + "</pre></details>\n";
 }
 
 std::string tail(const std::string& text) {
@@ -92,8 +93,8 @@ std::string today() {
 }
 
 std::string heading(const nlohmann::json& summary, const std::string& title) {
-  std::string content = "<h1>" + html::escaped(title) + "</h1>\n<p class=\"origin\">Report of a Snag run, made " + today() +
-                        " by version " + version_number + " (" + version_git + ")</p>\n";
+  std::string content = "<h1>" + escaped(title) + "</h1>\n<p class=\"origin\">Report of a Snag run, made " + today() + " by version " +
+                        version_number + " (" + version_git + ")</p>\n";
   if (summary.is_object())
     return content + "<p class=\"outcome" + (ended_well(summary) ? "" : " bad") + "\">" + outcome_sentence(summary) + "</p>\n";
   return content +
@@ -105,7 +106,7 @@ std::string heading(const nlohmann::json& summary, const std::string& title) {
 }  // namespace
 
 void write_report(const std::filesystem::path& dir) {
-  const auto summary = nlohmann::json::parse(html::file_text(dir / "summary.json"), nullptr, false);
+  const auto summary = nlohmann::json::parse(file_text(dir / "summary.json").value_or(""), nullptr, false);
   if (!summary.is_object() && !std::filesystem::exists(dir / "monitors") && !std::filesystem::exists(dir / "case.resolved.toml"))
     throw Error(ExitCode::io, dir.string() +
                                   ": holds neither summary.json, monitors nor case.resolved.toml, it must be the output folder of a run; "
@@ -116,7 +117,7 @@ void write_report(const std::filesystem::path& dir) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: " +
-      html::escaped(title) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n";
+      escaped(title) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n";
   page += heading(summary, title);
   page += section("What was run", run_table(summary));
   page += section("Results", pump_table(summary) + rag_tables(summary));
@@ -126,8 +127,8 @@ void write_report(const std::filesystem::path& dir) {
   page += section("What it cost", cost_table(summary));
   page += section("A closer look with ParaView", paraview_section(dir));
   page += section("The case and the log",
-                  folded("The case with all its defaults (case.resolved.toml)", html::file_text(dir / "case.resolved.toml")) +
-                      folded("The end of the log (log.txt)", tail(html::file_text(dir / "log.txt"))));
+                  folded("The case with all its defaults (case.resolved.toml)", file_text(dir / "case.resolved.toml").value_or("")) +
+                      folded("The end of the log (log.txt)", tail(file_text(dir / "log.txt").value_or(""))));
   page += "</body>\n</html>\n";
   write_atomically(dir / "report.html", page);
 }

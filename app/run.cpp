@@ -10,6 +10,7 @@
 #include "base/log.hpp"
 #include "base/progress.hpp"
 #include "base/version.hpp"
+#include "base/words.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 
@@ -148,7 +149,7 @@ ExitCode run_case(const RunOptions& options) {
   Outputs outputs(folder, file, simulation, options.resume);
   if (reader) {
     outputs.load(*reader);
-    log::info("resumed at " + std::to_string(simulation.time()) + " s");
+    log::info("resumed at " + words(simulation.time()) + " s");
     reader.reset();
   } else {
     outputs.initial();

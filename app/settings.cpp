@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -18,7 +19,7 @@ Section MeshSettings::section() {
           "water.",
           {setting("file", &file, "Mesh file, relative to the case file."),
            {"scale", &scale, "1", 1e-9, 1e9, Basis::assumed, "Metres in one unit of length of the file (0.001 for millimetres)."},
-           setting("geometry", &geometry, "Instead of a file: the mesh is made in the output folder before the run, as by `snag mesh`.",
+           setting("geometry", &geometry, "Instead of a file: the mesh is made for this run, as by `snag mesh`.",
                    {"", "pump", "pipe", "channel", "box", "tank"}),
            setting("parameters", &parameters, "Parameter file of the geometry, relative to the case file; not given: its defaults.")}};
 }
@@ -44,8 +45,8 @@ std::int64_t TimeSettings::n_steps() const {
   const double steps = end / step;
   const auto n = std::llround(steps);
   if (std::abs(steps - static_cast<double>(n)) > 1e-6)
-    throw Error(ExitCode::usage, "[time] end_s = " + std::to_string(end) + " is " + std::to_string(steps) + " steps of step_s = " +
-                                     std::to_string(step) + ", but must be a whole number of them; change one of the two");
+    throw Error(ExitCode::usage, "[time] end_s = " + words(end) + " is " + std::to_string(steps) + " steps of step_s = " + words(step) +
+                                     ", but must be a whole number of them; change one of the two");
   return n;
 }
 

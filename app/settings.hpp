@@ -20,7 +20,7 @@ struct CaseSettings {
 struct MeshSettings {
   std::string file;  // relative to the case file; without file and geometry: no mesh (particles only, or a prescribed flow)
   double scale = 1;
-  std::string geometry;    // "channel", "pump" ...: made by snag-mesh into the output folder before the run
+  std::string geometry;    // "channel", "pump" ...: made by snag-mesh for this run
   std::string parameters;  // its parameter file, relative to the case file
   Section section();
 };

@@ -20,7 +20,9 @@ struct TemporaryMesh {
   std::filesystem::path file;
   ~TemporaryMesh() {
     std::error_code ignored;
-    if (!file.empty()) std::filesystem::remove(file, ignored);
+    if (file.empty()) return;
+    std::filesystem::remove(file, ignored);
+    std::filesystem::remove(file.replace_extension(".resolved.toml"), ignored);  // what snag-mesh writes beside it
   }
 };
 
@@ -34,7 +36,7 @@ void read(const Table& root, Settings& settings) {
 std::filesystem::path made_mesh(const MeshSettings& settings, const CaseFile& file) {
   int process = static_cast<int>(getpid());
   MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
-  const auto path = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(process) + ".msh");
+  auto path = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(process) + ".msh");
   std::vector<std::string> arguments{settings.geometry};
   if (!settings.parameters.empty()) arguments.push_back(file.path(settings.parameters).string());
   arguments.insert(arguments.end(), {"--out", path.string()});

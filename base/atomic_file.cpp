@@ -1,11 +1,19 @@
 #include "base/atomic_file.hpp"
 
 #include <fstream>
-#include <string>
+#include <iterator>
 
 #include "base/error.hpp"
 
 namespace snag {
+
+std::optional<std::string> file_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) return {};
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (in.bad()) return {};
+  return text;
+}
 
 void write_atomically(const std::filesystem::path& file, std::string_view content) {
   auto temporary = file;

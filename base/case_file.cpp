@@ -3,17 +3,19 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cmath>
-#include <fstream>
-#include <limits>
+#include <map>
 #include <set>
-#include <sstream>
 
 #include <toml++/toml.h>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/parameter_reading.hpp"
+#include "base/parameter_text.hpp"
 #include "base/units.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -35,6 +37,9 @@ struct CaseNode {
   std::vector<std::string> table_order;                       // of reading
   std::set<std::string> repeated;                             // tables that are written as [[name]]
 
+  void note_read(const std::string& table) {
+    if (std::find(table_order.begin(), table_order.end(), table) == table_order.end()) table_order.push_back(table);
+  }
   std::string where() const { return file + (line > 0 ? ":" + std::to_string(line) : "") + (name.empty() ? "" : ": [" + name + "]"); }
 };
 
@@ -47,8 +52,9 @@ bool is_table_array(const toml::array& array) {
 void fill(CaseNode& node, const toml::table& table) {
   node.present = true;
   if (node.line == 0) node.line = static_cast<int>(table.source().begin.line);
-  for (const auto& [key_view, value] : table) {
-    const std::string key(key_view.str());
+  for (auto&& entry : table) {
+    const std::string key(entry.first.str());
+    const toml::node& value = entry.second;
     const auto child = [&](const toml::table& sub) {
       auto made = std::make_unique<CaseNode>();
       made->name = node.name.empty() ? key : node.name + "." + key;
@@ -89,13 +95,7 @@ void apply_override(toml::table& root, const std::string& text) {
       throw fail("has a value that is no TOML");
     }
   }
-  std::vector<std::string> steps(1);
-  for (const char c : path) {
-    if (c == '.')
-      steps.emplace_back();
-    else
-      steps.back() += c;
-  }
+  const std::vector<std::string> steps = split(path, '.');
   toml::node* at = &root;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::string& step = steps[i];
@@ -123,144 +123,6 @@ void apply_override(toml::table& root, const std::string& text) {
     }
   }
 }
-
-std::string text_of(double value) {
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  char buffer[32];
-  const auto [end, code] = std::to_chars(buffer, buffer + sizeof buffer, value);
-  std::string text(buffer, end);
-  if (text.find_first_of(".en") == std::string::npos) text += ".0";
-  return text;
-}
-
-std::string quoted(const std::string& value) {
-  std::ostringstream out;
-  out << toml::value<std::string>(value);
-  return out.str();
-}
-
-std::string text_of(const Vec3& v) { return "[" + text_of(v.x) + ", " + text_of(v.y) + ", " + text_of(v.z) + "]"; }
-
-template <class Range, class Print>
-std::string list_text(const Range& range, Print print) {
-  std::string text = "[";
-  for (const auto& element : range) text += (text.size() > 1 ? ", " : "") + print(element);
-  return text + "]";
-}
-
-// One reading of one parameter from one node of TOML.
-class Reading {
- public:
-  Reading(const Parameter& parameter, std::string factor_unit, std::string where)
-      : parameter_(parameter), factor_unit_(std::move(factor_unit)), where_(std::move(where)) {}
-
-  void into_target(const toml::node& node) const {
-    std::visit([&](auto* target) { read(node, *target); }, parameter_.target);
-  }
-
- private:
-  Error wrong(const std::string& found, const std::string& rule) const {
-    return {ExitCode::usage, where_ + " is " + found + ", but " + rule};
-  }
-  static std::string shown(const toml::node& node) {
-    std::ostringstream out;
-    node.visit([&](const auto& concrete) { out << concrete; });
-    return out.str();
-  }
-
-  double number(const toml::node& node) const {
-    double value = 0;
-    if (const auto* text = node.as_string()) {
-      value = quantity(text->get(), parameter_.unit, where_);
-    } else if (node.is_number()) {
-      if (factor_unit_.empty() && parameter_.unit != "1")
-        throw wrong(shown(node) + " without a unit", "a unit is needed; write " + key_with_unit(parameter_) + " = " + shown(node) + " or " +
-                                                         parameter_.key + " = \"" + shown(node) + " " + parameter_.unit + "\"");
-      value = *node.value<double>() * (factor_unit_.empty() ? 1 : parse_unit(factor_unit_)->factor);
-    } else {
-      throw wrong(shown(node), "it must be a number");
-    }
-    if (std::isnan(value) || value < parameter_.minimum || value > parameter_.maximum)
-      throw wrong(shown(node), "it must lie between " + text_of(parameter_.minimum) + " and " + text_of(parameter_.maximum) +
-                                   (parameter_.unit == "1" ? "" : " " + parameter_.unit));
-    return value;
-  }
-  const toml::array& array(const toml::node& node, std::size_t size) const {
-    const auto* found = node.as_array();
-    if (!found || (size > 0 && found->size() != size))
-      throw wrong(shown(node), size > 0 ? "it must be a list of " + std::to_string(size) : "it must be a list");
-    return *found;
-  }
-  void check_choice(const std::string& word) const {
-    if (parameter_.choices.empty() || std::find(parameter_.choices.begin(), parameter_.choices.end(), word) != parameter_.choices.end())
-      return;
-    const std::string near = nearest_name(word, parameter_.choices);
-    throw wrong("\"" + word + "\"",
-                "it must be one of " + joined(parameter_.choices) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-  }
-
-  void read(const toml::node& node, double& target) const { target = number(node); }
-  void read(const toml::node& node, std::optional<double>& target) const { target = number(node); }
-  void read(const toml::node& node, int& target) const {
-    if (!node.is_integer()) throw wrong(shown(node), "it must be a whole number");
-    const auto value = *node.value<std::int64_t>();
-    if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
-      throw wrong(shown(node), "it must lie between -2147483648 and 2147483647");
-    target = static_cast<int>(number(node));
-  }
-  void read(const toml::node& node, bool& target) const {
-    if (!node.is_boolean()) throw wrong(shown(node), "it must be true or false");
-    target = *node.value<bool>();
-  }
-  void read(const toml::node& node, std::string& target) const {
-    if (!node.is_string()) throw wrong(shown(node), "it must be a text in quotes");
-    check_choice(*node.value<std::string>());
-    target = *node.value<std::string>();
-  }
-  void read(const toml::node& node, Vec3& target) const {
-    const auto& list = array(node, 3);
-    for (int i = 0; i < 3; ++i) target[i] = number(list[i]);
-  }
-  void read(const toml::node& node, Mat3& target) const {
-    const auto& list = array(node, 3);
-    for (int i = 0; i < 3; ++i) read(list[i], target[i]);
-  }
-  void read(const toml::node& node, std::vector<double>& target) const {
-    target.clear();
-    for (const toml::node& element : array(node, 0)) target.push_back(number(element));
-  }
-  void read(const toml::node& node, std::vector<Vec3>& target) const {
-    target.clear();
-    for (const toml::node& element : array(node, 0)) read(element, target.emplace_back());
-  }
-  void read(const toml::node& node, std::vector<std::string>& target) const {
-    target.clear();
-    for (const toml::node& element : array(node, 0)) read(element, target.emplace_back());
-  }
-
-  const Parameter& parameter_;
-  std::string factor_unit_;  // of a number whose unit stands in the key
-  std::string where_;
-};
-
-struct Resolve {
-  std::string operator()(const double* v) const { return text_of(*v); }
-  std::string operator()(const std::optional<double>* v) const { return *v ? text_of(**v) : ""; }
-  std::string operator()(const int* v) const { return std::to_string(*v); }
-  std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
-  std::string operator()(const std::string* v) const { return quoted(*v); }
-  std::string operator()(const Vec3* v) const { return text_of(*v); }
-  std::string operator()(const Mat3* v) const {
-    return list_text(*v, [](const Vec3& row) { return text_of(row); });
-  }
-  std::string operator()(const std::vector<double>* v) const {
-    return list_text(*v, [](double x) { return text_of(x); });
-  }
-  std::string operator()(const std::vector<Vec3>* v) const {
-    return list_text(*v, [](const Vec3& x) { return text_of(x); });
-  }
-  std::string operator()(const std::vector<std::string>* v) const { return list_text(*v, quoted); }
-};
 
 // Unit that a key of the file carries for this parameter: "" for the bare key, nothing if the key is another one.
 std::optional<std::string> unit_in_key(const std::string& key, const Parameter& parameter) {
@@ -341,12 +203,12 @@ Table Table::table(const std::string& name) const {
     list.front()->name = node_->name.empty() ? name : node_->name + "." + name;
     list.front()->file = node_->file;
   }
-  if (std::find(node_->table_order.begin(), node_->table_order.end(), name) == node_->table_order.end()) node_->table_order.push_back(name);
+  node_->note_read(name);
   return {root_, list.front().get()};
 }
 
 std::vector<Table> Table::tables(const std::string& name) const {
-  if (std::find(node_->table_order.begin(), node_->table_order.end(), name) == node_->table_order.end()) node_->table_order.push_back(name);
+  node_->note_read(name);
   node_->repeated.insert(name);
   std::vector<Table> all;
   const auto found = node_->tables.find(name);
@@ -369,11 +231,11 @@ void Table::read(const std::vector<Parameter>& parameters) const {
         throw Error(ExitCode::usage, where + " is given twice, as " + found_key + " and " + key + "; keep one of them");
       found_key = key;
       node_->used.insert(key);
-      Reading(parameter, *unit, where).into_target(*value.node);
+      read_parameter(parameter, *unit, *value.node, where);
     }
     if (found_key.empty() && parameter.required)
       throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
-    const std::string text = std::visit(Resolve{}, parameter.target);
+    const std::string text = toml_text(parameter.target);
     if (!text.empty() && !again) node_->resolved.emplace_back(known_spelling(parameter), text);
   }
 }
@@ -384,7 +246,7 @@ std::vector<std::pair<std::string, double>> Table::numbers() const {
     const auto number = value.node->value<double>();
     if (!number) throw Error(ExitCode::usage, node_->where() + " " + key + " must be a number");
     node_->used.insert(key);
-    node_->resolved.emplace_back(quoted(key), text_of(*number));
+    node_->resolved.emplace_back(toml_text(key), toml_text(*number));
     all.emplace_back(key, *number);
   }
   return all;
@@ -393,10 +255,9 @@ std::vector<std::pair<std::string, double>> Table::numbers() const {
 std::string Table::where() const { return node_->where(); }
 
 CaseFile CaseFile::read(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(ExitCode::io, path.string() + ": the case file cannot be read; check the path");
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  CaseFile made = parse(text, path.string(), overrides);
+  const auto text = file_text(path);
+  if (!text) throw Error(ExitCode::io, path.string() + ": the case file cannot be read; check the path");
+  CaseFile made = parse(*text, path.string(), overrides);
   made.file_ = path;
   return made;
 }
@@ -444,32 +305,6 @@ std::string CaseFile::sha256() const {
 std::filesystem::path CaseFile::path(const std::string& relative) const {
   const std::filesystem::path given(relative);
   return given.is_absolute() ? given : file_.parent_path() / given;
-}
-
-std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates) {
-  std::string best;
-  std::size_t best_distance = word.size() / 2 + 1;
-  for (const std::string& candidate : candidates) {
-    std::vector<std::size_t> row(candidate.size() + 1);
-    for (std::size_t j = 0; j <= candidate.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= word.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t above = row[j];
-        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (word[i - 1] == candidate[j - 1] ? 0 : 1)});
-        diagonal = above;
-      }
-    }
-    if (row.back() < best_distance) best_distance = row.back(), best = candidate;
-  }
-  return best;
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 }  // namespace snag

@@ -62,9 +62,4 @@ class CaseFile {
   std::shared_ptr<CaseNode> root_;
 };
 
-/// The candidate nearest to a misspelt word (edit distance), or "" if none is near.
-std::string nearest_name(std::string_view word, const std::vector<std::string>& candidates);
-/// "a, b, c".
-std::string joined(const std::vector<std::string>& words);
-
 }  // namespace snag

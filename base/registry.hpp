@@ -8,6 +8,7 @@
 
 #include "base/case_file.hpp"
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 

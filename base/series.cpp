@@ -3,21 +3,14 @@
 #include <charconv>
 #include <cstdio>
 #include <optional>
-#include <sstream>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
 namespace {
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> parts;
-  std::istringstream in(line);
-  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-  return parts;
-}
 
 std::string header_line(const std::vector<std::string>& columns) {
   std::string line;
@@ -27,7 +20,7 @@ std::string header_line(const std::vector<std::string>& columns) {
 
 /// The numbers of a line, or nothing if it is not n of them.
 std::optional<std::vector<double>> numbers(const std::string& line, std::size_t n) {
-  const auto parts = split(line);
+  const auto parts = split(line, ',');
   if (parts.size() != n) return {};
   std::vector<double> values(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -46,7 +39,7 @@ std::string for_each_record(const std::filesystem::path& file, Record record) {
   if (!in) throw Error(ExitCode::io, file.string() + ": cannot be read; is this the folder of a run?");
   std::string header, line;
   if (!std::getline(in, header) || in.eof()) return "";
-  const auto n_columns = split(header).size();
+  const auto n_columns = split(header, ',').size();
   for (std::size_t number = 2; std::getline(in, line) && !in.eof(); ++number) {
     const auto values = numbers(line, n_columns);
     if (!values)
@@ -105,7 +98,9 @@ const std::vector<double>& SeriesTable::column(const std::string& name) const {
 SeriesTable read_series(const std::filesystem::path& file) {
   std::vector<std::vector<double>> records;
   SeriesTable table;
-  table.columns = split(for_each_record(file, [&](const std::string&, const std::vector<double>& values) { records.push_back(values); }));
+  const std::string header =
+      for_each_record(file, [&](const std::string&, const std::vector<double>& values) { records.push_back(values); });
+  if (!header.empty()) table.columns = split(header, ',');
   table.values.resize(table.columns.size());
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     for (const auto& record : records) table.values[i].push_back(record[i]);

@@ -1,8 +1,8 @@
 // XML VTK: a header of XML, then all arrays as "appended raw" bytes.
 //
 //   <AppendedData encoding="raw">_ array_0 array_1 ... </AppendedData>      each array at its `offset`, counted from behind the underscore
-//   array = UInt64 n_blocks, block_size, size of the last block if it is shorter (else 0), compressed size of each block; then the blocks
-//   (zlib)
+//   array = UInt64 n_blocks, block_size, size of the last block if it is shorter (else 0), compressed size of each block;
+//           then the blocks (zlib)
 //
 // Source: "VTK File Formats" of the VTK manual, section XML; numbers in the byte order of this machine, named in the file.
 #include "base/vtk_file.hpp"
@@ -19,6 +19,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/series.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -30,29 +31,6 @@ const char* byte_order() { return std::endian::native == std::endian::little ? "
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   throw Error(ExitCode::io, file.string() + ": " + what);
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 std::string unescaped(std::string text) {
@@ -174,6 +152,17 @@ std::string piece_opening(VtkKind kind, const VtkPiece& piece) {
 const char* kind_name(VtkKind kind) { return kind == VtkKind::unstructured_grid ? "UnstructuredGrid" : "PolyData"; }
 
 }  // namespace
+
+VtkArray vtk_array(const std::string& name, std::span<const double> values, bool single) {
+  return {name, 1, {values.begin(), values.end()}, single};
+}
+
+VtkArray vtk_array(const std::string& name, std::span<const Vec3> values, bool single) {
+  VtkArray array{name, 3, {}, single};
+  array.values.reserve(3 * values.size());
+  for (const Vec3& v : values) array.values.insert(array.values.end(), {v.x, v.y, v.z});
+  return array;
+}
 
 void write_vtk(const std::filesystem::path& file, VtkKind kind, const VtkPiece& given) {
   if (kind == VtkKind::vertices && given.offsets.empty() && !given.points.empty()) {  // plain points: each its own vertex

@@ -18,6 +18,10 @@ struct VtkArray {
   bool single = true;
 };
 
+/// Numbers or vectors as an array.
+VtkArray vtk_array(const std::string& name, std::span<const double> values, bool single = true);
+VtkArray vtk_array(const std::string& name, std::span<const Vec3> values, bool single = true);
+
 /// Unstructured grid (.vtu) or poly data (.vtp) of one rank.
 struct VtkPiece {
   std::vector<Vec3> points;

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "base/words.hpp"
+
 namespace snag {
 
 Particles::Particles(const Rag& rag_, const Tile& tile_)
@@ -64,7 +66,7 @@ ReferenceCase drag_at(double Re, double drag_coefficient, double tolerance, cons
   const double d = state.diameter, rho = state.fluid_density;
   const double speed = Re * state.dynamic_viscosity / (rho * d);
   state.velocity = {-speed, 0, 0};
-  return {.what = "sphere at Re = " + std::to_string(Re),
+  return {.what = "sphere at Re = " + words(Re),
           .source = source,
           .state = state,
           .force = {0.5 * rho * drag_coefficient * std::numbers::pi / 4 * d * d * speed * speed, 0, 0},

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "dem/rag_system.hpp"
 
 namespace snag {
@@ -67,7 +68,7 @@ std::vector<BondCount> RagSystem::check() const {
 
   if (first_bad != none)
     throw Error(ExitCode::diverged, "rags: particle " + std::to_string(first_bad) +
-                                        " has a position or velocity that is no number at t = " + std::to_string(time_) +
+                                        " has a position or velocity that is no number at t = " + words(time_) +
                                         " s; use a shorter step ([dem] step or safety) or a softer force");
   for (std::size_t t = 0; t < owner_.size(); ++t) {
     if (count[n_counts * n_rags + t] == 1) continue;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "dem/rag_settings.hpp"
 
 namespace snag {
@@ -13,12 +14,6 @@ namespace {
 
 using Shape = RagSettings::Shape;
 constexpr double pi = std::numbers::pi;
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 /// Jensen (2018) Tables 3.3 (lengthwise) and 3.4 (crosswise); r_p in m, stiffness in N/m3, strength in Pa.
 constexpr int n_published = 3;
@@ -105,7 +100,7 @@ void set_bonds(const RagSettings& s, const std::string& where, Rag& rag) {
 BondProperties published_bond(double radius, int direction) {
   const double slack = 1e-9;
   if (radius < published_radius[0] * (1 - slack) || radius > published_radius[n_published - 1] * (1 + slack))
-    throw Error(ExitCode::usage, "published bond properties: radius of " + text_of(radius) +
+    throw Error(ExitCode::usage, "published bond properties: radius of " + words(radius) +
                                      " m is outside 1.0 to 2.0 mm, the range of the tables; use such a radius or properties = \"given\"");
   const int i = radius < published_radius[1] ? 0 : 1;
   const BondProperties &a = published[direction][i], &b = published[direction][i + 1];
@@ -158,7 +153,7 @@ std::vector<ParticlePose> read_pose_file(const std::filesystem::path& file, cons
     const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (id < 0 || static_cast<std::size_t>(id) >= n || given[id])
       fail(number, "id " + std::to_string(id) + " is out of 0 .. " + std::to_string(n - 1) + " or given twice");
-    if (!(std::abs(length - 1) < 1e-3)) fail(number, "quaternion of length " + text_of(length) + ", a unit quaternion is needed");
+    if (!(std::abs(length - 1) < 1e-3)) fail(number, "quaternion of length " + words(length) + ", a unit quaternion is needed");
     poses[id] = {x, {q.w / length, q.x / length, q.y / length, q.z / length}};
     given[id] = true, ++count;
   }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/tile_halo.hpp"
 #include "parallel/session.hpp"
@@ -13,13 +13,6 @@
 namespace snag {
 
 namespace {
-
-std::string text_of(double value) {
-  std::ostringstream text;
-  text.precision(4);
-  text << value;
-  return text.str();
-}
 
 Inertia inertia_of(const Rag& rag, const Vec3& gravity) { return {rag.mass, rag.inertia, gravity}; }
 
@@ -77,7 +70,7 @@ void RagSystem::set_limit() {
   }
   if (contacts_ && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
   if (settings_.step && *settings_.step > limit_.step)
-    throw Error(ExitCode::usage, "[dem] step: " + text_of(*settings_.step) + " s is above the stable step of " + text_of(limit_.step) +
+    throw Error(ExitCode::usage, "[dem] step: " + words(*settings_.step) + " s is above the stable step of " + words(limit_.step) +
                                      " s, set by " + limit_.reason + "; give a shorter step, or none to let Snag choose");
 }
 

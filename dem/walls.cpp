@@ -1,6 +1,7 @@
 #include "dem/walls.hpp"
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -50,9 +51,8 @@ void WallSet::add_plane(const std::string& name, const Vec3& point, const Vec3& 
 void WallSet::add_box(const std::string& name, const Vec3& lower, const Vec3& upper, const WallMotion& motion) {
   for (int d = 0; d < 3; ++d)
     if (!(lower[d] < upper[d]))
-      throw Error(ExitCode::usage, "wall \"" + name + "\": lower (" + std::to_string(lower[d]) + " m) is not below upper (" +
-                                       std::to_string(upper[d]) + " m) along axis " + std::to_string(d) +
-                                       ", a box needs an inside; exchange or correct them");
+      throw Error(ExitCode::usage, "wall \"" + name + "\": lower (" + words(lower[d]) + " m) is not below upper (" + words(upper[d]) +
+                                       " m) along axis " + std::to_string(d) + ", a box needs an inside; exchange or correct them");
   check_motion(name, motion);
   WallBody body{name, motion, {}, {}};
   for (int d = 0; d < 3; ++d) {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "mesh/geometry.hpp"
-#include "mesh/place.hpp"
 #include "mesh/shapes.hpp"
 #include "parallel/session.hpp"
 

@@ -1,8 +1,8 @@
 // A cell is the intersection of the inner sides of its faces. The side of a point p at a face with vector S and centre x_f is the sign of
 //
 //   triangle:       S.(p - x_f)
-//   quadrilateral:  S_t.(p - m), where t is the triangle (a, b, m) of the face, m the mean of its nodes, in whose sector about m along S
-//   the point lies:
+//   quadrilateral:  S_t.(p - m), where t is the triangle (a, b, m) of the face, m the mean of its nodes, in whose sector
+//                   about m along S the point lies:
 //                   ((a - m) x (p - m)).S >= 0  and  ((p - m) x (b - m)).S >= 0
 //
 // This number belongs to the face, not to a cell: what one cell rejects its neighbour accepts, also across ranks.
@@ -12,20 +12,10 @@
 #include <limits>
 
 #include "mesh/geometry.hpp"
-#include "nanoflann.hpp"
+#include "mesh/point_tree.hpp"
 
 namespace snag {
 namespace {
-
-struct OwnedCentres {  // what nanoflann reads
-  const Mesh& mesh;
-  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(mesh.n_cells); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return mesh.cell_centre[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
 
 /// Collects all cells within a radius.
 struct CellsWithin {
@@ -60,11 +50,8 @@ struct NearestCell {
 
 }  // namespace
 
-struct CellLocator::CentreTree {
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, OwnedCentres>, OwnedCentres, 3>;
-  OwnedCentres centres;
-  Tree tree;
-  explicit CentreTree(const Mesh& mesh) : centres{mesh}, tree(3, centres) {}
+struct CellLocator::CentreTree : PointTree {
+  using PointTree::PointTree;
 };
 
 CellLocator::CellLocator(const Mesh& mesh) : mesh_(mesh) {
@@ -76,7 +63,7 @@ CellLocator::CellLocator(const Mesh& mesh) : mesh_(mesh) {
       upper_[axis] = std::max(upper_[axis], mesh.node[node][axis]);
     }
   if (mesh.n_cells == 0) return;
-  centres_ = std::make_unique<CentreTree>(mesh);
+  centres_ = std::make_unique<CentreTree>(mesh.cell_centre, static_cast<std::size_t>(mesh.n_cells));
   fill_bins();
 }
 
@@ -176,13 +163,13 @@ int CellLocator::find(const Vec3& point, int hint) const {
 void CellLocator::within(const Vec3& point, double radius, std::vector<int>& cells) const {
   if (!centres_) return;
   CellsWithin result{radius * radius * (1 + 1e-14), cells};
-  centres_->tree.findNeighbors(result, &point.x, nanoflann::SearchParams());
+  (*centres_)->findNeighbors(result, &point.x, nanoflann::SearchParams());
 }
 
 int CellLocator::nearest(const Vec3& point) const {
   if (!centres_) return -1;
   NearestCell result{mesh_};
-  centres_->tree.findNeighbors(result, &point.x, nanoflann::SearchParams());
+  (*centres_)->findNeighbors(result, &point.x, nanoflann::SearchParams());
   return result.cell;
 }
 

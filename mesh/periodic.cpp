@@ -9,10 +9,11 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/geometry.hpp"
-#include "mesh/place.hpp"
-#include "nanoflann.hpp"
+#include "mesh/point_tree.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -32,24 +33,11 @@ struct Record {
   double size;
 };
 
-struct Centres {  // what nanoflann reads: records [begin, end) of one patch
-  const Record* records;
-  std::size_t count;
-  std::size_t kdtree_get_point_count() const { return count; }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return records[i].centre[static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using CentreTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Centres>, Centres, 3>;
-
 int patch_named(const MeshParts& parts, const std::string& name) {
   const auto found = std::find(parts.patches.begin(), parts.patches.end(), name);
   if (found != parts.patches.end()) return static_cast<int>(found - parts.patches.begin());
-  std::string known;
-  for (const auto& patch : parts.patches) known.append(known.empty() ? "" : ", ").append(patch);
-  throw Error(ExitCode::mesh, parts.source + ": periodic patch \"" + name + "\" is not in the mesh; its patches are " + known);
+  throw Error(ExitCode::mesh,
+              parts.source + ": periodic patch \"" + name + "\" is not in the mesh; its patches are " + joined(parts.patches));
 }
 
 Record record_of(const MeshParts& parts, const LocalFace& face, int index) {
@@ -65,7 +53,7 @@ Record record_of(const MeshParts& parts, const LocalFace& face, int index) {
 }
 
 /// The records of all ranks, sorted by pair, side and cell: the same array everywhere.
-std::vector<Record> gathered(const MeshParts& parts, const std::vector<LocalFace>& faces) {
+std::vector<Record> sorted_records(const MeshParts& parts, const std::vector<LocalFace>& faces) {
   std::map<int, std::pair<int, int>> place_of_patch;  // patch -> pair, side
   for (int p = 0; p < static_cast<int>(parts.periodic.size()); ++p) {
     place_of_patch[patch_named(parts, parts.periodic[p].first)] = {p, 0};
@@ -78,13 +66,7 @@ std::vector<Record> gathered(const MeshParts& parts, const std::vector<LocalFace
     mine.push_back(record_of(parts, faces[f], f));
     std::tie(mine.back().pair, mine.back().side) = found->second;
   }
-  const int size = size_of(parts.comm);
-  int bytes = static_cast<int>(mine.size() * sizeof(Record));
-  std::vector<int> count(size), start(size + 1, 0);
-  MPI_Allgather(&bytes, 1, MPI_INT, count.data(), 1, MPI_INT, parts.comm);
-  for (int r = 0; r < size; ++r) start[r + 1] = start[r] + count[r];
-  std::vector<Record> all(static_cast<std::size_t>(start[size]) / sizeof(Record));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), count.data(), start.data(), MPI_BYTE, parts.comm);
+  std::vector<Record> all = gathered(parts.comm, mine);
   std::sort(all.begin(), all.end(), [](const Record& a, const Record& b) {
     return std::tie(a.pair, a.side, a.cell_id, a.node_id) < std::tie(b.pair, b.side, b.cell_id, b.node_id);
   });
@@ -108,13 +90,14 @@ std::vector<int> partners(const MeshParts& parts, std::span<const Record> first,
   std::vector<int> partner(first.size());
   std::vector<char> is_taken(second.size(), 0);
   if (first.empty()) return partner;
-  const Centres centres{second.data(), second.size()};
-  const CentreTree tree(3, centres);
+  std::vector<Vec3> centres;
+  for (const Record& record : second) centres.push_back(record.centre);
+  const PointTree tree(centres);
   for (std::size_t i = 0; i < first.size(); ++i) {
     const Vec3 target = first[i].centre + parts.periodic[first[i].pair].translation;
     unsigned nearest = 0;
     double distance_squared = 0;
-    tree.knnSearch(&target.x, 1, &nearest, &distance_squared);
+    tree->knnSearch(&target.x, 1, &nearest, &distance_squared);
     if (std::sqrt(distance_squared) > tolerance * first[i].size)
       throw_unmatched(parts, first[i], "has no partner (the nearest is " + words(std::sqrt(distance_squared)) + " m off)");
     if (is_taken[nearest]++) throw_unmatched(parts, first[i], "shares its partner with another face");
@@ -168,7 +151,7 @@ LocalFace joined(const Record& a, const Record& b, const Vec3& translation, Adop
 
 void join_periodic(MeshParts& parts, std::vector<LocalFace>& faces) {
   if (parts.periodic.empty()) return;
-  const std::vector<Record> all = gathered(parts, faces);
+  const std::vector<Record> all = sorted_records(parts, faces);
   const int me = rank_of(parts.comm);
   Adopter adopter(parts);
   std::vector<char> is_joined(faces.size(), 0);

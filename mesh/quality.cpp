@@ -4,9 +4,9 @@
 //
 // Per cell:  closure = |sum_f S| / sum_f |S|;  quality of a tetrahedron = 3 r_in / R_circ (1 when regular), with
 //
-//   r_in = 3 V / sum |S|,   R_circ = sqrt((aA + bB + cC)(-aA + bB + cC)(aA - bB + cC)(aA + bB - cC)) / (24 V)   (aA: products of opposite
-//   edges; Crelle)
+//   r_in = 3 V / sum |S|,   R_circ = sqrt((aA + bB + cC)(-aA + bB + cC)(aA - bB + cC)(aA + bB - cC)) / (24 V)
 //
+// (Crelle; aA, bB, cC: products of opposite edges)
 // and of other shapes the least over the corners of det(e1, e2, e3)/(|e1||e2||e3|), e the corner's edges (the apex of a pyramid, with four,
 // is left out).
 #include "mesh/quality.hpp"
@@ -17,8 +17,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/words.hpp"
 #include "mesh/geometry.hpp"
-#include "mesh/place.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 

@@ -2,14 +2,14 @@
 // ("vertex x y z" three times a facet). The stored normals are not used: the order of the corners holds. A file is binary if its size is
 // the one its count demands.
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "mesh/point_tree.hpp"
 #include "mesh/wall_surface.hpp"
-#include "nanoflann.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -17,14 +17,6 @@ namespace {
 
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
 constexpr double joining_distance = 1e-9;  // over the diagonal of the bounding box
-
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream content;
-  if (!stream || !(content << stream.rdbuf()))
-    throw Error(ExitCode::io, file.string() + ": the STL file cannot be read or is empty; check the path and its permissions");
-  return content.str();
-}
 
 std::vector<Vec3> binary_corners(const std::string& content, std::size_t n_triangles) {
   std::vector<Vec3> corners;
@@ -56,7 +48,9 @@ std::vector<Vec3> ascii_corners(const std::string& content, const std::string& n
 }
 
 std::vector<Vec3> corners_of(const std::filesystem::path& file) {
-  const std::string content = content_of(file);
+  const std::string content = file_text(file).value_or("");
+  if (content.empty())
+    throw Error(ExitCode::io, file.string() + ": the STL file cannot be read or is empty; check the path and its permissions");
   if (content.size() >= header_bytes) {
     std::uint32_t n_triangles = 0;
     std::memcpy(&n_triangles, content.data() + header_bytes - sizeof n_triangles, sizeof n_triangles);
@@ -65,16 +59,6 @@ std::vector<Vec3> corners_of(const std::filesystem::path& file) {
   return ascii_corners(content, file.string());
 }
 
-struct Points {  // what nanoflann reads
-  const std::vector<Vec3>& point;
-  std::size_t kdtree_get_point_count() const { return point.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return point[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
 /// For every corner the number of its node; corners closer than the joining distance are one node, at the place of the first.
 std::vector<int> joined(std::vector<Vec3>& corners) {
   Vec3 lower = corners[0], upper = corners[0];
@@ -82,14 +66,13 @@ std::vector<int> joined(std::vector<Vec3>& corners) {
     for (int axis = 0; axis < 3; ++axis) lower[axis] = std::min(lower[axis], x[axis]), upper[axis] = std::max(upper[axis], x[axis]);
   const double radius_squared = joining_distance * joining_distance * norm_squared(upper - lower);
   const std::vector<Vec3> original = corners;
-  const Points points{original};
-  const nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3> tree(3, points);
+  const PointTree tree(original);
   std::vector<int> node(corners.size(), -1);
   std::vector<std::pair<unsigned, double>> near;
   int n_nodes = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (node[i] >= 0) continue;
-    tree.radiusSearch(&original[i].x, radius_squared + std::numeric_limits<double>::min(), near, nanoflann::SearchParams());
+    tree->radiusSearch(&original[i].x, radius_squared + std::numeric_limits<double>::min(), near, nanoflann::SearchParams());
     node[i] = n_nodes;
     for (const auto& [other, distance_squared] : near)
       if (node[other] < 0) node[other] = n_nodes, corners[other] = original[i];

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "mesh/parts.hpp"
-#include "mesh/place.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -112,7 +113,7 @@ void BoundarySet::update(const Flow& flow, double time) {
 }
 
 BoundaryValues BoundarySet::at_rest() {
-  const BoundaryValues before = values_;
+  BoundaryValues before = values_;
   std::fill(values_.flux.begin(), values_.flux.end(), 0.0);
   std::fill(values_.acceleration.begin(), values_.acceleration.end(), Vec3{});
   return before;
@@ -129,7 +130,7 @@ void BoundarySet::check_net_flux() const {
   }
   net = sum(mesh_.comm, net), total = sum(mesh_.comm, total);
   if (std::abs(net) > net_flux_tolerance * total)
-    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + std::to_string(net) +
+    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + words(net) +
                                      " m3/s) must be zero where no patch fixes the pressure; give one patch kind = \"pressure_outlet\"");
 }
 

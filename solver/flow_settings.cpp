@@ -1,6 +1,7 @@
 #include "solver/flow_settings.hpp"
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -40,8 +41,8 @@ Section FlowSettings::section() {
 
 double FlowSettings::viscosity() const {
   if (dynamic_viscosity && kinematic_viscosity)
-    throw Error(ExitCode::usage, "[flow]: dynamic_viscosity (" + std::to_string(*dynamic_viscosity) + " Pa s) and kinematic_viscosity (" +
-                                     std::to_string(*kinematic_viscosity) + " m2/s) are both given; give one of them");
+    throw Error(ExitCode::usage, "[flow]: dynamic_viscosity (" + words(*dynamic_viscosity) + " Pa s) and kinematic_viscosity (" +
+                                     words(*kinematic_viscosity) + " m2/s) are both given; give one of them");
   if (dynamic_viscosity) return *dynamic_viscosity;
   return kinematic_viscosity ? *kinematic_viscosity * density : water_viscosity;
 }

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/words.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -59,8 +60,6 @@ std::string scientific(double value) {
   std::snprintf(text, sizeof text, "%.2e", value);
   return text;
 }
-
-std::string place(const Vec3& x) { return "(" + std::to_string(x.x) + ", " + std::to_string(x.y) + ", " + std::to_string(x.z) + ") m"; }
 
 }  // namespace
 
@@ -186,7 +185,7 @@ void FlowSolver::measure(double dt, StepReport& report) const {
 
 /// Throws Error(diverged) for the first cell that holds no finite velocity or pressure; the same on every rank.
 void FlowSolver::check_finite(const std::string& where) const {
-  const std::string step = "step " + std::to_string(flow.time_step + 1) + " (t = " + std::to_string(flow.time) + " s), " + where;
+  const std::string step = "step " + std::to_string(flow.time_step + 1) + " (t = " + words(flow.time) + " s), " + where;
   const std::string remedy = "; take smaller steps or more outer_correctors, or look at the mesh there (snag mesh --info)";
   together(flow.mesh.comm, [&] {
     for (int c = 0; c < flow.mesh.n_cells; ++c) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -152,8 +153,8 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   report.initial = n_history > 0 ? history[0] : report.final;
   if (reason < 0)
     throw Error(ExitCode::diverged, "pressure equation: conjugate gradients stopped after " + std::to_string(iterations) + " iterations (" +
-                                        KSPConvergedReasons[reason] + ", residual " + std::to_string(report.final) + ", wanted " +
-                                        std::to_string(target) + "); check the mesh (snag mesh --info), or take smaller steps");
+                                        KSPConvergedReasons[reason] + ", residual " + words(report.final) + ", wanted " + words(target) +
+                                        "); check the mesh (snag mesh --info), or take smaller steps");
   const double decades = report.final > 0 && report.initial > report.final ? std::log10(report.initial / report.final) : 0;
   if (decades > 0.5) {
     const double cost = report.iterations / decades;

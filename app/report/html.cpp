@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 
 namespace snag::html {
@@ -22,29 +21,6 @@ std::string printed(const char* format, Values... values) {
 }
 
 }  // namespace
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 std::string number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "not a number" : value < 0 ? "−infinite" : "infinite";
@@ -87,7 +63,7 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
 }
 
 std::string embedded_png(const std::filesystem::path& file) {
-  const std::string content = file_text(file);
+  const std::string content = file_text(file).value_or("");
   if (!content.starts_with("\x89PNG"))
     throw Error(ExitCode::io, file.string() + ": is no PNG picture; remove it and make the report again");
   std::string code(4 * ((content.size() + 2) / 3) + 1, '\0');  // the library ends it with a null
@@ -95,13 +71,6 @@ std::string embedded_png(const std::filesystem::path& file) {
                                      static_cast<int>(content.size()));
   code.resize(length);
   return "data:image/png;base64," + code;
-}
-
-std::string file_text(const std::filesystem::path& file) {
-  std::ostringstream text;
-  std::ifstream in(file, std::ios::binary);
-  if (in && in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-  return text.str();
 }
 
 }  // namespace snag::html

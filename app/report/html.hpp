@@ -1,5 +1,5 @@
 #pragma once
-// Small pieces of HTML: escaped text, numbers for people, tables, pictures inside the page.
+// Small pieces of HTML: numbers for people, tables, pictures inside the page.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -7,7 +7,6 @@
 
 namespace snag::html {
 
-std::string escaped(const std::string& text);
 /// Four significant digits, "1.2 × 10⁻⁵" for what is far from one; "not a number" where it is none.
 std::string number(double value);
 /// With thin spaces between thousands.
@@ -18,7 +17,5 @@ std::string bytes(double value);
 std::string table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
 /// A PNG file as an address inside the page. Throws Error(io).
 std::string embedded_png(const std::filesystem::path& file);
-/// Content of a text file, "" if it is absent.
-std::string file_text(const std::filesystem::path& file);
 
 }  // namespace snag::html

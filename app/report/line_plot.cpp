@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/report/html.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -137,12 +138,12 @@ std::string frame(const LinePlot& plot, const Axis& x, const Axis& y) {
   svg += "<rect x=\"" + printed("%.0f", left) + "\" y=\"" + printed("%.0f", top) + "\" width=\"" + printed("%.0f", width - left - right) +
          "\" height=\"" + printed("%.0f", height - top - bottom) + "\" fill=\"none\" stroke=\"#888\"/>\n";
   svg += "<text x=\"" + printed("%.0f", (left + width - right) / 2) + "\" y=\"" + printed("%.0f", height - 6) +
-         "\" text-anchor=\"middle\">" + html::escaped(plot.x_label) + "</text>\n";
+         "\" text-anchor=\"middle\">" + escaped(plot.x_label) + "</text>\n";
   if (y.exponent != 0)
     svg += "<text x=\"" + printed("%.0f", left) + "\" y=\"12\">× 10<tspan dy=\"-5\" font-size=\"8\">" + std::to_string(y.exponent) +
            "</tspan></text>\n";
   const auto middle = printed("%.0f", (top + height - bottom) / 2);
-  svg += "<text transform=\"translate(12 " + middle + ") rotate(-90)\" text-anchor=\"middle\">" + html::escaped(plot.y_label) + "</text>\n";
+  svg += "<text transform=\"translate(12 " + middle + ") rotate(-90)\" text-anchor=\"middle\">" + escaped(plot.y_label) + "</text>\n";
   return svg;
 }
 
@@ -150,8 +151,7 @@ std::string legend(const LinePlot& plot) {
   if (plot.lines.size() < 2 && (plot.lines.empty() || plot.lines[0].label.empty())) return "";
   std::string result = "<div class=\"legend\">";
   for (std::size_t i = 0; i < std::min(plot.lines.size(), max_legend); ++i)
-    result +=
-        "<span><b style=\"color:" + std::string(colours[i % n_colours]) + "\">━</b> " + html::escaped(plot.lines[i].label) + "</span> ";
+    result += "<span><b style=\"color:" + std::string(colours[i % n_colours]) + "\">━</b> " + escaped(plot.lines[i].label) + "</span> ";
   if (plot.lines.size() > max_legend) result += "<span>and " + std::to_string(plot.lines.size() - max_legend) + " more</span>";
   return result + "</div>";
 }
@@ -187,13 +187,13 @@ std::string figure(const LinePlot& plot) {
   set_ticks(x, 6);
   set_ticks(y, 6);
   std::string svg = "<svg viewBox=\"0 0 " + printed("%.0f ", width) + printed("%.0f", height) + "\" role=\"img\" aria-label=\"" +
-                    html::escaped(plot.title) + "\">\n" + frame(plot, x, y);
+                    escaped(plot.title) + "\">\n" + frame(plot, x, y);
   for (std::size_t i = 0; i < plot.lines.size(); ++i)
     svg += path_of(
         plot.lines[i], x, y,
         "stroke=\"" + std::string(colours[i % n_colours]) + "\" stroke-width=\"1.4\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
-  return "<figure class=\"plot\"><figcaption>" + html::escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) +
-         gaps(plot, y) + "</figure>\n";
+  return "<figure class=\"plot\"><figcaption>" + escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) + gaps(plot, y) +
+         "</figure>\n";
 }
 
 }  // namespace snag

@@ -46,7 +46,7 @@ std::string last_line(std::string text) {
 
 std::vector<Picture> listed(const std::filesystem::path& folder) {
   std::vector<Picture> pictures;
-  const auto list = nlohmann::json::parse(html::file_text(folder / "pictures.json"), nullptr, false);
+  const auto list = nlohmann::json::parse(file_text(folder / "pictures.json").value_or(""), nullptr, false);
   if (!list.is_array()) return pictures;
   for (const auto& entry : list)
     pictures.push_back({folder / entry.value("file", ""), entry.value("group", ""), entry.value("caption", "")});
@@ -70,7 +70,7 @@ Pictures draw_pictures(const std::filesystem::path& dir) {
     if (exit_code == timed_out)
       pictures.problem = std::string("drawing was stopped after ") + time_limit + " s";
     else if (exit_code != 0)
-      pictures.problem = last_line(html::file_text(output)) + " (exit code " + std::to_string(exit_code) + ")";
+      pictures.problem = last_line(file_text(output).value_or("")) + " (exit code " + std::to_string(exit_code) + ")";
   } catch (const Error& error) {
     pictures.problem = error.what();
   }

@@ -7,6 +7,7 @@
 
 #include "app/report/html.hpp"
 #include "base/progress.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -36,8 +37,8 @@ std::string text_of(const json& value) {
   if (value.is_number_integer()) return html::count(value.get<std::int64_t>());
   if (value.is_number()) return html::number(value.get<double>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_string()) return html::escaped(value.get<std::string>());
-  return html::escaped(value.dump());
+  if (value.is_string()) return escaped(value.get<std::string>());
+  return escaped(value.dump());
 }
 
 struct Named {
@@ -56,7 +57,7 @@ void add_rows(Rows& rows, const json& table, const std::vector<Named>& names, bo
   for (const auto& [key, value] : table.items()) {
     bool is_known = value.is_structured() || value.is_null();
     for (const auto& named : names) is_known = is_known || key == named.key;
-    if (!is_known) rows.push_back({html::escaped(key), text_of(value)});
+    if (!is_known) rows.push_back({escaped(key), text_of(value)});
   }
 }
 
@@ -90,14 +91,14 @@ std::string rag_words(const std::string& outcome) {
       {"upstream", "is still upstream"},          {"in_domain", "is still in the domain"},
   };
   const auto found = words.find(outcome);
-  return found == words.end() ? "ended as \"" + html::escaped(outcome) + "\"" : found->second;
+  return found == words.end() ? "ended as \"" + escaped(outcome) + "\"" : found->second;
 }
 
 /// Rag 0, or Rag "wipe" where it has a name of its own.
 std::string name_of(const json& rag) {
   const std::string name = word(rag, "name");
-  if (name.starts_with("rag")) return "R" + html::escaped(name.substr(1));
-  if (!name.empty()) return "Rag &quot;" + html::escaped(name) + "&quot;";
+  if (name.starts_with("rag")) return "R" + escaped(name.substr(1));
+  if (!name.empty()) return "Rag &quot;" + escaped(name) + "&quot;";
   const json& id = member(rag, "id");
   return id.is_null() ? "The rag" : "Rag " + text_of(id);
 }

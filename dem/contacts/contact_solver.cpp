@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "dem/contacts/contact_list.hpp"
 #include "dem/contacts/pair_forces.hpp"
 #include "dem/contacts/wall_contacts.hpp"
@@ -29,8 +30,7 @@ std::vector<double> radii(const std::vector<Rag>& rags) {
 void check_rag(const Rag& rag) {
   const auto demand = [&](bool holds, const char* what, double value, const char* rule) {
     if (!holds)
-      throw Error(ExitCode::usage,
-                  "rag \"" + rag.name + "\": " + what + " = " + std::to_string(value) + ", contacts need " + rule + "; correct it");
+      throw Error(ExitCode::usage, "rag \"" + rag.name + "\": " + what + " = " + words(value) + ", contacts need " + rule + "; correct it");
   };
   demand(rag.radius > 0, "radius", rag.radius, "a positive one");
   demand(rag.mass > 0, "mass", rag.mass, "a positive one");
@@ -143,9 +143,9 @@ StepLimit step_limit(const std::vector<Rag>& rags, const std::vector<ContactPair
   StepLimit limit;
   for (const Rag& rag : rags)
     limit.lower(rayleigh_fraction * rayleigh_time(rag), "Rayleigh time of the particles of rag \"" + rag.name + "\"");
-  const std::string impact = " at impact_speed = " + std::to_string(speed) + " m/s";
+  const std::string impact = " at impact_speed = " + words(speed) + " m/s";
   for (const ContactPair& pair : pairs)
-    limit.lower(stable_contact_step(pair, speed), "contact of particles of radius " + std::to_string(pair.smaller_radius) + " m" + impact);
+    limit.lower(stable_contact_step(pair, speed), "contact of particles of radius " + words(pair.smaller_radius) + " m" + impact);
   for (std::size_t i = 0; i < walls.size(); ++i)
     limit.lower(stable_contact_step(walls[i], speed), "contact of rag \"" + rags[i].name + "\" with a wall" + impact);
   return limit;
@@ -215,7 +215,8 @@ std::vector<double> ContactSolver::pack(const Tile& tile) const {
     for (auto id = std::lower_bound(s.walls->beyond.begin(), s.walls->beyond.end(), first); id != s.walls->beyond.end() && *id < end; ++id)
       beyond.push_back(double(*id));
   });
-  std::vector<double> all{double(pairs.size() / pair_length), double(walls.size() / wall_length), double(beyond.size())};
+  const std::size_t n_pairs = pairs.size() / pair_length, n_walls = walls.size() / wall_length;
+  std::vector<double> all{double(n_pairs), double(n_walls), double(beyond.size())};
   for (const auto* part : {&pairs, &walls, &beyond}) all.insert(all.end(), part->begin(), part->end());
   return all;
 }
@@ -230,7 +231,7 @@ void ContactSolver::unpack(const Tile& tile, std::span<const double> values) {
   std::vector<StoredSlip> pairs;
   const double* v = values.data() + 3;
   for (std::size_t i = 0; i < n_pairs; ++i, v += pair_length) pairs.push_back({std::int64_t(v[0]), std::int64_t(v[1]), {v[2], v[3], v[4]}});
-  s.list.store(std::move(pairs));
+  s.list.store(pairs);
   s.unpacked = true, s.slips_sorted = false;
   if (!s.walls) return;
   for (std::size_t i = 0; i < n_walls; ++i, v += wall_length)

@@ -6,12 +6,13 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <optional>
 
+#include "base/atomic_file.hpp"
 #include "base/case_file.hpp"
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "mesh/generate/geometry.hpp"
 #include "mesh/generate/verify.hpp"
 
@@ -82,7 +83,7 @@ void set_options() {
 Expectation make_mesh(Geometry& geometry, double size_factor) {
   gmsh::clear();
   gmsh::model::add("snag");
-  const Expectation expectation = geometry.build(size_factor);
+  Expectation expectation = geometry.build(size_factor);
   gmsh::model::mesh::generate(3);
   gmsh::model::mesh::optimize("");  // swaps of edges and faces; removes the slivers of Delaunay
   return expectation;
@@ -137,8 +138,7 @@ void write(const Request& request, const CaseFile& parameters) {
   }
   auto resolved = request.out;
   resolved.replace_extension(".resolved.toml");
-  std::ofstream file(resolved);
-  if (!(file << parameters.resolved())) throw fail(resolved.string());
+  write_atomically(resolved, parameters.resolved());
 }
 
 void run(const Request& request) {
@@ -170,30 +170,35 @@ void declare(CLI::App& app, const std::string& name, Request& request) {
   command->callback([&request, name] { request.geometry = name; });
 }
 
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("Makes meshes of parametric geometries for Snag; `snag-mesh GEOMETRY --help` lists its parameters.", "snag-mesh");
+  Request request;
+  for (const auto& name : geometries().names()) declare(app, name, request);
+  app.require_subcommand(1);
+  if (argc > 1 && argv[1][0] != '-') geometries().make(argv[1], "snag-mesh");  // its error lists the known names
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  }
+  run(request);
+  return 0;
+}
+
 }  // namespace
 }  // namespace snag::generate
 
 int main(int argc, char** argv) {
   using namespace snag;
-  CLI::App app("Makes meshes of parametric geometries for Snag; `snag-mesh GEOMETRY --help` lists its parameters.", "snag-mesh");
-  generate::Request request;
-  for (const auto& name : generate::geometries().names()) generate::declare(app, name, request);
-  app.require_subcommand(1);
   try {
-    if (argc > 1 && argv[1][0] != '-') generate::geometries().make(argv[1], "snag-mesh");  // its error lists the known names
-    app.parse(argc, argv);
-    generate::run(request);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    return generate::parse_and_run(argc, argv);
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return static_cast<int>(error.code);
   } catch (const std::string& gmsh_error) {
     std::fprintf(stderr, "error: snag-mesh: gmsh stopped (%s); change sizes or parameters\n", gmsh_error.c_str());
-    return static_cast<int>(ExitCode::mesh);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: snag-mesh: %s\n", error.what());
-    return static_cast<int>(ExitCode::mesh);
   }
-  return 0;
+  return static_cast<int>(ExitCode::mesh);
 }
