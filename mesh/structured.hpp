@@ -12,7 +12,7 @@ Mesh structured_box(MPI_Comm comm, Vec3 lower, Vec3 upper, std::array<int, 3> n,
 
 struct BoxShape {
   Vec3 lower{}, upper{1, 1, 1};  // m
-  double distortion = 0;       // inner nodes are displaced by up to this share of the spacing along each axis; below 0.2 no cell turns over
+  double distortion = 0;  // inner nodes are displaced by up to this share of the spacing along each axis; below 0.2 no cell turns over
 };
 
 /// The same box with each hexahedron cut into six tetrahedra, and its inner nodes displaced at random (the same on any number of ranks).

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over all ranks that do not depend on how the terms are spread over them (beyond the last bits): double-double accumulation. Collective.
+// Collective sums over all ranks that do not depend on how the terms are spread over them (but for the last bits): double-double numbers.
 #include <mpi.h>
 
 #include <cstdint>
