@@ -4,7 +4,7 @@
 //   Cells  [0, n_cells) are owned by this rank, [n_cells, n_cells + n_ghosts) are copies of cells of other ranks.
 //   Faces  [0, n_interior) lie between two local cells (at least one owned): face vector S points from owner to neighbour.
 //          [n_interior, n_faces) are boundary faces of owned cells, grouped by patch: S points out of the domain, neighbour = -1.
-//   The owner is the cell of the lower cell_id, so a face between two ranks is held by both, oriented alike: each adds to its own cells only.
+//   The owner is the cell of the lower cell_id: both ranks of a shared face hold it with the same orientation, each adds to its own cells.
 //   Periodic patches are joined to interior faces: `delta` holds the way from the owner's to the neighbour's centre, across the period,
 //          so that face_centre - (cell_centre[owner] + delta) is the way from the neighbour's centre to the face on every interior face.
 //          A cell one period wide is its own neighbour and lists that face twice.
