@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "mesh/place.hpp"
+#include "base/words.hpp"
 #include "mesh/sliding_bins.hpp"
 #include "mesh/sliding_geometry.hpp"
 #include "parallel/session.hpp"

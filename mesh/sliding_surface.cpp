@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "mesh/geometry.hpp"
-#include "mesh/place.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
