@@ -175,7 +175,7 @@ std::vector<double> Kernel::weight_factors(std::span<const double> answers, std:
   return factors;
 }
 
-/// Multiply the weights by their factors; put the holding cell where it stands for the kernel.
+/// Multiply the weights of each received particle by its factor.
 void Kernel::finish_weights(std::span<const double> factors) {
   for (std::size_t i = 0; i < factors.size(); ++i)
     for (int s = around_.start[i]; s < around_.start[i + 1]; ++s) around_.weight[s] *= factors[i];

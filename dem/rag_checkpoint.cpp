@@ -7,6 +7,7 @@
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/tile_halo.hpp"
+#include "dem/tile_particles.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 
@@ -20,11 +21,8 @@ constexpr std::int64_t max_history_rows = std::int64_t{1} << 32;
 
 /// Visits the existing particles of tiles: f(tile, place, id).
 template <class Tiles, class F>
-void for_particles(Tiles& tiles, const std::vector<Rag>& rags, const F& f) {
-  for (auto& tile : tiles)
-    for (int j = 0; j < tile.ny; ++j)
-      for (int i = 0; i < tile.nx; ++i)
-        if (tile.exists[tile.index(i, j)] > 0.5) f(tile, tile.index(i, j), particle_id(rags[tile.rag], tile, i, j));
+void for_all_particles(Tiles& tiles, const std::vector<Rag>& rags, const F& f) {
+  for (auto& tile : tiles) for_particles(tile, [&](int k, int i, int j) { f(tile, k, particle_id(rags[tile.rag], tile, i, j)); });
 }
 
 /// Visits the bonds into a tile from its ring: f(marks, place, id of the first end).
@@ -41,7 +39,7 @@ void for_ring_bonds(Tile& tile, const Rag& rag, const F& f) {
 void RagSystem::save(CheckpointWriter& writer) const {
   std::vector<std::int64_t> tile_ids(numbers_.begin(), numbers_.end()), history_rows, particle_ids, row_ids;
   std::vector<double> particles, history;
-  for_particles(tiles_, rags_, [&](const Tile& tile, int k, std::int64_t id) {
+  for_all_particles(tiles_, rags_, [&](const Tile& tile, int k, std::int64_t id) {
     particle_ids.push_back(id);
     for (int f = 0; f < Tile::n_state; ++f) particles.push_back(tile.field(f)[k]);
     particles.push_back(tile.free[k]), particles.push_back(tile.bond_x[k]), particles.push_back(tile.bond_y[k]);
@@ -75,11 +73,11 @@ void RagSystem::load(CheckpointReader& reader) {
   MPI_Allreduce(MPI_IN_PLACE, owner_.data(), static_cast<int>(owner_.size()), MPI_INT, MPI_MAX, comm_);
 
   std::vector<std::int64_t> ids;
-  for_particles(tiles_, rags_, [&](const Tile&, int, std::int64_t id) { ids.push_back(id); });
+  for_all_particles(tiles_, rags_, [&](const Tile&, int, std::int64_t id) { ids.push_back(id); });
   for (Tile& tile : tiles_) for_ring_bonds(tile, rags_[tile.rag], [&](auto&, int, std::int64_t id) { ids.push_back(id); });
   const std::vector<double> particles = reader.rows("rags/particles", ids, n_particle_values);
   const double* row = particles.data();
-  for_particles(tiles_, rags_, [&](Tile& tile, int k, std::int64_t) {
+  for_all_particles(tiles_, rags_, [&](Tile& tile, int k, std::int64_t) {
     for (int f = 0; f < Tile::n_state; ++f) tile.field(f)[k] = row[f];
     tile.free[k] = row[Tile::n_state], tile.bond_x[k] = row[Tile::n_state + 1], tile.bond_y[k] = row[Tile::n_state + 2];
     row += n_particle_values;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dem/bonds/bond_law.hpp"
+#include "dem/tile_particles.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -26,14 +27,6 @@ BondEnd bond_end(const Tile& tile, int k) {
           v.y,
           v.z,
           carried_direction<direction>(w, v.x, v.y, v.z)};
-}
-
-/// Visits a tile's particles: f(place, i, j).
-template <class F>
-void for_particles(const Tile& tile, const F& f) {
-  for (int j = 0; j < tile.ny; ++j)
-    for (int i = 0; i < tile.nx; ++i)
-      if (tile.exists[tile.index(i, j)] > 0.5) f(tile.index(i, j), i, j);
 }
 
 /// Visits the whole bonds whose first end is in the tile, or with `all` also those from the ring: f(first place, second place, elastic

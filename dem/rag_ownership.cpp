@@ -8,6 +8,7 @@
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/tile_halo.hpp"
+#include "dem/tile_particles.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
@@ -19,11 +20,7 @@ namespace {
 Vec3 centre_of(const Tile& tile, int& n) {
   Vec3 sum;
   n = 0;
-  for (int j = 0; j < tile.ny; ++j)
-    for (int i = 0; i < tile.nx; ++i) {
-      const int k = tile.index(i, j);
-      if (tile.exists[k] > 0.5) sum += tile.vector(Tile::x, k), ++n;
-    }
+  for_particles(tile, [&](int k, int, int) { sum += tile.vector(Tile::x, k), ++n; });
   return n > 0 ? sum / n : sum;
 }
 

@@ -50,7 +50,8 @@ void set_ticks(Axis& axis, int wanted) {
       break;
     }
   if (axis.logarithmic) step = std::max(1.0, std::round(step));
-  for (double tick = std::ceil(axis.begin / step - 1e-9) * step; tick <= axis.end + 1e-9 * span; tick += step) axis.ticks.push_back(tick);
+  const double first = std::ceil(axis.begin / step - 1e-9);
+  for (int i = 0; (first + i) * step <= axis.end + 1e-9 * span; ++i) axis.ticks.push_back((first + i) * step);
 }
 
 Axis axis_of(const LinePlot& plot, const std::vector<double> PlotLine::*values, bool logarithmic) {
