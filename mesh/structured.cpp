@@ -116,11 +116,11 @@ Mesh meshed(MPI_Comm comm, Box box, std::array<bool, 3> periodic) {
   parts.zones = {"fluid"};
   parts.patches = {"x0", "x1", "y0", "y1", "z0", "z1"};
   for (int axis = 0; axis < 3; ++axis) {
-    if (!periodic[static_cast<std::size_t>(axis)]) continue;
+    const auto i = static_cast<std::size_t>(axis);
+    if (!periodic[i]) continue;
     Vec3 translation;
     translation[axis] = width[axis];
-    parts.periodic.push_back(
-        {parts.patches[static_cast<std::size_t>(2 * axis)], parts.patches[static_cast<std::size_t>(2 * axis + 1)], translation});
+    parts.periodic.push_back({parts.patches[2 * i], parts.patches[2 * i + 1], translation});
   }
 
   const int rank = rank_of(comm), size = size_of(comm);
