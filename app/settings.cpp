@@ -17,11 +17,11 @@ Section MeshSettings::section() {
   return {"mesh",
           "The mesh of the water: gmsh .msh (2.2 or 4.1, ascii or binary) with named physical volumes and surfaces. Without it there is no "
           "water.",
-          {setting("file", &file, "Mesh file, relative to the case file."),
+          {file_setting("file", &file, "Mesh file, relative to the case file."),
            {"scale", &scale, "1", 1e-9, 1e9, Basis::assumed, "Metres in one unit of length of the file (0.001 for millimetres)."},
            setting("geometry", &geometry, "Instead of a file: the mesh is made for this run, as by `snag mesh`.",
                    {"", "pump", "pipe", "channel", "box", "tank"}),
-           setting("parameters", &parameters, "Parameter file of the geometry, relative to the case file; not given: its defaults.")}};
+           file_setting("parameters", &parameters, "Parameter file of the geometry, relative to the case file; not given: its defaults.")}};
 }
 
 Section PeriodicSettings::section() {

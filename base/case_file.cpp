@@ -31,11 +31,15 @@ struct CaseNode {
     int line;  // of the file; TOML's own copies forget it
   };
   std::map<std::string, Value> values;
-  std::set<std::string> used;                                 // keys of `values` that were read
-  std::vector<std::string> known;                             // keys that reading asked for
-  std::vector<std::pair<std::string, std::string>> resolved;  // key = value as TOML, in the order of reading
-  std::vector<std::string> table_order;                       // of reading
-  std::set<std::string> repeated;                             // tables that are written as [[name]]
+  std::set<std::string> used;      // keys of `values` that were read
+  std::vector<std::string> known;  // keys that reading asked for
+  struct Resolved {
+    std::string key, value;  // as TOML; a file with its whole path
+    std::string identity;    // what the fingerprint takes for the value: of a file its content, wherever it lies
+  };
+  std::vector<Resolved> resolved;        // in the order of reading
+  std::vector<std::string> table_order;  // of reading
+  std::set<std::string> repeated;        // tables that are written as [[name]]
 
   void note_read(const std::string& table) {
     if (std::find(table_order.begin(), table_order.end(), table) == table_order.end()) table_order.push_back(table);
@@ -44,6 +48,39 @@ struct CaseNode {
 };
 
 namespace {
+
+constexpr int line_of_override = 0;
+
+std::string place_of(const std::string& file, int line) {
+  return line == line_of_override ? (file == "--set" ? file : file + ", --set") : file + ":" + std::to_string(line);
+}
+
+std::string sha256_of(std::string_view text) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int length = 0;
+  EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr);
+  std::string hexadecimal;
+  for (unsigned int i = 0; i < length; ++i) {
+    constexpr char digits[] = "0123456789abcdef";
+    hexadecimal += digits[digest[i] >> 4];
+    hexadecimal += digits[digest[i] & 15];
+  }
+  return hexadecimal;
+}
+
+std::filesystem::path beside(const std::filesystem::path& case_file, const std::string& relative) {
+  const std::filesystem::path given(relative);
+  return given.is_absolute() ? given : case_file.parent_path() / given;
+}
+
+CaseNode::Resolved resolved_entry(const std::string& key, const Parameter& parameter, const std::string& case_file) {
+  const std::string text = toml_text(parameter.target);
+  const auto* file = std::get_if<std::string*>(&parameter.target);
+  if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text};
+  const auto path = std::filesystem::absolute(beside(case_file, **file)).lexically_normal();
+  const auto content = file_text(path);
+  return {key, toml_text(path.string()), content ? sha256_of(*content) : text};
+}
 
 bool is_table_array(const toml::array& array) {
   return !array.empty() && std::all_of(array.begin(), array.end(), [](const toml::node& n) { return n.is_table(); });
@@ -81,7 +118,7 @@ void apply_override(toml::table& root, const std::string& text) {
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::usage, "--set " + text + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
   };
-  if (equals == std::string::npos || equals == 0) throw fail("has no \"=\"");
+  if (equals == std::string::npos || equals == 0) throw fail(equals == 0 ? "names no key" : "has no \"=\"");
   const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
   toml::table parsed;
   try {
@@ -112,6 +149,9 @@ void apply_override(toml::table& root, const std::string& text) {
     auto* table = at->as_table();
     if (!table) throw fail("\"" + steps[i - 1] + "\" is a value, not a table");
     if (last) {
+      const toml::node* before = table->get(step);
+      if (before && (before->is_table() || (before->is_array() && is_table_array(*before->as_array()))))
+        throw fail("names a section, not a key");
       table->insert_or_assign(step, *parsed.get("v"));
     } else {
       if (!table->contains(step)) table->insert(step, toml::table{});
@@ -144,8 +184,14 @@ std::string known_spelling(const Parameter& parameter) { return parameter.unit.e
 void reject_unread_in(const CaseNode& node) {
   for (const auto& [key, value] : node.values) {
     if (node.used.contains(key)) continue;
-    const std::string where = node.file + ":" + std::to_string(value.line) + ": [" + node.name + "]";
-    std::string message = where + ": unknown key \"" + key + "\"";
+    const std::string where = place_of(node.file, value.line);
+    if (node.name.empty()) {
+      const bool section = std::find(node.table_order.begin(), node.table_order.end(), key) != node.table_order.end();
+      throw Error(ExitCode::usage, where + ": \"" + key + "\" stands outside of all sections" +
+                                       (section ? ", but is the name of one; write [" + key + "] and keys below it"
+                                                : "; put it below one of the sections " + joined(node.table_order)));
+    }
+    std::string message = where + ": [" + node.name + "]: unknown key \"" + key + "\"";
     const std::string near = nearest_name(key, node.known);
     if (!near.empty()) message += "; did you mean \"" + near + "\"?";
     message += node.known.empty() ? "; no key is read here" : "; known keys: " + joined(node.known);
@@ -159,7 +205,7 @@ void reject_unread_in(const CaseNode& node) {
     for (const auto& child : list) {
       if (!read) {
         const std::string near = nearest_name(key, node.table_order);
-        throw Error(ExitCode::usage, child->file + ":" + std::to_string(child->line) + ": unknown section [" + child->name + "]" +
+        throw Error(ExitCode::usage, place_of(child->file, child->line) + ": unknown section [" + child->name + "]" +
                                          (near.empty() ? "" : "; did you mean [" + near + "]?") +
                                          "; known sections: " + joined(node.table_order));
       }
@@ -168,15 +214,15 @@ void reject_unread_in(const CaseNode& node) {
   }
 }
 
-void write_resolved(const CaseNode& node, bool repeated, std::string& out) {
+void write_resolved(const CaseNode& node, bool repeated, std::string CaseNode::Resolved::*shown, std::string& out) {
   if (!node.name.empty()) out += (repeated ? "\n[[" + node.name + "]]\n" : "\n[" + node.name + "]\n");
-  for (const auto& [key, value] : node.resolved) out += key + " = " + value + "\n";
+  for (const CaseNode::Resolved& entry : node.resolved) out += entry.key + " = " + entry.*shown + "\n";
   for (const std::string& key : node.table_order) {
     const auto found = node.tables.find(key);
     if (found == node.tables.end()) continue;
     for (const auto& child : found->second) {
       const bool empty = child->resolved.empty() && child->table_order.empty();
-      if (!empty) write_resolved(*child, node.repeated.contains(key), out);
+      if (!empty) write_resolved(*child, node.repeated.contains(key), shown, out);
     }
   }
 }
@@ -222,11 +268,19 @@ void Table::read(const std::vector<Parameter>& parameters) const {
     // A table may be read more than once (a condition for several patches): what was made of it counts once.
     const bool again = std::find(node_->known.begin(), node_->known.end(), known_spelling(parameter)) != node_->known.end();
     if (!again) node_->known.push_back(known_spelling(parameter));
+    // An override replaces the value of the file, whatever the unit in the key of either.
+    const bool overridden = std::any_of(node_->values.begin(), node_->values.end(), [&](const auto& entry) {
+      return entry.second.line == line_of_override && unit_in_key(entry.first, parameter);
+    });
     std::string found_key;
     for (const auto& [key, value] : node_->values) {
       const auto unit = unit_in_key(key, parameter);
       if (!unit) continue;
-      const std::string where = node_->file + ":" + std::to_string(value.line) + ": [" + node_->name + "] " + key;
+      if (overridden && value.line != line_of_override) {
+        node_->used.insert(key);
+        continue;
+      }
+      const std::string where = place_of(node_->file, value.line) + ": [" + node_->name + "] " + key;
       if (!found_key.empty())
         throw Error(ExitCode::usage, where + " is given twice, as " + found_key + " and " + key + "; keep one of them");
       found_key = key;
@@ -235,8 +289,9 @@ void Table::read(const std::vector<Parameter>& parameters) const {
     }
     if (found_key.empty() && parameter.required)
       throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
-    const std::string text = toml_text(parameter.target);
-    if (!text.empty() && !again) node_->resolved.emplace_back(known_spelling(parameter), text);
+    if (again) continue;
+    auto entry = resolved_entry(known_spelling(parameter), parameter, node_->file);
+    if (!entry.value.empty()) node_->resolved.push_back(std::move(entry));
   }
 }
 
@@ -246,7 +301,7 @@ std::vector<std::pair<std::string, double>> Table::numbers() const {
     const auto number = value.node->value<double>();
     if (!number) throw Error(ExitCode::usage, node_->where() + " " + key + " must be a number");
     node_->used.insert(key);
-    node_->resolved.emplace_back(toml_text(key), toml_text(*number));
+    node_->resolved.push_back({toml_text(key), toml_text(*number), toml_text(*number)});
     all.emplace_back(key, *number);
   }
   return all;
@@ -284,27 +339,16 @@ void CaseFile::reject_unread() const { reject_unread_in(*root_); }
 
 std::string CaseFile::resolved() const {
   std::string out = "# The case as it was read, with all defaults, in SI units.\n";
-  write_resolved(*root_, false, out);
+  write_resolved(*root_, false, &CaseNode::Resolved::value, out);
   return out;
 }
 
 std::string CaseFile::sha256() const {
-  const std::string text = resolved();
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int length = 0;
-  EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr);
-  std::string hexadecimal;
-  for (unsigned int i = 0; i < length; ++i) {
-    constexpr char digits[] = "0123456789abcdef";
-    hexadecimal += digits[digest[i] >> 4];
-    hexadecimal += digits[digest[i] & 15];
-  }
-  return hexadecimal;
+  std::string text;
+  write_resolved(*root_, false, &CaseNode::Resolved::identity, text);
+  return sha256_of(text);
 }
 
-std::filesystem::path CaseFile::path(const std::string& relative) const {
-  const std::filesystem::path given(relative);
-  return given.is_absolute() ? given : file_.parent_path() / given;
-}
+std::filesystem::path CaseFile::path(const std::string& relative) const { return beside(file_, relative); }
 
 }  // namespace snag

@@ -50,8 +50,9 @@ class CaseFile {
   /// Throws Error(usage) if a key of the file was never read: a misspelt key must not be ignored.
   void reject_unread() const;
   /// The case with all defaults as it was read, as TOML in SI with the unit in the key; reading it gives the same case.
+  /// Files are named by their whole path, so that it may be read from any folder.
   std::string resolved() const;
-  /// SHA-256 of the resolved case, hexadecimal.
+  /// SHA-256 of the resolved case, hexadecimal; of files that the case names the content counts, not the place.
   std::string sha256() const;
   /// A path of the case file, relative to the folder of the file.
   std::filesystem::path path(const std::string& relative) const;

@@ -32,11 +32,19 @@ struct Parameter {
   std::string meaning = {};
   std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any
   bool required = false;
+  bool is_file = false;  // a text that is a path, relative to the folder of the case file
 };
 
 /// The same for a text, a list of texts or a switch.
 inline Parameter setting(std::string key, ParameterTarget target, std::string meaning, std::vector<std::string> choices = {}) {
   return {.key = std::move(key), .target = target, .unit = "", .meaning = std::move(meaning), .choices = std::move(choices)};
+}
+
+/// The same for a file beside the case file.
+inline Parameter file_setting(std::string key, std::string* target, std::string meaning) {
+  Parameter parameter = setting(std::move(key), target, std::move(meaning));
+  parameter.is_file = true;
+  return parameter;
 }
 
 /// A table of the case file: [name], or [[name]] where it repeats.

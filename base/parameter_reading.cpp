@@ -28,6 +28,7 @@ class Reading {
     return {ExitCode::usage, where_ + " is " + found + ", but " + rule};
   }
   static std::string shown(const toml::node& node) {
+    if (node.is_floating_point()) return toml_text(*node.value<double>());
     std::ostringstream out;
     node.visit([&](const auto& concrete) { out << concrete; });
     return out.str();
@@ -45,10 +46,15 @@ class Reading {
     } else {
       throw wrong(shown(node), "it must be a number");
     }
-    if (std::isnan(value) || value < parameter_.minimum || value > parameter_.maximum)
-      throw wrong(shown(node), "it must lie between " + toml_text(parameter_.minimum) + " and " + toml_text(parameter_.maximum) +
-                                   (parameter_.unit == "1" ? "" : " " + parameter_.unit));
+    if (!std::isfinite(value)) throw wrong(shown(node), "it must be a finite number");
+    if (value < parameter_.minimum || value > parameter_.maximum) throw wrong(shown(node), "it must " + range());
     return value;
+  }
+  std::string range() const {
+    const std::string unit = parameter_.unit == "1" ? "" : " " + parameter_.unit;
+    if (std::isinf(parameter_.maximum)) return "be at least " + toml_text(parameter_.minimum) + unit;
+    if (std::isinf(parameter_.minimum)) return "be at most " + toml_text(parameter_.maximum) + unit;
+    return "lie between " + toml_text(parameter_.minimum) + " and " + toml_text(parameter_.maximum) + unit;
   }
   const toml::array& array(const toml::node& node, std::size_t size) const {
     const auto* found = node.as_array();

@@ -75,9 +75,10 @@ void add_pose(RagSettings& s, Records& r) {
   if (s.shape != Shape::fibre)
     r.push_back(number("crosswise", &s.crosswise, "1", -infinity, Basis::assumed,
                        "Direction across the rows; its part along `lengthwise` is taken off."));
-  r.push_back(setting("pose_file", &s.pose_file,
-                      "Places of all particles instead of centre and directions: CSV with a header and rows id,x,y,z,qw,qx,qy,qz in m; id "
-                      "= row * n_columns + column."));
+  r.push_back(
+      file_setting("pose_file", &s.pose_file,
+                   "Places of all particles instead of centre and directions: CSV with a header and rows id,x,y,z,qw,qx,qy,qz in m; id "
+                   "= row * n_columns + column."));
 }
 
 void add_bond_direction(const std::string& direction, BondProperties& p, Records& r) {

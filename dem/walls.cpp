@@ -19,7 +19,7 @@ std::vector<Parameter> WallSettings::parameters() {
       length("lower", &lower, "box: lowest corner; the fluid is inside."),
       length("upper", &upper, "box: highest corner."),
       setting("patches", &patches, "patches: names of patches of the mesh."),
-      setting("file", &file, "stl: the file, beside the case file."),
+      file_setting("file", &file, "stl: the file, beside the case file."),
       Parameter{.key = "scale", .target = &scale, .minimum = 1e-9, .maximum = 1e9, .meaning = "stl: metres per unit of the file."},
       setting("normals_into_fluid", &normals_into_fluid,
               "stl: its normals point into the fluid, as those of a solid body that the fluid surrounds."),

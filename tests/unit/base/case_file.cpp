@@ -1,6 +1,10 @@
 #include "base/case_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 #include "base/error.hpp"
 
@@ -97,7 +101,7 @@ TEST(CaseFile, ExplainsMistakes) {
   EXPECT_TRUE(contains(message_of("[rag]\ndensity = \"5 kg/m3\"\ndensity_kg_m3 = 5"), "given twice"));
   EXPECT_TRUE(contains(message_of("[rag]\ndensity_kg_m3 = -5"), "between 1 and 20000 kg/m3") ||
               contains(message_of("[rag]\ndensity_kg_m3 = -5"), "between 1.0"));
-  EXPECT_TRUE(contains(message_of("[rag]\ndensity_kg_m3 = nan"), "between"));
+  EXPECT_TRUE(contains(message_of("[rag]\ndensity_kg_m3 = nan"), "finite"));
   EXPECT_TRUE(contains(message_of("[rag]\nkind = \"disk\""), "did you mean \"disc\""));
   EXPECT_TRUE(contains(message_of("[rag]\ncount = 1.5"), "whole number"));
   EXPECT_TRUE(contains(message_of("[rag]\nactive = 1"), "true or false"));
@@ -140,4 +144,47 @@ TEST(CaseFile, ResolvedCaseIsTheSameCase) {
   EXPECT_EQ(hash, again);
   EXPECT_EQ(s.radius, t.radius);
   EXPECT_NE(read("[[rag]]\nradius = \"0.2 mm\"", u).second, hash);
+}
+
+// An override replaces the value of the file whatever unit stands in either key; two overrides of one value contradict each other.
+TEST(CaseFile, OverridesInAnotherUnit) {
+  const auto file = CaseFile::parse("[rag]\nradius = \"1 mm\"\n", "case", {"rag.radius_m=0.002"});
+  Settings s;
+  file.root().table("rag").read(s.parameters());
+  file.reject_unread();
+  EXPECT_DOUBLE_EQ(s.radius, 2e-3);
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"rag.radius_m=0.002", "rag.radius_mm=3"}), "given twice"));
+}
+
+// Messages about overrides name them, not a line of the file; numbers must be finite; a section is no value.
+TEST(CaseFile, OverridesInMessages) {
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"rag.factor=11"}), "case.toml, --set: [rag] factor"));
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"rag.centre_m=[0, inf, 0]"}), "finite"));
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"rag=1"}), "names a section"));
+  EXPECT_TRUE(contains(message_of("[rag]\n", {"=1"}), "names no key"));
+  EXPECT_TRUE(contains(message_of("rag = 1\n"), "write [rag]"));
+}
+
+// The resolved case names files by their whole path; the fingerprint holds their content, so it is the same from any folder.
+TEST(CaseFile, ResolvedNamesFilesFromAnyFolder) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("snag-case-file-" + std::to_string(getpid()));
+  fs::create_directories(folder / "a");
+  const auto write = [](const fs::path& file, const std::string& text) { std::ofstream(file) << text; };
+  std::string kept;
+  const auto read = [&](const fs::path& path) {
+    const auto file = CaseFile::read(path);
+    std::string mesh;
+    file.root().table("mesh").read({file_setting("file", &mesh, "Mesh.")});
+    kept = file.resolved();
+    EXPECT_TRUE(fs::exists(file.path(mesh)));
+    return file.sha256();
+  };
+  write(folder / "mesh.msh", "nodes"), write(folder / "case.toml", "[mesh]\nfile = \"mesh.msh\"\n");
+  const std::string first = read(folder / "case.toml");
+  write(folder / "a" / "case.resolved.toml", kept);
+  EXPECT_EQ(read(folder / "a" / "case.resolved.toml"), first);
+  write(folder / "mesh.msh", "other nodes");
+  EXPECT_NE(read(folder / "case.toml"), first);
+  fs::remove_all(folder);
 }
