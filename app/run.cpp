@@ -6,6 +6,7 @@
 #include "app/outputs.hpp"
 #include "app/report.hpp"
 #include "app/simulation.hpp"
+#include "app/start_check.hpp"
 #include "app/stop_request.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
@@ -24,6 +25,9 @@ std::filesystem::path output_folder(const RunOptions& options, const CaseFile& f
   if (!options.out.empty()) return options.out;
   CaseSettings settings;
   file.root().table("case").read(settings.section().parameters);
+  if (const std::filesystem::path name = settings.name; name.empty() || name == "." || name == ".." || name.has_parent_path())
+    throw Error(ExitCode::usage,
+                "[case] name = \"" + settings.name + "\" cannot name the output folder; give --out, or a name without \"/\"");
   return std::filesystem::path("results") / settings.name;
 }
 
@@ -140,6 +144,7 @@ ExitCode run_case(const RunOptions& options) {
     throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
                                      reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +
                                      "); resume with the same case and --set values");
+  if (!reader) check_start(simulation);
   together(world, [&] {
     if (rank_of(world) == 0) prepare_output_folder(folder, !options.resume);
   });
@@ -177,6 +182,7 @@ ExitCode run_case(const RunOptions& options) {
 ExitCode check_case(const RunOptions& options) {
   const CaseFile file = CaseFile::read(options.case_file, options.overrides);
   Simulation simulation(file, world);
+  check_start(simulation);
   log_heading(simulation, file);
   if (simulation.mesh) {
     const std::string table = quality_table(*simulation.mesh, simulation.mesh_quality);

@@ -4,6 +4,8 @@
 
 #include "app/mesh_generator.hpp"
 #include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/words.hpp"
 #include "dem/contacts/contact_settings.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "mesh/import.hpp"
@@ -73,6 +75,7 @@ void Simulation::read_mesh(const CaseFile& file, std::optional<std::vector<int>>
     PeriodicSettings periodic;
     table.read(periodic.section().parameters);
     options.periodic.push_back(periodic.pair);
+    periodic_ = true;
   }
   if (mesh_settings_.file.empty() == mesh_settings_.geometry.empty()) {
     if (mesh_settings_.file.empty()) return;
@@ -136,8 +139,24 @@ void Simulation::step() {
     rags->advance(time_settings.step);
   }
   if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
+  check_inside();
   ++time_step_;
   if (passage) passage->observe(*rags, time());
+}
+
+/// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.
+void Simulation::check_inside() {
+  if (!coupled || !mesh || (strays_told_ && !periodic_)) return;
+  std::int64_t n = coupled->report().particles_outside;
+  for (const std::int64_t out : passage->n_out()) n -= out;
+  if (n <= 0) return;
+  const std::string found = "rags: " + std::to_string(n) + " particles are outside the mesh at t = " + words(time()) +
+                            " s and did not leave by a pressure outlet";
+  if (periodic_)
+    throw Error(ExitCode::invariant,
+                found + "; particles are not carried through periodic patches yet: shorten the run, or make the domain longer");
+  log::warning(found + "; they feel the water of the nearest cell: is a [[wall]] missing?");
+  strays_told_ = true;
 }
 
 void Simulation::save(CheckpointWriter& writer) const {
@@ -160,6 +179,7 @@ void Simulation::load(CheckpointReader& reader) {
   if (rags) {
     rags->load(reader);
     passage->restore(reader.shared("passage"));
+    passage->observe(*rags, time());
   }
   if (coupled) coupled->load(reader);
 }

@@ -54,12 +54,14 @@ class Simulation {
   void build_water(const CaseFile& file);
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
+  void check_inside();
 
   MPI_Comm comm_;
   MeshSettings mesh_settings_;
   std::optional<PrescribedFlow> prescribed_;
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling
+  bool periodic_ = false, strays_told_ = false;
 };
 
 }  // namespace snag

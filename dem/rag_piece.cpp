@@ -23,6 +23,19 @@ constexpr BondProperties published[2][n_published] = {
     {{4.23e8, 5.0e6, 1.03e7, 2.23e5, 0}, {1.88e8, 1.0e6, 1.59e6, 1.49e5, 0}, {1.06e8, 5.0e5, 4.05e5, 1.12e5, 0}},
 };
 
+// Beyond this many particles the counts of a lattice no longer fit, nor does its memory.
+constexpr double most_particles = 2e8;
+
+void check_size(const RagSettings& s, const std::string& where) {
+  double n = 1;
+  if (s.shape == Shape::rag) n = s.length * s.width / (4 * s.radius * s.radius);
+  if (s.shape == Shape::disc) n = s.diameter * s.diameter / (4 * s.radius * s.radius);
+  if (s.shape == Shape::fibre) n = s.n_points > 0 ? s.n_points : s.length / (2 * s.radius);
+  if (n > most_particles)
+    throw Error(ExitCode::usage, where + ": is a lattice of " + words(n) + " particles, must be at most " + words(most_particles) +
+                                     "; give a larger radius or a smaller piece");
+}
+
 int whole_particles(double length, double radius) { return std::max(1, static_cast<int>(std::lround(length / (2 * radius)))); }
 
 void set_lattice(const RagSettings& s, RagPiece& piece) {
@@ -115,6 +128,7 @@ BondProperties published_bond(double radius, int direction) {
 RagPiece make_piece(const RagSettings& s, const std::string& where, const std::filesystem::path& folder) {
   RagPiece piece;
   piece.rag.name = s.name;
+  check_size(s, where);
   set_lattice(s, piece);
   set_mass(s, piece.rag);
   set_bonds(s, where, piece.rag);

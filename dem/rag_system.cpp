@@ -100,6 +100,13 @@ void RagSystem::exchange_ghosts() {
   halo_->exchange_ghosts();
 }
 
+void RagSystem::evaluate_contacts() {
+  if (!contacts_) return;
+  contacts_->set_time(time_);
+  exchange_ghosts();
+  contacts_->add_forces(owned_pointers_, ghost_pointers_, 0);
+}
+
 void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];

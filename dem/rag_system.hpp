@@ -66,6 +66,8 @@ class RagSystem {
   /// advance; collective. Throws Error(usage) if a given step is above the contacts' limit.
   void set_contacts(std::unique_ptr<ContactSolver> contacts);
   ContactSolver* contacts() { return contacts_.get(); }
+  /// Contacts of the particles where they are now, for the measures of contacts(); moves nothing. Collective.
+  void evaluate_contacts();
   /// Uniform acceleration of all free particles, m/s2 (default 0: weight and buoyancy come with the forces of the fluid).
   void set_gravity(const Vec3& gravity) { gravity_ = gravity; }
   /// Rate at which outside forces damp the motion of a particle, largest slope/m, 1/s: part of the stable step. Throws Error(usage) if a

@@ -216,7 +216,7 @@ MeshQuality quality(const Mesh& mesh) {
 std::string quality_table(const Mesh& mesh, const MeshQuality& q) {
   std::string table;
   const auto line = [&](const std::string& name, const std::string& value) {
-    table.append(name).append(std::max<std::size_t>(1, 34 - std::min<std::size_t>(33, name.size())), ' ').append(value).append("\n");
+    table.append(name).append(std::max<std::size_t>(2, 38 - std::min<std::size_t>(36, name.size())), ' ').append(value).append("\n");
   };
   line("cells", std::to_string(q.n_cells));
   line("faces, interior and boundary", std::to_string(q.n_interior) + "  " + std::to_string(q.n_boundary));

@@ -95,6 +95,24 @@ class Mistakes(harness.CaseTest):
     def test_set_of_absent_table(self):
         self.refused(2, ["rag"], self.sheets(), "--set", "rag.7.radius_mm=1")
 
+    def test_value_that_is_no_number(self):
+        self.refused(2, ["centre_m", "--set", "finite"], self.sheets(), "--set", "rag.0.centre_m=[0, 0, nan]")
+
+    def test_set_of_a_whole_section(self):
+        self.refused(2, ["time", "section"], self.sheets(), "--set", "time=1")
+
+    def test_rag_outside_the_mesh(self):
+        self.refused(2, ["rag 1", "outside the mesh"], self.channel(), "--set", "rag.centre_m=[0.08, 0.5, 0.05]")
+
+    def test_rag_across_a_wall(self):
+        self.refused(2, ["rag 1", "beyond a wall"], self.sheets(), "--set", "rag.0.centre_m=[0, 0, 0.03]")
+
+    def test_rags_in_each_other(self):
+        self.refused(2, ["overlaps"], self.sheets("[-0.008, 0.01, 0.055]\nlengthwise = [0.5, 0.1, 0.8]", "[0, 0, 0.054]\nlengthwise = [0.5, 0, 0.8]"))
+
+    def test_too_many_particles(self):
+        self.refused(2, ["particles", "radius"], self.sheets(), "--set", "rag.0.length_mm=1e9")
+
     def test_folder_with_a_run(self):
         case = self.sheets("end_s = 0.02", "end_s = 8e-4")
         self.run_case(case, 2)

@@ -1,0 +1,71 @@
+#include "app/start_check.hpp"
+
+#include "base/error.hpp"
+#include "base/words.hpp"
+#include "coupling/kernel.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "dem/tile_particles.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+// Hertz contacts of this depth are far outside their law, and throw the particles apart.
+constexpr double largest_overlap_over_radius = 0.5;
+
+std::vector<Vec3> centres_of_particles(const RagSystem& rags, int rag) {
+  std::vector<Vec3> centres;
+  for (const Tile& tile : rags.tiles())
+    if (tile.rag == rag) for_particles(tile, [&](int k, int, int) { centres.push_back(tile.vector(Tile::x, k)); });
+  return centres;
+}
+
+Error refused(const Rag& rag, const std::string& found, const std::string& rule) {
+  return {ExitCode::usage, "start of the run: " + rag.name + ": " + found + ", " + rule};
+}
+
+void check_in_water(const RagSystem& rags, const Mesh& mesh) {
+  const auto shape = kernel_shapes().make("cell", "start of the run");
+  Kernel cells(*shape, 1, mesh);
+  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
+    const Rag& rag = rags.rags()[r];
+    cells.locate(centres_of_particles(rags, static_cast<int>(r)));
+    if (cells.n_outside() > 0)
+      throw refused(rag, std::to_string(cells.n_outside()) + " of " + std::to_string(rag.n_particles) + " particles are outside the mesh",
+                    "all must start in the water; correct its place or size, or [mesh] scale");
+  }
+}
+
+void check_overlap(const Rag& rag, double overlap_over_radius, const char* with) {
+  if (overlap_over_radius <= largest_overlap_over_radius) return;
+  throw refused(rag, std::string("overlaps ") + with + " by " + words(overlap_over_radius) + " of a particle's radius",
+                "must not exceed " + words(largest_overlap_over_radius) + "; give the pieces other places");
+}
+
+void check_contacts(RagSystem& rags) {
+  rags.evaluate_contacts();
+  const ContactMeasures& here = rags.contacts()->measures();
+  const double between = maximum(rags.comm(), here.max_overlap_over_radius);
+  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
+    const Rag& rag = rags.rags()[r];
+    const std::int64_t beyond = sum(rags.comm(), r < here.beyond_walls.size() ? here.beyond_walls[r] : std::int64_t{0});
+    if (beyond > 0)
+      throw refused(rag, std::to_string(beyond) + " of " + std::to_string(rag.n_particles) + " particles are beyond a wall",
+                    "all must start on its fluid side; correct the place of the piece, or the wall's normals");
+    check_overlap(rag, maximum(rags.comm(), r < here.max_wall_overlap_over_radius.size() ? here.max_wall_overlap_over_radius[r] : 0.0),
+                  "a wall");
+  }
+  check_overlap(rags.rags().front(), between, "itself or another piece");
+  rags.contacts()->reset_measures();
+}
+
+}  // namespace
+
+void check_start(const Simulation& simulation) {
+  if (!simulation.rags) return;
+  if (simulation.mesh) check_in_water(*simulation.rags, *simulation.mesh);
+  check_contacts(*simulation.rags);
+}
+
+}  // namespace snag
