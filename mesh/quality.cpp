@@ -201,6 +201,9 @@ void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
     fail("quality", q.min_quality, places.quality, "must be at least 0.01 (1 is a regular cell); refine or optimise the mesh there");
 }
 
+/// Round-off depends on the ranks, the table must not.
+std::string words_above_round_off(double value) { return value < 1e-12 ? "below 1e-12" : words(value); }
+
 }  // namespace
 
 MeshQuality quality(const Mesh& mesh) {
@@ -226,8 +229,8 @@ std::string quality_table(const Mesh& mesh, const MeshQuality& q) {
   line("least distance of centres, mm", words(1e3 * q.min_spacing));
   line("quality, least and mean", words(q.min_quality) + "  " + words(q.mean_quality));
   line("non-orthogonality, max and mean", words(q.max_non_orthogonality_deg) + "  " + words(q.mean_non_orthogonality_deg) + " deg");
-  line("skewness, max", words(q.max_skewness));
-  line("closure, max", words(q.closure));
+  line("skewness, max", words_above_round_off(q.max_skewness));
+  line("closure, max", words_above_round_off(q.closure));
   for (std::size_t zone = 0; zone < mesh.zones.size(); ++zone) {
     std::vector<double> volume;
     for (int c = 0; c < mesh.n_cells; ++c)

@@ -335,6 +335,8 @@ class Run:
                 low = min(low, float(np.nanpercentile(vtk_to_numpy(tension), 1)))
                 high = max(high, float(np.nanpercentile(vtk_to_numpy(tension), 99)))
         if high > low:
+            if abs(low) < 1e-3 * high:  # round-off around zero
+                low = 0.0
             self.tables["tension"] = colour_table(FIRE, low, high)
         return box
 
