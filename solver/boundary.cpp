@@ -17,12 +17,15 @@ constexpr double net_flux_tolerance = 1e-9;
 struct Heading {
   std::string patch, kind;
   std::vector<std::string> patches;
+  InletTurbulence turbulence;
 
   std::vector<Parameter> parameters() {
     Parameter kind_of_it = setting("kind", &kind, "Kind of the condition.", boundaries().names());
     kind_of_it.required = true;
-    return {setting("patch", &patch, "Name of the patch in the mesh."),
-            setting("patches", &patches, "Several patches with the same condition, each for itself."), kind_of_it};
+    std::vector<Parameter> all{setting("patch", &patch, "Name of the patch in the mesh."),
+                               setting("patches", &patches, "Several patches with the same condition, each for itself."), kind_of_it};
+    for (Parameter& parameter : turbulence.parameters()) all.push_back(std::move(parameter));
+    return all;
   }
 };
 
@@ -50,7 +53,10 @@ std::vector<PatchBoundary> read_boundaries(const Table& root) {
     for (const std::string& patch : heading.patches) {
       auto boundary = boundaries().make(heading.kind, table.where());
       table.read(boundary->section().parameters);
-      conditions.push_back({patch, table.where(), std::move(boundary)});
+      if (heading.turbulence.given() && (boundary->is_wall() || boundary->fixes() == Fixes::symmetry))
+        throw Error(ExitCode::usage, table.where() + ": turbulence of fluid that enters is given for kind \"" + heading.kind +
+                                         "\", where none enters; remove the keys turbulence_...");
+      conditions.push_back({patch, table.where(), std::move(boundary), heading.turbulence});
     }
   }
   return conditions;
@@ -103,6 +109,7 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
   values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n), std::vector<Vec3>(n)};
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
     conditions_[p].boundary->prepare(mesh, mesh.patches[p]);
+    conditions_[p].turbulence.prepare(mesh, mesh.patches[p], conditions_[p].where);
     fixes_pressure_ = fixes_pressure_ || (conditions_[p].boundary->fixes() == Fixes::pressure && mesh.patches[p].count_global > 0);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "base/registry.hpp"
 #include "solver/flow.hpp"
+#include "solver/turbulence/inlet_turbulence.hpp"
 
 namespace snag {
 
@@ -30,6 +31,8 @@ class Boundary {
   /// Its keys in a [[boundary]] table; the records point into this object.
   virtual Section section() = 0;
   virtual Fixes fixes() const = 0;
+  /// True for solid walls, where wall functions act.
+  virtual bool is_wall() const { return false; }
   /// Once, before the first step: what depends on the mesh. Collective.
   virtual void prepare(const Mesh&, const Patch&) {}
   /// Values of the patch at a time. Local; called every step, after the mesh has moved.
@@ -43,6 +46,7 @@ struct PatchBoundary {
   std::string patch;
   std::string where;  // the table of the case file, for messages
   std::unique_ptr<Boundary> boundary;
+  InletTurbulence turbulence = {};  // of fluid that enters
 };
 
 /// All [[boundary]] tables. Throws Error(usage) for an unknown kind or a table that names no patch.
@@ -63,6 +67,8 @@ class BoundarySet {
   BoundaryValues at_rest();
   void restore(const BoundaryValues& values) { values_ = values; }
   Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
+  bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
+  const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// True if some patch fixes the pressure.
   bool fixes_pressure() const { return fixes_pressure_; }

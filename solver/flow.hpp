@@ -4,6 +4,7 @@
 //   rho (du/dt + div(u u)) = - grad p + div(mu (grad u + grad u^T)) + f - beta u,      div u = 0
 //
 // f (`reaction`) and beta (`drag`) are what the rags give: N/m3 and kg/(m3 s), set by the coupling before each step and zero without rags.
+#include <cstdint>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -34,6 +35,11 @@ struct Flow {
   std::vector<double> boundary_pressure;  // p at the face, Pa
   std::vector<Vec3> boundary_friction;    // viscous force of the fluid on the face as it stood in the momentum equation, N
   std::vector<Vec3> boundary_convection;  // momentum carried out through the face, likewise, N
+
+  // of a turbulence model, empty without one
+  std::vector<double> turbulent_kinetic_energy, dissipation_rate, eddy_viscosity;  // k, m2/s2; epsilon, m2/s3; nu_t, m2/s; [n_all_cells]
+  std::vector<double> y_plus;               // [n_faces - n_interior], of the cell at a wall face, C_mu^(1/4) k^(1/2) y/nu; 0 elsewhere
+  std::vector<std::uint8_t> wall_function;  // likewise: 1 where face_viscosity (u_P - u_w)/y is the shear of a wall function
 
   // from the rags, [n_cells]
   std::vector<Vec3> reaction;          // f

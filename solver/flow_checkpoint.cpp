@@ -113,6 +113,7 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_cells(checkpoint, "flow/reaction", mesh, first(flow.reaction), 3);
   write_cells(checkpoint, "flow/drag", mesh, flow.drag.data(), 1);
   write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
+  for (const StoredField& field : turbulence_->stored()) write_cells(checkpoint, "flow/" + field.name, mesh, field.values->data(), 1);
   write_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
   write_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
   write_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.psi, true);
@@ -134,6 +135,7 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   read_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(flow.velocity_gradient_old), 9);
   read_cells(checkpoint, "flow/pressure", mesh, flow.pressure, 1);
   read_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient), 3);
+  for (const StoredField& field : turbulence_->stored()) read_cells(checkpoint, "flow/" + field.name, mesh, *field.values, 1);
   // Owned cells only: these fields have no ghosts.
   const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
   std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
@@ -147,6 +149,7 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
   std::vector<double> preconditioner(mesh.n_faces);
   read_faces(checkpoint, "flow/preconditioner", rows, mesh, preconditioner, false);
+  if (started_) turbulence_->restore(flow, boundary_);
   if (started_) continuity_.restore(std::move(preconditioner), scalars.at(4), scalars.at(5) != 0);
 }
 

@@ -63,18 +63,21 @@ std::string scientific(double value) {
 
 }  // namespace
 
-FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary)
+FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary,
+                       std::unique_ptr<Turbulence> turbulence)
     : flow(mesh),
       settings_(settings),
       boundary_(mesh, std::move(boundary)),
       squares_(mesh, velocity_sides(mesh, boundary_)),
       momentum_(mesh, momentum_settings(settings)),
-      continuity_(mesh, boundary_, continuity_settings(settings)) {
+      continuity_(mesh, boundary_, continuity_settings(settings)),
+      turbulence_(turbulence ? std::move(turbulence) : turbulence_models().make("laminar", "[turbulence]")) {
   flow.density = settings.density;
   flow.dynamic_viscosity = settings.viscosity();
   flow.body_force = settings.body_force;
   std::fill(flow.velocity.begin(), flow.velocity.end(), settings.initial_velocity);
   std::fill(flow.face_viscosity.begin(), flow.face_viscosity.end(), flow.dynamic_viscosity);
+  turbulence_->prepare(flow, boundary_);
 }
 
 StepReport FlowSolver::advance(double dt) {
@@ -88,7 +91,7 @@ StepReport FlowSolver::advance(double dt) {
   continuity_.history.end_step(flow, momentum_.gradient_guess());
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
   measure(dt, report);
-  report.seconds_rest = seconds() - begun - report.seconds_momentum - report.seconds_pressure;
+  report.seconds_rest = seconds() - begun - report.seconds_momentum - report.seconds_pressure - report.seconds_turbulence;
   return report;
 }
 
@@ -102,6 +105,7 @@ void FlowSolver::start() {
   continuity_.project(flow, boundary_, flow.velocity_gradient);
   update_gradient();
   continuity_.history.end_step(flow, flow.velocity_gradient);
+  turbulence_->start(flow, boundary_);
   started_ = true;
 }
 
@@ -132,6 +136,7 @@ void FlowSolver::begin_step(const TimeScheme& time) {
   momentum_.guess_from_history(flow, boundary_, time);
   continuity_.history.begin_step(momentum_.rates(), time);
   std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
+  turbulence_->begin_step(flow, time);
 }
 
 void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& report) {
@@ -153,9 +158,27 @@ void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& rep
   const double corrected = seconds();
   update_gradient();
   report.seconds_momentum += predicted - begun, report.seconds_pressure += corrected - predicted;
+  correct_turbulence(outer, time, report);
 }
 
-void FlowSolver::update_gradient() { squares_.gradient(flow.velocity, boundary_.values().velocity, flow.velocity_gradient); }
+void FlowSolver::correct_turbulence(int outer, const TimeScheme& time, StepReport& report) {
+  const double begun = seconds();
+  TurbulenceReport& did = report.outer.back().turbulence;
+  did = turbulence_->correct(flow, boundary_, time, outer);
+  if (!finite(did.k.final + did.epsilon.final)) check_finite("turbulence");
+  for (const auto& [name, sweeps] : {std::pair{"k", did.k}, std::pair{"epsilon", did.epsilon}})
+    if (!sweeps.converged)
+      log::warning(std::string("equation of ") + name + ": change of " + scientific(sweeps.final) + " after " +
+                   std::to_string(sweeps.sweeps) + " sweeps; take smaller steps");
+  if (did.raised_cells > 0)
+    log::warning("turbulence: k or epsilon was too small to compute with in " + std::to_string(did.raised_cells) +
+                 " cells and was raised; look at the turbulence of inlets and of the start");
+  report.seconds_turbulence += seconds() - begun;
+}
+
+void FlowSolver::update_gradient() {
+  squares_.gradient(flow.velocity, turbulence_->velocity_for_gradient(flow, boundary_), flow.velocity_gradient);
+}
 
 void FlowSolver::measure(double dt, StepReport& report) const {
   const Mesh& mesh = flow.mesh;
@@ -187,9 +210,13 @@ void FlowSolver::measure(double dt, StepReport& report) const {
 void FlowSolver::check_finite(const std::string& where) const {
   const std::string step = "step " + std::to_string(flow.time_step + 1) + " (t = " + words(flow.time) + " s), " + where;
   const std::string remedy = "; take smaller steps or more outer_correctors, or look at the mesh there (snag mesh --info)";
+  const bool turbulent = !flow.turbulent_kinetic_energy.empty();
   together(flow.mesh.comm, [&] {
     for (int c = 0; c < flow.mesh.n_cells; ++c) {
-      const char* field = !finite(flow.velocity[c]) ? "velocity" : !finite(flow.pressure[c]) ? "pressure" : nullptr;
+      const char* field = !finite(flow.velocity[c])                                                           ? "velocity"
+                          : !finite(flow.pressure[c])                                                         ? "pressure"
+                          : turbulent && !finite(flow.turbulent_kinetic_energy[c] + flow.dissipation_rate[c]) ? "k or epsilon"
+                                                                                                              : nullptr;
       if (field)
         throw Error(ExitCode::diverged, step + ": " + field + " is not finite in cell " + std::to_string(flow.mesh.cell_id[c]) + " at " +
                                             place(flow.mesh.cell_centre[c]) + remedy);

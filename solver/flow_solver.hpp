@@ -7,6 +7,7 @@
 #include "solver/continuity.hpp"
 #include "solver/flow_settings.hpp"
 #include "solver/momentum.hpp"
+#include "solver/turbulence/turbulence.hpp"
 
 namespace snag {
 
@@ -16,6 +17,7 @@ class CheckpointWriter;
 struct OuterReport {
   SweepReport momentum;
   ContinuityReport continuity;
+  TurbulenceReport turbulence;
 };
 
 /// What one step did.
@@ -24,7 +26,7 @@ struct StepReport {
   double continuity_local = 0;   // largest |sum of fluxes| of a cell times dt over its volume
   double continuity_global = 0;  // net flux out of the domain, m3/s
   double courant_mean = 0, courant_max = 0;
-  double seconds_momentum = 0, seconds_pressure = 0, seconds_rest = 0;
+  double seconds_momentum = 0, seconds_pressure = 0, seconds_turbulence = 0, seconds_rest = 0;
 };
 
 /// Terms of the momentum balance of the whole domain in the last step, N.
@@ -40,11 +42,13 @@ struct MomentumBalance {
 
 class FlowSolver {
  public:
-  /// Throws Error(usage) if the conditions do not suit the mesh. Collective, as are all functions below.
-  FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary);
+  /// Laminar if no turbulence model is given. Throws Error(usage) if the conditions do not suit the mesh. Collective, as are all functions
+  /// below.
+  FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary,
+             std::unique_ptr<Turbulence> turbulence = nullptr);
 
-  /// State of the water. Before the first step velocity and pressure may be set (owned cells); the coupling sets reaction, drag and
-  /// solid_fraction.
+  /// State of the water. Before the first step velocity, pressure, k and epsilon may be set (owned cells); the coupling sets reaction, drag
+  /// and solid_fraction.
   Flow flow;
 
   /// Advance by dt, second order in space and time. Throws Error(diverged) that names step, field and place.
@@ -67,6 +71,7 @@ class FlowSolver {
   void correct_once(int outer, const TimeScheme& time, StepReport& report);
   void update_gradient();
   void measure(double dt, StepReport& report) const;
+  void correct_turbulence(int outer, const TimeScheme& time, StepReport& report);
   void check_finite(const std::string& where) const;
 
   FlowSettings settings_;
@@ -74,6 +79,7 @@ class FlowSolver {
   LeastSquares squares_;
   Momentum momentum_;
   Continuity continuity_;
+  std::unique_ptr<Turbulence> turbulence_;
   TimeScheme time_;
   bool started_ = false;
 };

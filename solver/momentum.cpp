@@ -188,9 +188,14 @@ struct Momentum::BoundaryFace {
         const Vec3& u = boundary.values().velocity[b];
         const double c = conductance(S, d);
         friction_slope = {mu * c, mu * c, mu * c};
+        convection_source = F * u;
+        if (!flow.wall_function.empty() && flow.wall_function[b]) {
+          // The shear of a wall function is all there is: mu is not that of a linear profile whose gradient could correct it.
+          friction_source = mu * c * u;
+          break;
+        }
         friction_source = mu * (c * u + G * (S - c * d));
         if (flow.variable_viscosity) friction_source += mu * transposed_product(G, S);
-        convection_source = F * u;
         break;
       }
       case Fixes::pressure: {
@@ -203,10 +208,11 @@ struct Momentum::BoundaryFace {
           convection_source = F * (equation.flux_[f] + flow.mesh_flux[f]) / area * n;
         break;
       }
-      case Fixes::symmetry: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal part implicit
+      case Fixes::symmetry: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal part implicit;
+                               // mu grad u^T adds the same again
         const double area = norm(S);
         const Vec3 n = S / area;
-        const double c = mu * area / dot(d, n);
+        const double c = (flow.variable_viscosity ? 2 : 1) * mu * area / dot(d, n);
         friction_slope = c * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
         const Vec3& u = flow.velocity[P];
         friction_source = scaled(friction_slope, u) - c * dot(u, n) * n;

@@ -1,7 +1,9 @@
 // Sums over boundary faces and cells, independent of the number of ranks.
 #include "solver/monitors.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "parallel/sum.hpp"
 
@@ -49,6 +51,20 @@ PatchForce patch_force(const Flow& flow, int patch, const Vec3& origin) {
           .friction = patch_sum(flow, patch, [&](int, int b) { return flow.boundary_friction[b]; }),
           .pressure_torque = patch_sum(flow, patch, [&](int f, int b) { return cross(arm(f), push(f, b)); }),
           .friction_torque = patch_sum(flow, patch, [&](int f, int b) { return cross(arm(f), flow.boundary_friction[b]); })};
+}
+
+YPlus y_plus_of(const Flow& flow, int patch) {
+  const Patch& faces = flow.mesh.patches[static_cast<std::size_t>(patch)];
+  if (sum(flow.mesh.comm, static_cast<std::int64_t>(flow.y_plus.size())) == 0) return {};
+  const double area = patch_sum(flow, patch, [&](int f, int) { return norm(flow.mesh.face_vector[f]); });
+  const double total = patch_sum(flow, patch, [&](int f, int b) { return norm(flow.mesh.face_vector[f]) * flow.y_plus[b]; });
+  if (!(area > 0)) return {};
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0;
+  for (int f = faces.first; f < faces.end(); ++f) {
+    lowest = std::min(lowest, flow.y_plus[f - flow.mesh.n_interior]);
+    highest = std::max(highest, flow.y_plus[f - flow.mesh.n_interior]);
+  }
+  return {minimum(flow.mesh.comm, lowest), total / area, maximum(flow.mesh.comm, highest)};
 }
 
 double kinetic_energy(const Flow& flow) {

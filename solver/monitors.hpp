@@ -25,6 +25,12 @@ struct PatchForce {
 };
 PatchForce patch_force(const Flow& flow, int patch, const Vec3& origin);
 
+/// y+ = C_mu^(1/4) k^(1/2) y/nu of the cells at the walls of a patch, the mean weighted with area; zero without a turbulence model.
+struct YPlus {
+  double lowest = 0, mean = 0, highest = 0;
+};
+YPlus y_plus_of(const Flow& flow, int patch);
+
 /// Kinetic energy of the whole domain, J.
 double kinetic_energy(const Flow& flow);
 

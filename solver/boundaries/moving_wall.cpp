@@ -21,6 +21,7 @@ struct MovingWall final : Boundary {
                 {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis of rotation."}}};
   }
   Fixes fixes() const override { return Fixes::velocity; }
+  bool is_wall() const override { return true; }
   void prepare(const Mesh&, const Patch& patch) override {
     if (norm(axis) == 0)
       throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": axis (0, 0, 0) has no direction; give a vector along it");

@@ -9,6 +9,7 @@ struct Wall final : Boundary {
 
   Section section() override { return {.name = name, .meaning = "No slip on a wall at rest.", .parameters = {}}; }
   Fixes fixes() const override { return Fixes::velocity; }
+  bool is_wall() const override { return true; }
   void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;

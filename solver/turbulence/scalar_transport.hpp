@@ -1,0 +1,75 @@
+#pragma once
+// Transport of a positive scalar, in a form whose discrete solution is positive whatever the step:
+//
+//   d phi/dt + div(F phi) - phi div F - div(Gamma grad phi) = P - s phi,      P >= 0, s >= 0
+//
+// BDF2 in time, BDF1 in cells where phi fell to less than half in the last step: there BDF2 would carry the fall on, below zero.
+// Convection: upwind, implicit, and the rest up to the limited linear scheme explicit; diffusion with its non-orthogonal part explicit. phi
+// div F is zero once continuity holds, and keeps the rest of it from acting as a source. Source of the treatment of explicit terms:
+// Patankar (1980), section 7.2-2: the sum N of all explicit terms of a cell enters as it is where it is positive, and as (N/phi*) phi, with
+// the first guess phi*, where it is negative. So the right-hand side is never negative and the matrix is an M-matrix: phi > 0 without
+// clipping, after any number of Gauss-Seidel sweeps. The error of phi* is of second order in time where phi* is extrapolated, and gone in a
+// steady state.
+#include <span>
+#include <vector>
+
+#include "solver/boundary.hpp"
+#include "solver/cell_matrix.hpp"
+#include "solver/gradient.hpp"
+#include "solver/time_scheme.hpp"
+
+namespace snag {
+
+/// What drives one equation.
+struct ScalarTerms {
+  std::span<const double> production;   // P, [n_cells]
+  std::span<const double> sink;         // s, [n_cells], 1/s
+  std::span<const double> diffusivity;  // Gamma, [n_faces], m2/s
+  std::span<const double> entering;     // phi where fluid enters, [n_faces - n_interior]; not read at walls and symmetries
+};
+
+/// phi at t and before, and a first guess; [n_all_cells], ghosts up to date.
+struct ScalarHistory {
+  std::span<const double> old, older, guess;
+};
+
+/// Cells whose value is given.
+struct GivenCells {
+  std::span<const int> cell;
+  std::span<const double> value;
+};
+
+class ScalarTransport {
+ public:
+  /// `at_walls`: what gradients take for known there, Side::slope (zero) or Side::none. Collective.
+  ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls);
+
+  /// Volume fluxes relative to the mesh, and the step. Local.
+  void begin(const Flow& flow, const TimeScheme& time);
+  /// Solve into phi, [n_all_cells], ghosts filled. `given` cells keep their value. Collective.
+  SweepReport solve(const ScalarHistory& history, const ScalarTerms& terms, const GivenCells& given, std::vector<double>& phi);
+  /// Rate at which fluid leaves a cell over its volume, 1/s, of the last begin(). [n_cells]
+  std::span<const double> rate() const { return rate_; }
+
+  double tolerance = 1e-8;  // root mean square of the relative changes of a sweep
+  int max_sweeps = 400;
+
+ private:
+  void start_rows(const ScalarHistory& history, const ScalarTerms& terms);
+  void add_interior(std::span<const double> guess, std::span<const double> diffusivity);
+  void add_boundary(const ScalarTerms& terms);
+  void close_rows(std::span<const double> guess, const GivenCells& given);
+  void known_at_boundary(std::span<const double> guess, std::span<const double> entering);
+  bool enters(std::size_t patch, int f) const { return open_[patch] && flux_[f] < 0; }
+
+  const Mesh& mesh_;
+  std::vector<bool> open_, fixes_velocity_;  // of each patch: fluid may pass; by a given velocity
+  LeastSquares squares_;
+  CellMatrix matrix_;
+  TimeScheme time_;
+  std::vector<double> diagonal_, right_side_, explicit_, flux_, rate_;
+  std::vector<double> known_;  // at boundary faces, for gradients
+  std::vector<Vec3> gradient_;
+};
+
+}  // namespace snag

@@ -1,0 +1,46 @@
+#include "solver/turbulence/turbulence.hpp"
+
+namespace snag {
+
+namespace {
+
+struct Heading {
+  std::string model = "laminar";
+  std::vector<Parameter> parameters() {
+    return {setting("model", &model, "How the effect of eddies smaller than the mean flow is described.", turbulence_models().names())};
+  }
+};
+
+}  // namespace
+
+Registry<Turbulence>& turbulence_models() {
+  static Registry<Turbulence> registry("turbulence model");
+  return registry;
+}
+
+std::unique_ptr<Turbulence> read_turbulence(const Table& root) {
+  const Table table = root.table("turbulence");
+  Heading heading;
+  table.read(heading.parameters());
+  auto model = turbulence_models().make(heading.model, table.where());
+  table.read(model->section().parameters);
+  return model;
+}
+
+std::vector<Section> turbulence_sections() {
+  // The records point into these: they live as long as the program.
+  static Heading heading;
+  static std::vector<std::unique_ptr<Turbulence>> models;
+  models.clear();
+  std::vector<Section> sections{{.name = "turbulence", .meaning = "Turbulence of the water.", .parameters = heading.parameters()}};
+  for (const std::string& name : turbulence_models().names()) {
+    models.push_back(turbulence_models().make(name, "manual"));
+    Section section = models.back()->section();
+    section.meaning = "model = \"" + name + "\": " + section.meaning;
+    section.name = "turbulence";
+    sections.push_back(section);
+  }
+  return sections;
+}
+
+}  // namespace snag

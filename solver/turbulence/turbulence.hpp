@@ -1,0 +1,58 @@
+#pragma once
+// Turbulence models: one model, one file in solver/turbulence/, chosen by [turbulence] model = "...".
+//
+// A model gives the momentum equation the viscosity of the faces, mu + mu_t, with the shear of wall functions at walls; flow.pressure then
+// holds p + 2/3 rho k. Within a step it follows each correction of velocity and pressure: with one outer correction mu_t is that of the
+// last step (first order in time where the turbulence changes), with more it is of the present one.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/boundary.hpp"
+#include "solver/cell_matrix.hpp"
+#include "solver/time_scheme.hpp"
+
+namespace snag {
+
+/// What a model did in one correction.
+struct TurbulenceReport {
+  SweepReport k, epsilon;
+  std::int64_t raised_cells = 0;  // where k or epsilon was below what can be computed with, and was raised: none in a sound run
+  double largest_viscosity = 0;   // mu_t / mu, the largest of all cells
+};
+
+/// A cell field that a checkpoint keeps.
+struct StoredField {
+  std::string name;
+  std::vector<double>* values;  // [n_all_cells]
+};
+
+class Turbulence {
+ public:
+  virtual ~Turbulence() = default;
+  /// Its keys in [turbulence]; the records point into this object.
+  virtual Section section() = 0;
+  /// Once, when the solver is built: fields of the flow, what depends on the mesh. Collective, as are all functions below.
+  virtual void prepare(Flow&, const BoundarySet&) {}
+  /// Before the first step, with velocity and fluxes known. Throws Error(usage) if no initial state is known.
+  virtual void start(Flow&, const BoundarySet&) {}
+  /// Shift the history.
+  virtual void begin_step(Flow&, const TimeScheme&) {}
+  /// Transport through one step with the velocity and fluxes as they are; then flow.face_viscosity.
+  virtual TurbulenceReport correct(Flow&, const BoundarySet&, const TimeScheme&, int /*outer*/) { return {}; }
+  /// Velocity at the boundary faces for gradients of velocity in the cells, [n_faces - n_interior], m/s: at a wall function not that of the
+  /// wall but that which the slope in the wall cell leads to.
+  virtual const std::vector<Vec3>& velocity_for_gradient(const Flow&, const BoundarySet& boundary) { return boundary.values().velocity; }
+  /// What a resume needs; after reading it, restore() sets up all that follows from it.
+  virtual std::vector<StoredField> stored() { return {}; }
+  virtual void restore(Flow&, const BoundarySet&) {}
+};
+
+Registry<Turbulence>& turbulence_models();
+
+/// The table [turbulence]; laminar if absent. Throws Error(usage) for an unknown model.
+std::unique_ptr<Turbulence> read_turbulence(const Table& root);
+/// The table as sections for the manual: the choice of the model, then one section a model.
+std::vector<Section> turbulence_sections();
+
+}  // namespace snag

@@ -1,0 +1,58 @@
+#pragma once
+// Standard wall functions, Launder and Spalding (1974): the layer between a wall and the centre of the cell at it, distance y, in local
+// equilibrium.
+//
+//   u* = C_mu^(1/4) k_P^(1/2),   y* = u* y / nu
+//   tau_w = mu_w (u_P - u_w)_t / y,   mu_w = mu kappa y* / ln(E y*)   above y*_lam,   mu below;     y*_lam = ln(E y*_lam) / kappa
+//   production in the cell   tau_w u* / (rho kappa y),   epsilon_P = u*^3 / (kappa y)      at any y*, so that neither jumps at y*_lam
+//
+// u_t: part along the wall. A cell with several wall faces takes the mean of both, weighted with the areas of the faces. The velocity
+// gradient in the cell at the wall is that of the shear in force, tau_w / (mu + mu_t), and not (u_P - u_w)/y, which is several times as
+// steep.
+#include <vector>
+
+#include "solver/boundary.hpp"
+
+namespace snag {
+
+struct WallLaw {
+  double C_mu = 0.09, kappa = 0.41, E = 9.8;
+  double y_laminar = 11.53;  // y*_lam; set_y_laminar() makes it fit
+
+  void set_y_laminar();
+  /// mu_w / mu.
+  double viscosity_ratio(double y_star) const;
+  /// u*, m/s.
+  double friction_speed(double k) const;
+};
+
+/// The faces of all walls and the cells at them.
+class WallFunctions {
+ public:
+  WallFunctions() = default;
+  /// Local.
+  WallFunctions(const Mesh& mesh, const BoundarySet& boundary, const WallLaw& law);
+
+  /// Sets mu_w in flow.face_viscosity and flow.y_plus from k [n_all_cells]. Local.
+  void set_viscosity(Flow& flow, const std::vector<double>& k) const;
+  /// Production, m2/s3, and epsilon, m2/s3, of the wall cells from k and the velocity of the flow; [cells().size()]. Local.
+  void equilibrium(const Flow& flow, const BoundarySet& boundary, const std::vector<double>& k);
+  /// Replaces the velocity at wall faces by that which the gradient in the wall cell leads to. Local.
+  void slip(const Flow& flow, const BoundarySet& boundary, std::vector<Vec3>& velocity) const;
+
+  const std::vector<int>& cells() const { return cells_; }
+  const std::vector<double>& production() const { return production_; }
+  const std::vector<double>& dissipation() const { return dissipation_; }
+
+ private:
+  struct WallFace {
+    int face, wall_cell;  // wall_cell: place in cells_
+    double share;         // of the area of the cell's wall faces
+  };
+  WallLaw law_;
+  std::vector<WallFace> faces_;
+  std::vector<int> cells_;
+  std::vector<double> production_, dissipation_;
+};
+
+}  // namespace snag

@@ -1,0 +1,148 @@
+// ranks: 1 2
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "mesh/structured.hpp"
+#include "parallel/sum.hpp"
+#include "solver/flow_solver.hpp"
+#include "solver/monitors.hpp"
+#include "solver/turbulence/wall_functions.hpp"
+
+using namespace snag;
+
+namespace {
+
+const char* const model = "[turbulence]\nmodel = \"k_epsilon\"\ninitial_k = \"0.04 m2/s2\"\ninitial_epsilon = \"0.1 m2/s3\"\n";
+const char* const all_walls = "[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n";
+
+std::unique_ptr<Turbulence> turbulence(const std::string& toml) { return read_turbulence(CaseFile::parse(toml).root()); }
+std::vector<PatchBoundary> conditions(const std::string& toml) { return read_boundaries(CaseFile::parse(toml).root()); }
+
+/// The message of the Error(usage) that a piece of work throws.
+template <class Work>
+std::string usage_error(const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    return error.what();
+  }
+  ADD_FAILURE() << "no error was thrown";
+  return "";
+}
+
+bool mentions(const std::string& message, const std::string& word) { return message.find(word) != std::string::npos; }
+
+}  // namespace
+
+// The wall law is the logarithm above y*_lam, the laminar profile below, and continuous between.
+TEST(WallLaw, profile) {
+  WallLaw law;
+  law.set_y_laminar();
+  EXPECT_NEAR(law.y_laminar, 11.53, 0.005);
+  EXPECT_NEAR(law.y_laminar, std::log(law.E * law.y_laminar) / law.kappa, 1e-12);
+  EXPECT_EQ(law.viscosity_ratio(5), 1);
+  EXPECT_NEAR(law.viscosity_ratio(law.y_laminar * (1 + 1e-12)), 1, 1e-11);
+  EXPECT_DOUBLE_EQ(law.viscosity_ratio(100), 0.41 * 100 / std::log(9.8 * 100));
+}
+
+// Every model registers itself, and the manual shows the choice and each model.
+TEST(Turbulence, registry) {
+  const std::vector<std::string> known{"k_epsilon", "laminar"};
+  EXPECT_EQ(turbulence_models().names(), known);
+  EXPECT_EQ(turbulence_sections().size(), known.size() + 1);
+}
+
+// A misspelt model is an error that names the nearest.
+TEST(Turbulence, unknown_model) {
+  EXPECT_TRUE(mentions(usage_error([] { turbulence("[turbulence]\nmodel = \"k_epsilom\"\n"); }), "k_epsilon"));
+}
+
+// What enters has k = 3/2 (I U)^2 and epsilon = C_mu^(3/4) k^(3/2)/l, or what is given.
+TEST(InletTurbulence, values) {
+  InletTurbulence inlet;
+  inlet.diameter = 0.2;
+  const TurbulenceValues values = inlet.at(2, 0.09);
+  EXPECT_DOUBLE_EQ(values.k, 0.015);
+  EXPECT_NEAR(values.epsilon, std::pow(0.09, 0.75) * std::pow(0.015, 1.5) / 0.014, 1e-14);
+  inlet.k = 0.3, inlet.epsilon = 0.7;
+  EXPECT_EQ(inlet.at(2, 0.09).k, 0.3);
+  EXPECT_EQ(inlet.at(2, 0.09).epsilon, 0.7);
+}
+
+// Keys of entering turbulence that contradict each other, or stand at a wall, are errors.
+TEST(InletTurbulence, contradictions) {
+  EXPECT_TRUE(mentions(usage_error([] { conditions("[[boundary]]\npatch = \"x0\"\nkind = \"wall\"\nturbulence_intensity = 0.1\n"); }),
+                       "turbulence_"));
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {3, 3, 3});
+  const std::string sides = "[[boundary]]\npatches = [\"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"pressure_outlet\"\n";
+  const std::string inlet = "[[boundary]]\npatch = \"x0\"\nkind = \"velocity_inlet\"\nnormal_speed = \"1 m/s\"\n";
+  EXPECT_TRUE(
+      mentions(usage_error([&] { FlowSolver(mesh, {}, conditions(sides + inlet + "turbulence_k = \"1 m2/s2\"\n"), turbulence(model)); }),
+               "turbulence_epsilon"));
+}
+
+// Where nothing enters and no initial state is given, the error asks for it.
+TEST(KEpsilon, no_initial_state) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {3, 3, 3});
+  FlowSolver solver(mesh, {}, conditions(all_walls), turbulence("[turbulence]\nmodel = \"k_epsilon\"\n"));
+  EXPECT_TRUE(mentions(usage_error([&] { solver.advance(0.1); }), "initial_k"));
+}
+
+// Without a model the flow has no fields of turbulence, a constant viscosity, and no y+.
+TEST(Laminar, leaves_the_flow_alone) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {3, 3, 3});
+  FlowSolver solver(mesh, {}, conditions(all_walls));
+  solver.advance(0.1);
+  EXPECT_TRUE(solver.flow.eddy_viscosity.empty());
+  EXPECT_FALSE(solver.flow.variable_viscosity);
+  for (const double mu : solver.flow.face_viscosity) EXPECT_EQ(mu, solver.flow.dynamic_viscosity);
+  EXPECT_EQ(y_plus_of(solver.flow, 0).highest, 0);
+}
+
+// A cell with several wall faces at different distances takes the mean of production and epsilon, weighted with their areas.
+TEST(WallFunctions, several_faces) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {0.3, 0.6, 0.9}, {3, 3, 3});
+  const FlowSolver solver(mesh, {}, conditions(all_walls), turbulence(model));
+  Flow flow(mesh);
+  flow.y_plus.resize(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior));
+  std::fill(flow.velocity.begin(), flow.velocity.end(), Vec3{1, 2, 2});
+  WallLaw law;
+  law.set_y_laminar();
+  WallFunctions walls(mesh, solver.boundary(), law);
+  constexpr double k = 0.04;
+  walls.equilibrium(flow, solver.boundary(), std::vector<double>(static_cast<std::size_t>(mesh.n_all_cells()), k));
+  const double u_star = std::pow(0.09, 0.25) * std::sqrt(k), nu = flow.dynamic_viscosity / flow.density;
+  // At a corner: areas 0.2 x 0.3, 0.1 x 0.3, 0.1 x 0.2, distances 0.05, 0.1, 0.15, speeds along the walls of sqrt(8), sqrt(5), sqrt(5).
+  const std::array<double, 3> area{0.06, 0.03, 0.02}, y{0.05, 0.1, 0.15}, speed{std::sqrt(8), std::sqrt(5), std::sqrt(5)};
+  double epsilon = 0, production = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double shear = nu * law.viscosity_ratio(u_star * y[i] / nu) * speed[i] / y[i];
+    epsilon += area[i] / 0.11 * std::pow(u_star, 3) / (0.41 * y[i]);
+    production += area[i] / 0.11 * shear * u_star / (0.41 * y[i]);
+  }
+  std::int64_t corners = 0;
+  for (std::size_t i = 0; i < walls.cells().size(); ++i) {
+    const Vec3& x = mesh.cell_centre[walls.cells()[i]];
+    if (x.x > 0.1 || x.y > 0.2 || x.z > 0.3) continue;
+    ++corners;
+    EXPECT_NEAR(walls.dissipation()[i] / epsilon, 1, 1e-12);
+    EXPECT_NEAR(walls.production()[i] / production, 1, 1e-12);
+  }
+  EXPECT_EQ(sum(MPI_COMM_WORLD, corners), 1);
+}
+
+// The shear on a wall is that of the wall function at the speed relative to the wall: none where both move together.
+TEST(WallFunctions, relative_to_the_wall) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {2, 2, 6}, {true, true, false});
+  FlowSettings settings;
+  settings.initial_velocity = {2, 0, 0};
+  FlowSolver solver(mesh, settings,
+                    conditions("[[boundary]]\npatch = \"z0\"\nkind = \"moving_wall\"\nvelocity = [\"2 m/s\", \"0 m/s\", \"0 m/s\"]\n"
+                               "[[boundary]]\npatch = \"z1\"\nkind = \"wall\"\n"),
+                    turbulence(model));
+  solver.advance(1e-4);
+  EXPECT_NEAR(patch_force(solver.flow, mesh.patch_index("z0"), {}).friction.x, 0, 1e-9);
+  const double u_star = std::pow(0.09, 0.25) * 0.2, y_star = u_star / 12 / (1.003e-3 / 998.2);
+  EXPECT_NEAR(patch_force(solver.flow, mesh.patch_index("z1"), {}).friction.x, 998.2 * u_star * 0.41 / std::log(9.8 * y_star) * 2, 0.01);
+}
