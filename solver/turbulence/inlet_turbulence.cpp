@@ -15,7 +15,7 @@ constexpr double length_over_diameter = 0.07;  // mixing length of developed pip
 
 std::vector<Parameter> InletTurbulence::parameters() {
   return {{"turbulence_intensity", &intensity, "1", 0, 10, Basis::assumed,
-           "Of fluid that enters: root of the mean square of a velocity component's fluctuation over the speed."},
+           "Of fluid that enters: root of the mean square of a velocity component's fluctuation over the speed; 0.05 if not given."},
           {"turbulence_length_scale", &length_scale, "m", 1e-12, infinity, Basis::literature,
            "Of fluid that enters: size of the eddies; 0.07 of the diameter of a circle as large as the patch if not given."},
           {"turbulence_k", &k, "m2/s2", 0, infinity, Basis::assumed,
@@ -24,13 +24,13 @@ std::vector<Parameter> InletTurbulence::parameters() {
            "Dissipation rate of fluid that enters, instead; with turbulence_k."}};
 }
 
-bool InletTurbulence::given() const { return intensity != usual_intensity || length_scale || k || epsilon; }
+bool InletTurbulence::given() const { return intensity || length_scale || k || epsilon; }
 
 void InletTurbulence::prepare(const Mesh& mesh, const Patch& patch, const std::string& where) {
   if (k.has_value() != epsilon.has_value())
     throw Error(ExitCode::usage, where + ": of turbulence_k and turbulence_epsilon only one is given; give both or none");
-  if (k && length_scale)
-    throw Error(ExitCode::usage, where + ": turbulence_k and turbulence_length_scale are both given; remove one of them");
+  if (k && (intensity || length_scale))
+    throw Error(ExitCode::usage, where + ": turbulence_k is given beside turbulence_intensity or turbulence_length_scale; keep one kind");
   if (k && !(*k > 0 && *epsilon > 0))
     throw Error(ExitCode::usage, where + ": turbulence_k (" + std::to_string(*k) + ") and turbulence_epsilon (" + std::to_string(*epsilon) +
                                      ") must both be positive; for nearly laminar inflow give a small turbulence_intensity");
@@ -41,7 +41,7 @@ void InletTurbulence::prepare(const Mesh& mesh, const Patch& patch, const std::s
 
 TurbulenceValues InletTurbulence::at(double speed, double C_mu) const {
   if (k) return {*k, *epsilon};
-  const double energy = 1.5 * intensity * intensity * speed * speed;
+  const double fluctuation = intensity.value_or(usual_intensity) * speed, energy = 1.5 * fluctuation * fluctuation;
   return {energy, std::pow(C_mu, 0.75) * energy * std::sqrt(energy) / length_scale.value_or(length_over_diameter * diameter)};
 }
 

@@ -19,7 +19,7 @@ struct TurbulenceValues {
 };
 
 struct InletTurbulence {
-  double intensity = 0.05;
+  std::optional<double> intensity;     // I, 0.05 if not given
   std::optional<double> length_scale;  // l, m
   std::optional<double> k, epsilon;    // m2/s2, m2/s3
   double diameter = 0;                 // D, m
