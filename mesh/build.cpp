@@ -126,6 +126,7 @@ std::vector<Vec3> number_faces(const MeshParts& parts, std::vector<LocalFace>& f
 
   mesh.n_faces = static_cast<int>(faces.size());
   mesh.n_interior = static_cast<int>(std::count_if(faces.begin(), faces.end(), [](const LocalFace& face) { return face.neighbour >= 0; }));
+  mesh.first_facet = mesh.n_interior;
   std::vector<Vec3> shift;
   mesh.face_node_start.assign(1, 0);
   for (const LocalFace& face : faces) {

@@ -8,6 +8,9 @@
 //   Periodic patches are joined to interior faces: `delta` holds the way from the owner's to the neighbour's centre, across the period,
 //          so that face_centre - (cell_centre[owner] + delta) is the way from the neighbour's centre to the face on every interior face.
 //          A cell one period wide is its own neighbour and lists that face twice.
+//          [first_facet, n_interior) are facets of a sliding interface (mesh/turning_mesh.hpp): none without, and then first_facet =
+//          n_interior.
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,7 +39,7 @@ enum class CellShape : std::uint8_t { tetrahedron, pyramid, prism, hexahedron };
 
 struct Mesh {
   MPI_Comm comm = MPI_COMM_SELF;
-  int n_cells = 0, n_ghosts = 0, n_interior = 0, n_faces = 0;
+  int n_cells = 0, n_ghosts = 0, n_interior = 0, n_faces = 0, first_facet = 0;
   std::int64_t n_cells_global = 0, n_interior_global = 0;
 
   // cells: owned, then ghosts
@@ -54,6 +57,9 @@ struct Mesh {
   std::vector<Vec3> delta;            // owner centre -> neighbour centre; on the boundary -> face centre, m
   std::vector<double> weight;  // linear interpolation: field_f = weight field_owner + (1 - weight) field_neighbour; 1 on the boundary
   std::vector<Patch> patches;
+  // of facets, [n_interior - first_facet]: their area over that of the face that they are a part of, on the owner's and the neighbour's
+  // side
+  std::vector<std::array<double, 2>> facet_share;
 
   // cell -> faces of owned cells (compressed rows), all kinds of faces
   std::vector<int> cell_face_start, cell_face;

@@ -11,15 +11,18 @@
 
 namespace snag {
 
+class RotatingZone;
+
 struct Flow {
   explicit Flow(const Mesh& mesh);
 
   const Mesh& mesh;
-  double density = 998.2;               // kg/m3
-  double dynamic_viscosity = 1.003e-3;  // Pa s
-  double time = 0;                      // s
-  double time_step_size = 0;            // of the last step, s
-  std::int64_t time_step = 0;           // steps done
+  const RotatingZone* rotating_zone = nullptr;  // the turning part, null without
+  double density = 998.2;                       // kg/m3
+  double dynamic_viscosity = 1.003e-3;          // Pa s
+  double time = 0;                              // s
+  double time_step_size = 0;                    // of the last step, s
+  std::int64_t time_step = 0;                   // steps done
 
   // [n_all_cells], ghosts up to date after every step
   std::vector<Vec3> velocity, velocity_old, velocity_older;    // u at t, t - dt, t - 2 dt; m/s
