@@ -138,4 +138,19 @@ std::vector<LocalFace> connect(const MeshParts& parts) {
   return faces;
 }
 
+void list_cell_faces(Mesh& mesh) {
+  mesh.cell_face_start.assign(static_cast<std::size_t>(mesh.n_cells) + 1, 0);
+  const auto for_each_side = [&](const auto& act) {
+    for (int f = 0; f < mesh.n_faces; ++f) {
+      if (mesh.owner[f] < mesh.n_cells) act(mesh.owner[f], f);
+      if (mesh.neighbour[f] >= 0 && mesh.neighbour[f] < mesh.n_cells) act(mesh.neighbour[f], f);
+    }
+  };
+  for_each_side([&](int cell, int) { ++mesh.cell_face_start[cell + 1]; });
+  for (int c = 0; c < mesh.n_cells; ++c) mesh.cell_face_start[c + 1] += mesh.cell_face_start[c];
+  mesh.cell_face.resize(static_cast<std::size_t>(mesh.cell_face_start[mesh.n_cells]));
+  std::vector<int> next(mesh.cell_face_start.begin(), mesh.cell_face_start.end() - 1);
+  for_each_side([&](int cell, int face) { mesh.cell_face[next[cell]++] = face; });
+}
+
 }  // namespace snag

@@ -24,4 +24,8 @@ std::vector<LocalFace> connect(const MeshParts& parts);
 /// Collective; throws Error(mesh) for a face without partner or an unknown patch.
 void join_periodic(MeshParts& parts, std::vector<LocalFace>& faces);
 
+/// Fills cell_face_start and cell_face from owner and neighbour: rows of rising face numbers. A cell one period wide is its own neighbour
+/// and lists that face twice.
+void list_cell_faces(Mesh& mesh);
+
 }  // namespace snag

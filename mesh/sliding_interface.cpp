@@ -79,7 +79,9 @@ class FacetCutter {
   void add(const RevolvedFace& rotor, const RevolvedFace& stator, const PatchGeometry& patch) {
     rotor_covered_[static_cast<std::size_t>(&rotor - surface_.rotor.face.data())] += patch.area;
     stator_covered_[static_cast<std::size_t>(&stator - surface_.stator.face.data())] += patch.area;
-    const auto side = [](const RevolvedFace& face) { return FacetSide{face.cell_id, face.rank, face.cell, face.face}; };
+    const auto side = [&](const RevolvedFace& face) {
+      return FacetSide{face.cell_id, face.rank, face.cell, face.face, patch.area / face.area};
+    };
     facets_.push_back({side(rotor), side(stator), surface_.frame.vector_from(rotor.sign * patch.vector),
                        surface_.frame.point_from(patch.centre), patch.area});
   }

@@ -24,7 +24,9 @@ class SlidingBins;
 struct FacetSide {
   std::int64_t cell_id = 0;  // of the mesh file
   int rank = 0;              // that owns the cell
-  int cell = 0, face = 0;    // local numbers there: owned cell, boundary face of the interface's patch that the facet is a part of
+  int cell = 0, face = 0;    // local numbers there: owned cell, boundary face of the interface's patch that the facet is a part of, as the
+                             // mesh was when the interface was built
+  double share = 0;          // of that face's area
 };
 
 struct Facet {

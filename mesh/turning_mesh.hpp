@@ -34,11 +34,13 @@ class TurningMesh {
   std::int64_t n_facets_global() const;
 
  private:
+  void release_interface();
   void add_ghosts();
-  void release_interface_faces();
+  void number_interface_cells();
   void keep_reference();
   void turn_geometry();
-  void join();
+  void join(const std::vector<Facet>& facets);
+  int cell_of(const FacetSide& side) const;
 
   Mesh& mesh_;
   SlidingInterface interface_;
@@ -52,8 +54,7 @@ class TurningMesh {
   };
   Turning reference_;
   std::vector<double> unit_mesh_flux_, unit_boundary_mesh_flux_;  // at omega = 1 of [0, first_facet), of boundary faces
-  std::vector<int> local_cell_;                                   // sorted ids of interface cells and their local numbers
-  std::vector<std::int64_t> local_id_;
+  std::vector<std::pair<std::int64_t, int>> cell_of_id_;          // of all local cells at the interface, sorted
 };
 
 /// Makes room for the facets of the new angle in a field [n_faces] that was sized for the old one: the values on facets become `value`,

@@ -8,8 +8,9 @@
 
 namespace snag {
 
-CellMatrix::CellMatrix(const Mesh& mesh)
-    : row_start(static_cast<std::size_t>(mesh.n_cells) + 1), place_of_owner(mesh.n_interior), place_of_neighbour(mesh.n_interior) {
+void CellMatrix::update(const Mesh& mesh) {
+  row_start.assign(static_cast<std::size_t>(mesh.n_cells) + 1, 0);
+  place_of_owner.resize(mesh.n_interior), place_of_neighbour.resize(mesh.n_interior);
   for (int f = 0; f < mesh.n_interior; ++f)
     for (const int c : {mesh.owner[f], mesh.neighbour[f]})
       if (c < mesh.n_cells) ++row_start[c + 1];

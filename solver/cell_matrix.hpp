@@ -9,7 +9,9 @@ namespace snag {
 
 /// Off-diagonal entries in compressed rows. The diagonal is kept by each equation: one number a cell, or three where components differ.
 struct CellMatrix {
-  explicit CellMatrix(const Mesh& mesh);
+  explicit CellMatrix(const Mesh& mesh) { update(mesh); }
+  /// Again after the facets of the mesh have changed; the values are lost. Local.
+  void update(const Mesh& mesh);
 
   std::vector<int> row_start, column;                   // [n_cells + 1], [n_entries]; columns are local cells, ghosts too
   std::vector<double> value;                            // [n_entries + 1]: the last takes what faces would add to rows of other ranks

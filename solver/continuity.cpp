@@ -8,6 +8,7 @@
 
 #include "parallel/sum.hpp"
 #include "solver/face.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 
@@ -38,7 +39,6 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       weight_(mesh.weight),
       face_mobility_(mesh.n_interior),
       coefficient_(mesh.n_faces),
-      preconditioner_(mesh.n_faces),
       correction_(mesh.n_all_cells()),
       given_(mesh.n_faces - mesh.n_interior),
       boundary_correction_(mesh.n_faces - mesh.n_interior),
@@ -59,11 +59,18 @@ void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
   gauss_gradient(mesh_, weight_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
 }
 
+void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
+  squares_.update();
+  history.mesh_turned();
+  coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
+  set_mobility(flow, time.now * flow.density / time.dt);
+  start_pressure(flow, boundary);
+}
+
 void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient) {
   inertia_ = 1;
   std::fill(mobility_.begin(), mobility_.end(), 1.0);
-  std::fill(face_mobility_.begin(), face_mobility_.end(), 1.0);
-  weight_ = mesh_.weight;
+  set_face_mobility();
   predict_flux(flow, boundary, gradient, false);
   std::fill(given_.begin(), given_.end(), 0.0);
   solve(flow, boundary);
@@ -103,6 +110,11 @@ void Continuity::set_mobility(const Flow& flow, double inertia) {
   inertia_ = inertia;
   for (int c = 0; c < mesh_.n_cells; ++c) mobility_[c] = 1 / (inertia + flow.drag[c]);
   mesh_.halo.exchange(mobility_);
+  set_face_mobility();
+}
+
+void Continuity::set_face_mobility() {
+  weight_.resize(static_cast<std::size_t>(mesh_.n_faces), 1), face_mobility_.resize(static_cast<std::size_t>(mesh_.n_interior));
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const double w = mesh_.weight[f], owner = w * mobility_[mesh_.owner[f]], neighbour = (1 - w) * mobility_[mesh_.neighbour[f]];
     weight_[f] = owner / (owner + neighbour);
@@ -165,8 +177,7 @@ void Continuity::set_coefficients(const BoundarySet& boundary) {
 
 ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
   set_coefficients(boundary);
-  if (poisson_.rebuild_is_due()) preconditioner_ = coefficient_;
-  poisson_.assemble(coefficient_);
+  poisson_.set_coefficients(coefficient_);
 
   std::fill(imbalance_.begin(), imbalance_.end(), 0.0);
   double magnitude = 0;
@@ -197,6 +208,10 @@ ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
     report.iterations += last.iterations, ++report.solves;
     report.rebuilt = report.rebuilt || last.rebuilt;
     report.final = last.final / inertia_;
+  }
+  if (report.rebuilt) {
+    preconditioner_ = {{mobility_.begin(), mobility_.begin() + mesh_.n_cells}, inertia_};
+    if (flow.rotating_zone) preconditioner_.angle = flow.rotating_zone->mesh().angle();
   }
   correct_flux(flow);
   return report;
@@ -250,9 +265,15 @@ void Continuity::correct_cells(Flow& flow, bool with_pressure) {
   for (std::size_t b = 0; b < boundary_correction_.size(); ++b) flow.boundary_pressure[b] += boundary_correction_[b];
 }
 
-void Continuity::restore(std::vector<double> coefficients, double fresh_cost, bool rebuild_due) {
-  preconditioner_ = std::move(coefficients);
-  poisson_.assemble(preconditioner_);
+void Continuity::restore(PreconditionerState state, const BoundarySet& boundary, double fresh_cost, bool rebuild_due) {
+  preconditioner_ = std::move(state);
+  inertia_ = preconditioner_.inertia;
+  std::copy(preconditioner_.mobility.begin(), preconditioner_.mobility.end(), mobility_.begin());
+  mesh_.halo.exchange(mobility_);
+  coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
+  set_face_mobility();
+  set_coefficients(boundary);
+  poisson_.set_coefficients(coefficient_);
   poisson_.restore(fresh_cost, rebuild_due);
 }
 

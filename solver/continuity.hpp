@@ -37,6 +37,8 @@ class Continuity {
   void start_pressure(Flow& flow, const BoundarySet& boundary);
   /// Make the given velocity and its fluxes divergence-free; the pressure stays. Collective.
   void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient);
+  /// Again after the mesh has turned, at the begin of a step: geometry, and the gradient of the pressure there. Collective.
+  void mesh_turned(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
   /// One pressure correction; `gradient` of velocity, for skewness. Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
 
@@ -45,14 +47,19 @@ class Continuity {
       wall_slope;  // dp/dn in force where velocity is fixed or at a symmetry, [n_faces - n_interior], Pa/m; kept in the checkpoint
 
   const Poisson& poisson() const { return poisson_; }
-  /// Coefficients that the preconditioner was last set up with, [n_faces].
-  const std::vector<double>& preconditioner_coefficients() const { return preconditioner_; }
-  /// Set the preconditioner up again from stored coefficients (a resume). Collective.
-  void restore(std::vector<double> coefficients, double fresh_cost, bool rebuild_due);
+  /// What the preconditioner was last set up from: mobility, [n_cells], m3 s/kg; inertia, kg/(m3 s); angle of the turning zone, rad.
+  struct PreconditionerState {
+    std::vector<double> mobility;
+    double inertia = 1, angle = 0;
+  };
+  const PreconditionerState& preconditioner() const { return preconditioner_; }
+  /// Set the preconditioner up again (a resume), on the mesh as it was then. Collective.
+  void restore(PreconditionerState state, const BoundarySet& boundary, double fresh_cost, bool rebuild_due);
 
  private:
   void give_boundary(const Flow& flow, const BoundarySet& boundary);
   void set_mobility(const Flow& flow, double inertia);
+  void set_face_mobility();
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void set_coefficients(const BoundarySet& boundary);
@@ -70,7 +77,7 @@ class Continuity {
   std::vector<double> weight_;         // of the owner's pressure at a face: in proportion to the mobilities, so that m dp/dn is continuous
   std::vector<double> face_mobility_;  // m_f, harmonic: 1/m_f = (1 - w)/m_P + w/m_N, [n_interior]
   std::vector<double> coefficient_;    // inertia m_f c: near c, whatever the step, so that the preconditioner lasts; [n_faces]
-  std::vector<double> preconditioner_;
+  PreconditionerState preconditioner_;
   std::vector<double> correction_;                   // p'
   std::vector<double> given_, boundary_correction_;  // p' or its slope at the boundary as given; p' there
   std::vector<Vec3> slope_, gradient_;               // of p': least squares, Gauss

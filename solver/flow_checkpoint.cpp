@@ -1,9 +1,10 @@
 // What a resume of the flow needs, by cell id. Values on faces are written cell by cell, as seen from the cell (fluxes out of it), its
 // faces sorted by (neighbour's id or patch, way to it): an order that does not depend on ranks. A face between two ranks is written by both
-// and read by each from its own.
+// and read by each from its own. Facets of a sliding interface have no history and are left out.
 #include <algorithm>
 #include <tuple>
 
+#include "mesh/geometry.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
@@ -19,7 +20,10 @@ class FaceRows {
  public:
   explicit FaceRows(const Mesh& mesh) : mesh_(mesh) {
     std::int64_t longest = 0;
-    for (int c = 0; c < mesh.n_cells; ++c) longest = std::max<std::int64_t>(longest, mesh.cell_face_start[c + 1] - mesh.cell_face_start[c]);
+    for (int c = 0; c < mesh.n_cells; ++c) {
+      const auto faces = row(mesh.cell_face_start, mesh.cell_face, c);
+      longest = std::max<std::int64_t>(longest, std::count_if(faces.begin(), faces.end(), [&](int f) { return !is_facet(f); }));
+    }
     length_ = static_cast<int>(maximum(mesh.comm, static_cast<double>(longest)));
   }
   int length() const { return length_; }
@@ -32,6 +36,7 @@ class FaceRows {
       order.clear();
       for (int k = mesh_.cell_face_start[c]; k < mesh_.cell_face_start[c + 1]; ++k) {
         const int f = mesh_.cell_face[k];
+        if (is_facet(f)) continue;
         const double sign = mesh_.owner[f] == c ? 1 : -1;
         const Vec3 way = sign * mesh_.delta[f];
         order.emplace_back(key(f, c), way.x, way.y, way.z, f, sign);
@@ -43,6 +48,7 @@ class FaceRows {
   }
 
  private:
+  bool is_facet(int f) const { return f >= mesh_.first_facet && f < mesh_.n_interior; }
   std::int64_t key(int f, int c) const {
     if (f < mesh_.n_interior) return mesh_.cell_id[mesh_.owner[f] == c ? mesh_.neighbour[f] : mesh_.owner[f]];
     std::int64_t patch = 0;
@@ -120,15 +126,19 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
   write_faces(checkpoint, "flow/boundary_pressure", rows, mesh, on_all_faces(mesh, flow.boundary_pressure), false);
   write_faces(checkpoint, "flow/wall_slope", rows, mesh, on_all_faces(mesh, continuity_.wall_slope), false);
-  write_faces(checkpoint, "flow/preconditioner", rows, mesh, continuity_.preconditioner_coefficients(), false);
+  const auto& preconditioner = continuity_.preconditioner();
+  checkpoint.shared("flow/preconditioner", std::vector<double>{preconditioner.inertia, preconditioner.angle});
+  if (started_) write_cells(checkpoint, "flow/preconditioner_mobility", mesh, preconditioner.mobility.data(), 1);
 }
 
 void FlowSolver::load(CheckpointReader& checkpoint) {
   const Mesh& mesh = flow.mesh;
-  const FaceRows rows(mesh);
   const auto scalars = checkpoint.shared("flow/scalars");
   flow.time = scalars.at(0), flow.time_step_size = scalars.at(1), flow.time_step = static_cast<std::int64_t>(scalars.at(2));
   started_ = scalars.at(3) != 0;
+  if (started_) load_preconditioner(checkpoint, scalars.at(4), scalars.at(5) != 0);
+  if (rotating_zone_) turn_mesh(flow.time);
+  const FaceRows rows(mesh);
   read_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity), 3);
   read_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old), 3);
   read_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient), 9);
@@ -147,10 +157,15 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
   read_boundary(checkpoint, "flow/boundary_pressure", rows, mesh, flow.boundary_pressure);
   read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
-  std::vector<double> preconditioner(mesh.n_faces);
-  read_faces(checkpoint, "flow/preconditioner", rows, mesh, preconditioner, false);
   if (started_) turbulence_->restore(flow, boundary_);
-  if (started_) continuity_.restore(std::move(preconditioner), scalars.at(4), scalars.at(5) != 0);
+}
+
+/// On the mesh as it was when the preconditioner was set up.
+void FlowSolver::load_preconditioner(CheckpointReader& checkpoint, double fresh_cost, bool rebuild_due) {
+  const auto shared = checkpoint.shared("flow/preconditioner");
+  if (rotating_zone_ && rotating_zone_->slides()) rotating_zone_->mesh().turn(shared.at(1));
+  continuity_.restore({checkpoint.rows("flow/preconditioner_mobility", owned_ids(flow.mesh), 1), shared.at(0), shared.at(1)}, boundary_,
+                      fresh_cost, rebuild_due);
 }
 
 }  // namespace snag

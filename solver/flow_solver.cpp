@@ -64,14 +64,17 @@ std::string scientific(double value) {
 }  // namespace
 
 FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary,
-                       std::unique_ptr<Turbulence> turbulence)
+                       std::unique_ptr<Turbulence> turbulence, std::unique_ptr<RotatingZone> rotating_zone)
     : flow(mesh),
       settings_(settings),
       boundary_(mesh, std::move(boundary)),
       squares_(mesh, velocity_sides(mesh, boundary_)),
       momentum_(mesh, momentum_settings(settings)),
       continuity_(mesh, boundary_, continuity_settings(settings)),
-      turbulence_(turbulence ? std::move(turbulence) : turbulence_models().make("laminar", "[turbulence]")) {
+      turbulence_(turbulence ? std::move(turbulence) : turbulence_models().make("laminar", "[turbulence]")),
+      rotating_zone_(std::move(rotating_zone)) {
+  flow.rotating_zone = rotating_zone_.get();
+  if (rotating_zone_) rotating_zone_->mesh().set_mesh_flux(rotating_zone_->speed(0), flow.mesh_flux);
   flow.density = settings.density;
   flow.dynamic_viscosity = settings.viscosity();
   flow.body_force = settings.body_force;
@@ -127,13 +130,35 @@ void FlowSolver::balance_body_force() {
   flow.velocity = velocity, flow.reaction = reaction, flow.drag = drag;
 }
 
-/// Shift the history, values of the boundary at the new time, first guesses.
+/// The mesh as it is at a time, and the fields that hang on its facets.
+void FlowSolver::turn_mesh(double time) {
+  if (rotating_zone_->slides()) {
+    rotating_zone_->mesh().turn(rotating_zone_->angle(time));
+    fields_follow_facets();
+  }
+  rotating_zone_->mesh().set_mesh_flux(rotating_zone_->speed(time), flow.mesh_flux);
+}
+
+void FlowSolver::fields_follow_facets() {
+  const Mesh& mesh = flow.mesh;
+  resize_facets(mesh, flow.flux), resize_facets(mesh, flow.flux_old);
+  resize_facets(mesh, flow.face_viscosity, flow.dynamic_viscosity);
+  squares_.update();
+  momentum_.mesh_turned();
+}
+
+/// The mesh at the new time; shift the history, values of the boundary, first guesses.
 void FlowSolver::begin_step(const TimeScheme& time) {
+  if (rotating_zone_) turn_mesh(flow.time + time.dt);
   std::swap(flow.velocity_older, flow.velocity_old);
   std::swap(flow.velocity_old, flow.velocity);
   std::swap(flow.flux_old, flow.flux);
   boundary_.update(flow, flow.time + time.dt);
-  momentum_.guess_from_history(flow, boundary_, time);
+  if (rotating_zone_ && rotating_zone_->slides()) {
+    continuity_.mesh_turned(flow, boundary_, time);
+    turbulence_->mesh_turned(flow, boundary_);
+  }
+  momentum_.guess_from_history(flow, continuity_.history, time);
   continuity_.history.begin_step(momentum_.rates(), time);
   std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
   turbulence_->begin_step(flow, time);

@@ -7,6 +7,7 @@
 #include "solver/continuity.hpp"
 #include "solver/flow_settings.hpp"
 #include "solver/momentum.hpp"
+#include "solver/rotating_zone.hpp"
 #include "solver/turbulence/turbulence.hpp"
 
 namespace snag {
@@ -29,7 +30,7 @@ struct StepReport {
   double seconds_momentum = 0, seconds_pressure = 0, seconds_turbulence = 0, seconds_rest = 0;
 };
 
-/// Terms of the momentum balance of the whole domain in the last step, N.
+/// Terms of the momentum balance of the whole domain in the last step, N; not closed in a turning frame, which adds a force.
 struct MomentumBalance {
   Vec3 change;      // d/dt of the fluid's momentum
   Vec3 convection;  // carried out through the boundary
@@ -45,7 +46,7 @@ class FlowSolver {
   /// Laminar if no turbulence model is given. Throws Error(usage) if the conditions do not suit the mesh. Collective, as are all functions
   /// below.
   FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vector<PatchBoundary> boundary,
-             std::unique_ptr<Turbulence> turbulence = nullptr);
+             std::unique_ptr<Turbulence> turbulence = nullptr, std::unique_ptr<RotatingZone> rotating_zone = nullptr);
 
   /// State of the water. Before the first step velocity, pressure, k and epsilon may be set (owned cells); the coupling sets reaction, drag
   /// and solid_fraction.
@@ -68,10 +69,13 @@ class FlowSolver {
   void start();
   void balance_body_force();
   void begin_step(const TimeScheme& time);
+  void turn_mesh(double time);
+  void fields_follow_facets();
   void correct_once(int outer, const TimeScheme& time, StepReport& report);
   void update_gradient();
   void measure(double dt, StepReport& report) const;
   void correct_turbulence(int outer, const TimeScheme& time, StepReport& report);
+  void load_preconditioner(CheckpointReader& checkpoint, double fresh_cost, bool rebuild_due);
   void check_finite(const std::string& where) const;
 
   FlowSettings settings_;
@@ -80,6 +84,7 @@ class FlowSolver {
   Momentum momentum_;
   Continuity continuity_;
   std::unique_ptr<Turbulence> turbulence_;
+  std::unique_ptr<RotatingZone> rotating_zone_;
   TimeScheme time_;
   bool started_ = false;
 };

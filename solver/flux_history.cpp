@@ -4,15 +4,23 @@
 
 #include <algorithm>
 
+#include "mesh/turning_mesh.hpp"
 #include "solver/face.hpp"
 
 namespace snag {
 
 FluxHistory::FluxHistory(const Mesh& mesh) : psi(mesh.n_faces), psi_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces) {}
 
+void FluxHistory::mesh_turned() { resize_facets(mesh_, psi), resize_facets(mesh_, psi_old), inherited_.resize(psi.size()); }
+
 void FluxHistory::begin_step(const std::vector<double>& rate, const TimeScheme& time) {
   const auto rate_of = [&](int c) { return (rate[2 * c] + rate[2 * c + 1]) / mesh_.cell_volume[c]; };
   for (int f = 0; f < mesh_.n_faces; ++f) {
+    if (f == mesh_.first_facet) {  // facets inherit nothing
+      std::fill(inherited_.begin() + f, inherited_.begin() + mesh_.n_interior, 0.0);
+      f = mesh_.n_interior;
+      if (f == mesh_.n_faces) break;
+    }
     const int P = mesh_.owner[f], N = f < mesh_.n_interior ? mesh_.neighbour[f] : P;
     const double fading = std::min(1.0, 0.5 * (rate_of(P) + rate_of(N)) * time.dt);
     inherited_[f] = -time.old * psi[f] - time.older * psi_old[f] - fading * ((1 + time.ratio) * psi[f] - time.ratio * psi_old[f]);

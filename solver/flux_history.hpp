@@ -18,6 +18,8 @@ class FluxHistory {
  public:
   explicit FluxHistory(const Mesh& mesh);
 
+  /// Again after the facets of the mesh have changed. Local.
+  void mesh_turned();
   /// What a step inherits, a0 times psi at its end without pressure; `rate` of convection and of diffusion times the volume, [2
   /// n_all_cells], m3/s.
   void begin_step(const std::vector<double>& rate, const TimeScheme& time);

@@ -31,6 +31,8 @@ void exchange(const Mesh& mesh, std::vector<Gradient>& g) {
 
 inline Vec3 product(const Mat3& m, const Vec3& g) { return m * g; }
 inline Mat3 product(const Mat3& m, const Mat3& g) { return {m * g[0], m * g[1], m * g[2]}; }
+inline Vec3 scaled(double s, const Vec3& a) { return s * a; }
+inline Mat3 scaled(double s, const Mat3& a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline void add(Vec3& a, const Vec3& b) { a += b; }
 inline void add(Mat3& a, const Mat3& b) { a[0] += b[0], a[1] += b[1], a[2] += b[2]; }
 
@@ -44,17 +46,28 @@ void LeastSquares::update() {
   open_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(open_.size())) > 0;
 }
 
+/// act(face, share of it in the owner, in the neighbour).
+template <class Act>
+void LeastSquares::for_each_difference(const Act& act) const {
+  for (int f = 0; f < mesh_.first_facet; ++f) act(f, 1.0, 1.0);
+  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) {
+    const auto& share = mesh_.facet_share[static_cast<std::size_t>(f - mesh_.first_facet)];
+    act(f, share[0], share[1]);
+  }
+}
+
 void LeastSquares::sum_moments() {
   inverse_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), {});
-  const auto add_direction = [&](int c, const Vec3& e) {
+  const auto add_direction = [&](int c, const Vec3& e, double share = 1) {
     Symmetric& m = inverse_[c];
-    m.xx += e.x * e.x, m.xy += e.x * e.y, m.xz += e.x * e.z, m.yy += e.y * e.y, m.yz += e.y * e.z, m.zz += e.z * e.z;
+    const Vec3 se = share * e;
+    m.xx += se.x * e.x, m.xy += se.x * e.y, m.xz += se.x * e.z, m.yy += se.y * e.y, m.yz += se.y * e.z, m.zz += se.z * e.z;
   };
-  for (int f = 0; f < mesh_.n_interior; ++f) {
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
     const Vec3 e = unit(mesh_.delta[f]);
-    add_direction(mesh_.owner[f], e);
-    add_direction(mesh_.neighbour[f], e);
-  }
+    add_direction(mesh_.owner[f], e, owner_share);
+    add_direction(mesh_.neighbour[f], e, neighbour_share);
+  });
   for (std::size_t p = 0; p < sides_.size(); ++p) {
     if (sides_[p] == Side::none) continue;
     const Patch& patch = mesh_.patches[p];
@@ -95,14 +108,14 @@ void LeastSquares::invert_moments() {
 template <class Value, class Gradient>
 void LeastSquares::add_interior(std::span<const Value> phi, std::vector<Gradient>& g) const {
   std::fill(g.begin(), g.end(), Gradient{});
-  for (int f = 0; f < mesh_.n_interior; ++f) {
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3& d = mesh_.delta[f];
     const Vec3 e = d / norm_squared(d);
     const Value change = phi[N] - phi[P];
-    add_product(g[P], change, e);
-    add_product(g[N], change, e);
-  }
+    add_product(g[P], owner_share * change, e);
+    add_product(g[N], neighbour_share * change, e);
+  });
 }
 
 template <class Value, class Gradient>
@@ -137,17 +150,19 @@ void LeastSquares::fill_open(std::vector<Gradient>& g) const {
   std::vector<Gradient> filled;
   for (const OpenCell& cell : open_) {
     Gradient mean{};
-    int n = 0;
+    double weight = 0;
     for (int k = mesh_.cell_face_start[cell.cell]; k < mesh_.cell_face_start[cell.cell + 1]; ++k) {
       const int f = mesh_.cell_face[k];
       if (f >= mesh_.n_interior) continue;
-      add(mean, g[mesh_.owner[f] == cell.cell ? mesh_.neighbour[f] : mesh_.owner[f]]);
-      ++n;
+      const bool owns = mesh_.owner[f] == cell.cell;
+      const double share = f < mesh_.first_facet ? 1 : mesh_.facet_share[static_cast<std::size_t>(f - mesh_.first_facet)][owns ? 0 : 1];
+      add(mean, scaled(share, g[owns ? mesh_.neighbour[f] : mesh_.owner[f]]));
+      weight += share;
     }
     Gradient whole = g[cell.cell];
-    if (n > 0) {
+    if (weight > 0) {
       Mat3 open = cell.open;
-      for (Vec3& row : open) row *= 1.0 / n;
+      for (Vec3& row : open) row *= 1 / weight;
       add(whole, product(open, mean));
     }
     filled.push_back(whole);
@@ -164,14 +179,14 @@ void LeastSquares::gradient(std::span<const double> phi, std::span<const double>
 void LeastSquares::gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
                             std::vector<Vec3>& g) const {
   std::fill(g.begin(), g.end(), Vec3{});
-  for (int f = 0; f < mesh_.n_interior; ++f) {
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3& d = mesh_.delta[f];
     const double w = mesh_.weight[f];
     const Vec3 e = (phi[N] - phi[P]) / norm_squared(d) * d;
-    g[P] += (1 - weight[f]) / (1 - w) * e;
-    g[N] += weight[f] / w * e;
-  }
+    g[P] += owner_share * (1 - weight[f]) / (1 - w) * e;
+    g[N] += neighbour_share * weight[f] / w * e;
+  });
   finish<double, Vec3>(phi, boundary, g);
 }
 

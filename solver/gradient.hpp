@@ -3,6 +3,7 @@
 //
 //   least squares:   minimise sum_f (g.e_f - D_f)^2,   e_f = d/|d|,   D_f = (phi_N - phi_P)/|d|
 //                    g = M^-1 sum_f D_f e_f,   M = sum_f e_f e_f
+//                    a facet counts with its share of the face that it is a part of: a sliver that comes or goes changes nothing
 //   Gauss:           V g = sum_f phi_f S,   phi_f with skewness correction by least squares: sums of V g telescope to the boundary
 //
 // A cell with few neighbours (a tetrahedron with two faces on walls where the value is unknown) leaves directions open: eigenvalues of M
@@ -48,6 +49,8 @@ class LeastSquares {
     int cell;
     Mat3 open;  // projection onto the directions that the faces leave open
   };
+  template <class Act>
+  void for_each_difference(const Act& act) const;
   void sum_moments();
   void invert_moments();
   template <class Value, class Gradient>

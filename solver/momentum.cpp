@@ -16,6 +16,7 @@
 
 #include "parallel/sum.hpp"
 #include "solver/face.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 
@@ -75,12 +76,37 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings)
       psi_(mesh.n_all_cells(), 1.0),
       rate_(2 * static_cast<std::size_t>(mesh.n_all_cells())) {}
 
-void Momentum::guess_from_history(Flow& flow, const BoundarySet&, const TimeScheme& time) {
-  const double r = time.ratio;
-  std::fill(rate_.begin(), rate_.end(), 0.0);
-  for (int f = 0; f < mesh_.n_faces; ++f) {
-    flux_[f] = (1 + r) * flow.flux_old[f] - r * flow.flux[f] - flow.mesh_flux[f];  // flow.flux holds flux^(n-1) until it is corrected
+void Momentum::mesh_turned() {
+  matrix_.update(mesh_);
+  flux_.resize(static_cast<std::size_t>(mesh_.n_faces));
+}
+
+/// Fluxes that stand are extrapolated as they are: free of divergence. Where faces turn, u and psi are, so that the flux is that of the
+/// face as it lies now; facets have no psi.
+void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double r) {
+  const auto& u = flow.velocity;
+  const auto& G = flow.velocity_gradient;
+  const auto& psi = history.psi;
+  const int turning = flow.rotating_zone && flow.rotating_zone->slides() ? flow.rotating_zone->zone() : -1;
+  const auto of_cells = [&](int f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double w = mesh_.weight[f];
+    return dot(blend(w, u[P], u[N]) + blend(w, G[P], G[N]) * skewness(mesh_, f), mesh_.face_vector[f]);
+  };
+  const auto extrapolated = [&](int f) { return (1 + r) * flow.flux_old[f] - r * flow.flux[f]; };  // flux^(n-1) until it is corrected
+  for (int f = 0; f < mesh_.first_facet; ++f) {
+    const bool turns = mesh_.cell_zone[mesh_.owner[f]] == turning;
+    flux_[f] = (turns ? of_cells(f) + (1 + r) * psi[f] - r * history.psi_old[f] : extrapolated(f)) - flow.mesh_flux[f];
   }
+  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] = of_cells(f);
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = extrapolated(f) - flow.mesh_flux[f];
+}
+
+void Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
+  const double r = time.ratio;
+  for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
+  guess_flux(flow, history, r);
+  std::fill(rate_.begin(), rate_.end(), 0.0);
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const double c = conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
@@ -97,7 +123,6 @@ void Momentum::guess_from_history(Flow& flow, const BoundarySet&, const TimeSche
         r * extrapolation_share(time.dt * rate_[2 * c] / mesh_.cell_volume[c], time.dt * rate_[2 * c + 1] / mesh_.cell_volume[c]);
     const Mat3 &G = flow.velocity_gradient[c], &G_old = flow.velocity_gradient_old[c];
     for (int i = 0; i < 3; ++i) gradient_[c][i] = (1 + e) * G[i] - e * G_old[i];
-    flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
   limit(flow);
 }
@@ -146,6 +171,11 @@ void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
     right_side_[c] = V * (flow.reaction[c] + flow.body_force - flow.pressure_gradient[c] -
                           inertia * (time.old * flow.velocity_old[c] + time.older * flow.velocity_older[c]));
   }
+  if (!flow.rotating_zone || flow.rotating_zone->slides()) return;
+  const Vec3 omega = flow.rotating_zone->rotation_speed(flow.time + time.dt);
+  for (int c = 0; c < mesh_.n_cells; ++c)
+    if (mesh_.cell_zone[c] == flow.rotating_zone->zone())
+      right_side_[c] -= flow.density * mesh_.cell_volume[c] * cross(omega, flow.velocity[c]);
 }
 
 template <Convection scheme>

@@ -3,9 +3,11 @@
 //
 //   rho (a0 u* + a1 u^n + a2 u^(n-1))/dt + div(rho F u*) - div(mu grad u*) + beta u* = - grad p + f + body force
 //
+// In a turning frame - rho omega x u is added, with the guess of u.
 // a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
 #include "solver/boundary.hpp"
 #include "solver/cell_matrix.hpp"
+#include "solver/flux_history.hpp"
 #include "solver/gradient.hpp"
 #include "solver/limiter.hpp"
 #include "solver/time_scheme.hpp"
@@ -25,8 +27,11 @@ class Momentum {
  public:
   Momentum(const Mesh& mesh, const MomentumSettings& settings);
 
+  /// Again after the facets of the mesh have changed. Local.
+  void mesh_turned();
   /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms. Local.
-  void guess_from_history(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
+  /// `history`: how far fluxes were from their cells' velocities; used where faces turn.
+  void guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
   /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
   void guess_from_last(const Flow& flow);
   /// Solve for u*, from flow.velocity as first guess into flow.velocity, ghosts too; fills flow.boundary_friction, boundary_convection.
@@ -40,6 +45,7 @@ class Momentum {
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
+  void guess_flux(const Flow& flow, const FluxHistory& history, double ratio);
   void limit(const Flow& flow);
   void start_rows(const Flow& flow, const TimeScheme& time);
   template <Convection scheme>

@@ -1,4 +1,5 @@
-// The matrix is assembled by COO: its pattern once, its values in one pass over the faces. Each rank fills the rows of its own cells only.
+// The matrix of the preconditioner is assembled by COO, its values in one pass over the faces. Each rank fills the rows of its own cells
+// only.
 // Iterations are measured per decade of the residual, so that solves with different tolerances can be compared.
 #include "solver/poisson.hpp"
 
@@ -37,7 +38,7 @@ std::string options(const std::string& multigrid, bool singular) {
 }  // namespace
 
 struct Poisson::Petsc {
-  Mat matrix = nullptr;
+  Mat matrix = nullptr, preconditioner = nullptr;  // applied face by face; assembled
   Vec b = nullptr, x = nullptr;
   KSP solver = nullptr;
   Petsc() = default;
@@ -47,7 +48,7 @@ struct Poisson::Petsc {
     PetscBool finalized = PETSC_FALSE;
     PetscFinalized(&finalized);
     if (finalized) return;
-    KSPDestroy(&solver), VecDestroy(&x), VecDestroy(&b), MatDestroy(&matrix);
+    KSPDestroy(&solver), VecDestroy(&x), VecDestroy(&b), MatDestroy(&preconditioner), MatDestroy(&matrix);
   }
 };
 
@@ -73,27 +74,42 @@ void coordinates(const Mesh& mesh, std::vector<PetscInt>& rows, std::vector<Pets
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f) add(mesh.owner[f], mesh.owner[f]);
 }
 
+/// Symmetric, and with the constants as null space if `singular`.
+void declare(Mat matrix, MPI_Comm comm, bool singular) {
+  check_petsc(MatSetOption(matrix, MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
+  if (!singular) return;
+  MatNullSpace constants = nullptr;
+  check_petsc(MatNullSpaceCreate(comm, PETSC_TRUE, 0, nullptr, &constants), "MatNullSpaceCreate");
+  check_petsc(MatSetNullSpace(matrix, constants), "MatSetNullSpace");
+  check_petsc(MatNullSpaceDestroy(&constants), "MatNullSpaceDestroy");
+}
+
 }  // namespace
 
 Poisson::Poisson(const Mesh& mesh, const std::string& multigrid, bool singular)
-    : mesh_(mesh), singular_(singular), petsc_(std::make_unique<Petsc>()) {
+    : mesh_(mesh),
+      singular_(singular),
+      coefficient_(mesh.n_faces),
+      x_all_(mesh.n_all_cells()),
+      y_all_(mesh.n_all_cells()),
+      petsc_(std::make_unique<Petsc>()) {
   Petsc& p = *petsc_;
   const PetscInt n = mesh.n_cells;
-  check_petsc(MatCreate(mesh.comm, &p.matrix), "MatCreate");
-  check_petsc(MatSetSizes(p.matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
-  check_petsc(MatSetType(p.matrix, MATAIJ), "MatSetType");
-  std::vector<PetscInt> rows, columns;
-  coordinates(mesh, rows, columns);
-  entries_.resize(rows.size());
-  check_petsc(MatSetPreallocationCOO(p.matrix, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()),
-              "MatSetPreallocationCOO");
-  check_petsc(MatSetOption(p.matrix, MAT_SYMMETRIC, PETSC_TRUE), "MatSetOption");
-  if (singular) {
-    MatNullSpace constants = nullptr;
-    check_petsc(MatNullSpaceCreate(mesh.comm, PETSC_TRUE, 0, nullptr, &constants), "MatNullSpaceCreate");
-    check_petsc(MatSetNullSpace(p.matrix, constants), "MatSetNullSpace");
-    check_petsc(MatNullSpaceDestroy(&constants), "MatNullSpaceDestroy");
-  }
+  check_petsc(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, &p.matrix), "MatCreateShell");
+  const auto multiply = [](Mat matrix, Vec x, Vec y) -> PetscErrorCode {
+    void* self = nullptr;
+    const PetscScalar* from = nullptr;
+    PetscScalar* to = nullptr;
+    PetscCall(MatShellGetContext(matrix, &self));
+    PetscCall(VecGetArrayRead(x, &from));
+    PetscCall(VecGetArrayWrite(y, &to));
+    static_cast<Poisson*>(self)->apply(from, to);
+    PetscCall(VecRestoreArrayWrite(y, &to));
+    PetscCall(VecRestoreArrayRead(x, &from));
+    return 0;
+  };
+  check_petsc(MatShellSetOperation(p.matrix, MATOP_MULT, reinterpret_cast<void (*)()>(+multiply)), "MatShellSetOperation");
+  declare(p.matrix, mesh.comm, singular);
   check_petsc(VecCreateMPIWithArray(mesh.comm, 1, n, PETSC_DETERMINE, nullptr, &p.b), "VecCreateMPIWithArray");
   check_petsc(VecCreateMPIWithArray(mesh.comm, 1, n, PETSC_DETERMINE, nullptr, &p.x), "VecCreateMPIWithArray");
   check_petsc(PetscOptionsInsertString(nullptr, options(multigrid, singular).c_str()), "PetscOptionsInsertString");
@@ -103,22 +119,54 @@ Poisson::Poisson(const Mesh& mesh, const std::string& multigrid, bool singular)
   check_petsc(KSPSetNormType(p.solver, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
   check_petsc(KSPSetInitialGuessNonzero(p.solver, PETSC_TRUE), "KSPSetInitialGuessNonzero");
   check_petsc(KSPSetResidualHistory(p.solver, nullptr, max_iterations + 1, PETSC_TRUE), "KSPSetResidualHistory");
-  check_petsc(KSPSetOperators(p.solver, p.matrix, p.matrix), "KSPSetOperators");
   check_petsc(KSPSetFromOptions(p.solver), "KSPSetFromOptions");
 }
 
 Poisson::~Poisson() = default;
 
-void Poisson::assemble(std::span<const double> k) {
-  double* entry = entries_.data();
-  for (int f = 0; f < mesh_.n_interior; ++f, entry += 4) entry[0] = k[f], entry[1] = -k[f], entry[2] = k[f], entry[3] = -k[f];
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) *entry++ = k[f];
-  check_petsc(MatSetValuesCOO(petsc_->matrix, entries_.data(), INSERT_VALUES), "MatSetValuesCOO");
+void Poisson::set_coefficients(std::span<const double> k) { coefficient_.assign(k.begin(), k.end()); }
+
+void Poisson::apply(const double* x, double* y) {
+  std::copy(x, x + mesh_.n_cells, x_all_.begin());
+  mesh_.halo.exchange(x_all_);
+  std::fill(y_all_.begin(), y_all_.end(), 0.0);
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double flux = coefficient_[f] * (x_all_[P] - x_all_[N]);
+    y_all_[P] += flux;
+    y_all_[N] -= flux;
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) y_all_[mesh_.owner[f]] += coefficient_[f] * x_all_[mesh_.owner[f]];
+  std::copy(y_all_.begin(), y_all_.begin() + mesh_.n_cells, y);
+}
+
+/// A new matrix each time: its pattern follows the facets.
+void Poisson::set_up_preconditioner() {
+  Petsc& p = *petsc_;
+  const PetscInt n = mesh_.n_cells;
+  check_petsc(MatDestroy(&p.preconditioner), "MatDestroy");
+  check_petsc(MatCreate(mesh_.comm, &p.preconditioner), "MatCreate");
+  check_petsc(MatSetSizes(p.preconditioner, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  check_petsc(MatSetType(p.preconditioner, MATAIJ), "MatSetType");
+  std::vector<PetscInt> rows, columns;
+  coordinates(mesh_, rows, columns);
+  check_petsc(MatSetPreallocationCOO(p.preconditioner, static_cast<PetscCount>(rows.size()), rows.data(), columns.data()),
+              "MatSetPreallocationCOO");
+  std::vector<double> values(rows.size());
+  double* value = values.data();
+  const auto& k = coefficient_;
+  for (int f = 0; f < mesh_.n_interior; ++f, value += 4) value[0] = k[f], value[1] = -k[f], value[2] = k[f], value[3] = -k[f];
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) *value++ = k[f];
+  check_petsc(MatSetValuesCOO(p.preconditioner, values.data(), INSERT_VALUES), "MatSetValuesCOO");
+  declare(p.preconditioner, mesh_.comm, singular_);
+  check_petsc(KSPSetReusePreconditioner(p.solver, PETSC_FALSE), "KSPSetReusePreconditioner");
+  check_petsc(KSPSetOperators(p.solver, p.matrix, p.preconditioner), "KSPSetOperators");
+  check_petsc(KSPSetUp(p.solver), "KSPSetUp");
+  check_petsc(KSPSetReusePreconditioner(p.solver, PETSC_TRUE), "KSPSetReusePreconditioner");
 }
 
 void Poisson::restore(double fresh_cost, bool rebuild_due) {
-  check_petsc(KSPSetReusePreconditioner(petsc_->solver, PETSC_FALSE), "KSPSetReusePreconditioner");
-  check_petsc(KSPSetUp(petsc_->solver), "KSPSetUp");
+  set_up_preconditioner();
   fresh_cost_ = fresh_cost, rebuild_ = rebuild_due;
 }
 
@@ -132,7 +180,7 @@ void Poisson::remove_mean(std::span<double> x) const {
 PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, double target) {
   Petsc& p = *petsc_;
   PoissonReport report{.rebuilt = rebuild_};
-  check_petsc(KSPSetReusePreconditioner(p.solver, rebuild_ ? PETSC_FALSE : PETSC_TRUE), "KSPSetReusePreconditioner");
+  if (rebuild_) set_up_preconditioner();
   // An absolute target; the relative one is out of reach. The divergence test is left to the number of iterations.
   check_petsc(KSPSetTolerances(p.solver, 1e-50, target, 1e30, max_iterations), "KSPSetTolerances");
   check_petsc(VecPlaceArray(p.b, b.data()), "VecPlaceArray");

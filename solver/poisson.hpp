@@ -4,8 +4,8 @@
 //
 //   sum_f k_f (x_P - x_N) + sum_b k_b x_P = b_P
 //
-// The preconditioner is set up again when iterations grow beyond 1.4 times those of a fresh one. For a resume the coefficients of the last
-// set-up are kept.
+// The operator is applied face by face, so that it follows a turning mesh at no cost; a matrix is assembled for the set-up of the
+// preconditioner only, which is repeated when iterations grow beyond 1.4 times those of a fresh one.
 #include <memory>
 #include <span>
 #include <string>
@@ -27,25 +27,28 @@ class Poisson {
   Poisson(const Mesh& mesh, const std::string& multigrid, bool singular);
   ~Poisson();
 
-  /// Coefficients k of all faces (boundary faces: 0 where nothing is fixed), [n_faces]. Collective.
-  void assemble(std::span<const double> k);
+  /// Coefficients k of all faces (boundary faces: 0 where nothing is fixed), [n_faces]; kept until they are given again. Local.
+  void set_coefficients(std::span<const double> k);
   /// Solve until the residual norm is below `target`, from x [n_all_cells] as first guess; ghosts filled. Throws Error(diverged).
   /// Collective.
   PoissonReport solve(std::span<const double> b, std::vector<double>& x, double target);
 
-  /// True if the next solve sets the preconditioner up from the matrix as it stands then.
+  /// True if the next solve sets the preconditioner up from the coefficients as they stand then.
   bool rebuild_is_due() const { return rebuild_; }
   double fresh_cost() const { return fresh_cost_; }
-  /// Set the preconditioner up from the present matrix, as it was when `fresh_cost` was measured (a resume). Collective.
+  /// Set the preconditioner up from the present mesh and coefficients, as it was when `fresh_cost` was measured (a resume). Collective.
   void restore(double fresh_cost, bool rebuild_due);
 
  private:
   struct Petsc;
+  void apply(const double* x, double* y);
+  void set_up_preconditioner();
   void remove_mean(std::span<double> x) const;
   const Mesh& mesh_;
   bool singular_;
+  std::vector<double> coefficient_;    // [n_faces]
+  std::vector<double> x_all_, y_all_;  // [n_all_cells]
   std::unique_ptr<Petsc> petsc_;
-  std::vector<double> entries_;  // in COO order
   bool rebuild_ = true;
   double fresh_cost_ = 0;  // iterations a decade after a set-up
 };

@@ -36,6 +36,8 @@ class Turbulence {
   virtual void prepare(Flow&, const BoundarySet&) {}
   /// Before the first step, with velocity and fluxes known. Throws Error(usage) if no initial state is known.
   virtual void start(Flow&, const BoundarySet&) {}
+  /// Again after the mesh has turned, at the begin of a step; then flow.face_viscosity holds for its facets too.
+  virtual void mesh_turned(Flow&, const BoundarySet&) {}
   /// Shift the history.
   virtual void begin_step(Flow&, const TimeScheme&) {}
   /// Transport through one step with the velocity and fluxes as they are; then flow.face_viscosity.
