@@ -54,6 +54,11 @@ void FieldOutput::write(const Flow& flow) {
                         owned("solid_fraction [1]", flow.solid_fraction),
                         owned("reaction [N/m3]", flow.reaction),
                         {"rank [1]", 1, std::vector<double>(n, rank), true}};
+  if (!flow.eddy_viscosity.empty())
+    for (const auto& [name, values] :
+         {std::pair{"turbulent_kinetic_energy [m2/s2]", &flow.turbulent_kinetic_energy},
+          std::pair{"dissipation_rate [m2/s3]", &flow.dissipation_rate}, std::pair{"eddy_viscosity [m2/s]", &flow.eddy_viscosity}})
+      piece_.cell_arrays.push_back(owned(name, *values));
   piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
   const std::string stem = numbered("water", flow.time_step);
   std::vector<std::string> pieces;

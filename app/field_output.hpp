@@ -11,7 +11,8 @@ class FieldOutput {
  public:
   /// Keeps the entries of a resumed run up to from_time. Collective.
   FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time);
-  /// Velocity, pressure, solid fraction, reaction and rank at the flow's time. Collective; throws Error(io).
+  /// Velocity, pressure, solid fraction, reaction, rank, and k, epsilon, nu_t of a turbulence model, at the flow's time. Collective; throws
+  /// Error(io).
   void write(const Flow& flow);
 
  private:

@@ -8,6 +8,7 @@
 #include "dem/walls.hpp"
 #include "solver/boundary.hpp"
 #include "solver/flow_settings.hpp"
+#include "solver/turbulence/turbulence.hpp"
 
 namespace snag {
 
@@ -35,6 +36,7 @@ std::vector<Section> AllSections::list() {
   std::vector<Section> all{s.case_settings.section(), s.mesh.section(), s.periodic.section(), s.time.section(), s.flow.section()};
   const auto append = [&](const std::vector<Section>& more) { all.insert(all.end(), more.begin(), more.end()); };
   append(boundary_sections());
+  append(turbulence_sections());
   append({s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(), s.particle.section(), s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",

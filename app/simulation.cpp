@@ -98,7 +98,7 @@ void Simulation::build_water(const CaseFile& file) {
   }
   FlowSettings settings;
   read(file.root(), settings);
-  water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()));
+  water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()), read_turbulence(file.root()));
 }
 
 void Simulation::build_rags(const CaseFile& file) {

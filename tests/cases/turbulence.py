@@ -1,0 +1,75 @@
+# processors: 2
+"""Requirement: [turbulence] in a case file chooses the model; its fields are written with units, start where the case says, and laminar runs have none."""
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+import harness
+
+CHANNEL = """
+[case]
+name = "turbulent-channel"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 0.02
+step_s = 5e-3
+[flow]
+initial_velocity_m_s = [2, 0, 0]
+[turbulence]
+model = "{model}"
+[[boundary]]
+patch = "inlet"
+kind = "velocity_inlet"
+velocity_m_s = [2, 0, 0]
+{inlet}
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["bottom", "top", "side_z0", "side_z1"]
+kind = "wall"
+[output]
+fields_interval_s = 0.02
+report = false
+"""
+MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="tetrahedra"', "size_mm=20", "wall_ratio=1")
+NAMES = {"turbulent_kinetic_energy [m2/s2]", "dissipation_rate [m2/s3]", "eddy_viscosity [m2/s]"}
+
+
+def cell_fields(file):
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    data = reader.GetOutput().GetCellData()
+    return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+
+
+class Turbulence(harness.CaseTest):
+    def channel(self, model, inlet="", name="case"):
+        return self.case(CHANNEL.format(mesh=self.mesh(*MESH), model=model, inlet=inlet), name)
+
+    def test_fields_of_k_epsilon(self):
+        run = self.run_case(self.channel("k_epsilon", "turbulence_intensity = 0.1"), 2)
+        files = sorted((run.folder / "fields").glob("*.pvtu"))
+        first, last = cell_fields(files[0]), cell_fields(files[-1])
+        for found in (first, last):
+            self.assertLessEqual(NAMES, set(found))
+            for name in NAMES:
+                self.assertTrue(numpy.isfinite(found[name]).all() and (found[name] >= 0).all(), name)
+        k, epsilon, nu_t = (last[n] for n in ("turbulent_kinetic_energy [m2/s2]", "dissipation_rate [m2/s3]", "eddy_viscosity [m2/s]"))
+        numpy.testing.assert_allclose(nu_t, 0.09 * k**2 / epsilon, rtol=1e-5)
+        self.assertTrue(0.001 < k.min() < 1.5 * (0.1 * 2) ** 2 < k.max() < 1, f"k from {k.min()} to {k.max()} m2/s2")
+
+    def test_laminar_has_none(self):
+        run = self.run_case(self.channel("laminar"), 1)
+        for file in (run.folder / "fields").glob("*.pvtu"):
+            self.assertFalse(NAMES & set(cell_fields(file)), file.name)
+
+    def test_unknown_model(self):
+        run = self.run_case(self.channel("k_epsilom"), 1, code=2)
+        self.assertIn("k_epsilon", "\n".join(run.messages))
+
+
+if __name__ == "__main__":
+    harness.main()
