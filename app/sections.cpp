@@ -8,6 +8,7 @@
 #include "dem/walls.hpp"
 #include "solver/boundary.hpp"
 #include "solver/flow_settings.hpp"
+#include "solver/rotating_zone.hpp"
 #include "solver/turbulence/turbulence.hpp"
 
 namespace snag {
@@ -18,6 +19,7 @@ struct AllSections::Settings {
   PeriodicSettings periodic;
   TimeSettings time;
   FlowSettings flow;
+  RotatingZoneSettings rotating_zone;
   PrescribedFlow prescribed;
   RagSettings rag{RagSettings::Shape::rag}, disc{RagSettings::Shape::disc}, fibre{RagSettings::Shape::fibre},
       particle{RagSettings::Shape::particle};
@@ -36,6 +38,7 @@ std::vector<Section> AllSections::list() {
   std::vector<Section> all{s.case_settings.section(), s.mesh.section(), s.periodic.section(), s.time.section(), s.flow.section()};
   const auto append = [&](const std::vector<Section>& more) { all.insert(all.end(), more.begin(), more.end()); };
   append(boundary_sections());
+  append({s.rotating_zone.section()});
   append(turbulence_sections());
   append({s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(), s.particle.section(), s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},

@@ -98,7 +98,8 @@ void Simulation::build_water(const CaseFile& file) {
   }
   FlowSettings settings;
   read(file.root(), settings);
-  water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()), read_turbulence(file.root()));
+  auto zone = read_rotating_zone(file.root(), *mesh);
+  water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()), read_turbulence(file.root()), std::move(zone));
 }
 
 void Simulation::build_rags(const CaseFile& file) {

@@ -130,6 +130,12 @@ void KEpsilon::fill_initial(const Flow& flow, const BoundarySet& boundary) {
   std::fill(epsilon_->begin(), epsilon_->end(), epsilon);
 }
 
+void KEpsilon::mesh_turned(Flow& flow, const BoundarySet& boundary) {
+  k_equation_->mesh_turned(), epsilon_equation_->mesh_turned();
+  diffusivity_.resize(static_cast<std::size_t>(flow.mesh.n_faces));
+  set_viscosity(flow, boundary);
+}
+
 void KEpsilon::begin_step(Flow&, const TimeScheme&) {
   std::swap(k_older_, k_old_), std::swap(k_old_, *k_);
   std::swap(epsilon_older_, epsilon_old_), std::swap(epsilon_old_, *epsilon_);

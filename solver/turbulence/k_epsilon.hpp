@@ -18,6 +18,7 @@ class KEpsilon final : public Turbulence {
   Section section() override;
   void prepare(Flow& flow, const BoundarySet& boundary) override;
   void start(Flow& flow, const BoundarySet& boundary) override;
+  void mesh_turned(Flow& flow, const BoundarySet& boundary) override;
   void begin_step(Flow& flow, const TimeScheme& time) override;
   TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
   const std::vector<Vec3>& velocity_for_gradient(const Flow& flow, const BoundarySet& boundary) override;

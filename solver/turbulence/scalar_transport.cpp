@@ -50,6 +50,12 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
   }
 }
 
+void ScalarTransport::mesh_turned() {
+  squares_.update();
+  matrix_.update(mesh_);
+  flux_.resize(static_cast<std::size_t>(mesh_.n_faces));
+}
+
 void ScalarTransport::begin(const Flow& flow, const TimeScheme& time) {
   time_ = time;
   std::fill(rate_.begin(), rate_.end(), 0.0);

@@ -44,6 +44,8 @@ class ScalarTransport {
   /// `at_walls`: what gradients take for known there, Side::slope (zero) or Side::none. Collective.
   ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls);
 
+  /// Again after the mesh has turned. Collective.
+  void mesh_turned();
   /// Volume fluxes relative to the mesh, and the step. Local.
   void begin(const Flow& flow, const TimeScheme& time);
   /// Solve into phi, [n_all_cells], ghosts filled. `given` cells keep their value. Collective.
