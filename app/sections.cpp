@@ -8,6 +8,7 @@
 #include "dem/walls.hpp"
 #include "solver/boundary.hpp"
 #include "solver/flow_settings.hpp"
+#include "solver/pump_monitor.hpp"
 #include "solver/rotating_zone.hpp"
 #include "solver/turbulence/turbulence.hpp"
 
@@ -20,6 +21,7 @@ struct AllSections::Settings {
   TimeSettings time;
   FlowSettings flow;
   RotatingZoneSettings rotating_zone;
+  PumpSettings pump;
   PrescribedFlow prescribed;
   RagSettings rag{RagSettings::Shape::rag}, disc{RagSettings::Shape::disc}, fibre{RagSettings::Shape::fibre},
       particle{RagSettings::Shape::particle};
@@ -40,7 +42,8 @@ std::vector<Section> AllSections::list() {
   append(boundary_sections());
   append({s.rotating_zone.section()});
   append(turbulence_sections());
-  append({s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(), s.particle.section(), s.dem.section()});
+  append({s.pump.section(), s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(), s.particle.section(),
+          s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});

@@ -60,6 +60,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::v
   time_settings.n_steps();
   read_mesh(file, std::move(partition));
   build_water(file);
+  read_pump(root);
   build_rags(file);
   couple(file);
   if (!water && !rags) throw Error(ExitCode::usage, root.where() + " has neither a mesh nor a rag: nothing to run; give [mesh] or [[rag]]");
@@ -100,6 +101,14 @@ void Simulation::build_water(const CaseFile& file) {
   read(file.root(), settings);
   auto zone = read_rotating_zone(file.root(), *mesh);
   water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()), read_turbulence(file.root()), std::move(zone));
+}
+
+void Simulation::read_pump(const Table& root) {
+  if (!root.has("pump")) return;
+  read(root, pump.emplace());
+  if (!water || !water->flow.rotating_zone)
+    throw Error(ExitCode::usage,
+                root.table("pump").where() + " is read off a rotor, and nothing turns here; add [rotating_zone], or remove [pump]");
 }
 
 void Simulation::build_rags(const CaseFile& file) {

@@ -11,6 +11,7 @@
 #include "dem/walls.hpp"
 #include "mesh/quality.hpp"
 #include "solver/flow_solver.hpp"
+#include "solver/pump_monitor.hpp"
 
 namespace snag {
 
@@ -38,6 +39,7 @@ class Simulation {
   MeshQuality mesh_quality;
   WallSet walls;
   std::unique_ptr<FlowSolver> water;
+  std::optional<PumpSettings> pump;  // of a case with a rotating zone
   std::unique_ptr<RagSystem> rags;
   std::unique_ptr<CoupledSolver> coupled;
   std::unique_ptr<Passage> passage;
@@ -52,6 +54,7 @@ class Simulation {
  private:
   void read_mesh(const CaseFile& file, std::optional<std::vector<int>> partition);
   void build_water(const CaseFile& file);
+  void read_pump(const Table& root);
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
   void check_inside();

@@ -42,12 +42,24 @@ nlohmann::ordered_json rag_json(const RagSummary& rag) {
           {"events", events}};
 }
 
+nlohmann::ordered_json pump_json(const PumpSummary& pump) {
+  return {{"flow_m3_s", pump.flow},
+          {"head_m", pump.head},
+          {"head_total_m", pump.head_total},
+          {"torque_Nm", pump.torque},
+          {"shaft_power_W", pump.shaft_power},
+          {"efficiency", pump.efficiency},
+          {"revolutions", pump.revolutions}};
+}
+
 }  // namespace
 
 void write_summary(const std::filesystem::path& file, const Summary& s) {
   nlohmann::ordered_json rags = nlohmann::ordered_json::array();
   for (const RagSummary& rag : s.rags) rags.push_back(rag_json(rag));
   const auto& p = s.performance;
+  nlohmann::ordered_json closure;  // null without an interface
+  if (s.conservation.interface_closure) closure = *s.conservation.interface_closure;
   const nlohmann::ordered_json json = {{"version", version_number},
                                        {"git", version_git},
                                        {"case", s.case_name},
@@ -70,11 +82,12 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
                                          {"coupling_s", p.coupling},
                                          {"output_s", p.output},
                                          {"peak_memory_bytes", p.peak_memory}}},
+                                       {"pump", s.pump ? pump_json(*s.pump) : nlohmann::ordered_json()},
                                        {"rags", rags},
                                        {"conservation",
                                         {{"mass_imbalance_rel", s.conservation.mass_imbalance},
                                          {"momentum_exchange_rel", s.conservation.momentum_exchange},
-                                         {"interface_closure_rel", s.conservation.interface_closure},
+                                         {"interface_closure_rel", closure},
                                          {"particles_lost", s.conservation.particles_lost},
                                          {"bonds_lost", s.conservation.bonds_lost},
                                          {"particles_beyond_walls", s.conservation.particles_beyond_walls}}}};

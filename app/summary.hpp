@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/pump_output.hpp"
 #include "base/vec3.hpp"
 
 namespace snag {
@@ -39,9 +40,11 @@ struct Summary {
     double cell_steps = 0, particle_steps = 0;
     std::int64_t peak_memory = 0;  // bytes, all ranks
   } performance;
+  std::optional<PumpSummary> pump;  // of a case with [pump]
   std::vector<RagSummary> rags;
   struct {
-    double mass_imbalance = 0, momentum_exchange = 0, interface_closure = 0;  // relative
+    double mass_imbalance = 0, momentum_exchange = 0;  // relative
+    std::optional<double> interface_closure;           // relative; none without an interface
     std::int64_t particles_lost = 0, bonds_lost = 0, particles_beyond_walls = 0;
   } conservation;
 };

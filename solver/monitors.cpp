@@ -27,8 +27,12 @@ double flow_rate(const Flow& flow, int patch) {
   return patch_sum(flow, patch, [&](int f, int) { return flow.flux[f]; });
 }
 
+double patch_area(const Flow& flow, int patch) {
+  return patch_sum(flow, patch, [&](int f, int) { return norm(flow.mesh.face_vector[f]); });
+}
+
 double mean_pressure(const Flow& flow, int patch) {
-  const double area = patch_sum(flow, patch, [&](int f, int) { return norm(flow.mesh.face_vector[f]); });
+  const double area = patch_area(flow, patch);
   const double total = patch_sum(flow, patch, [&](int f, int b) { return norm(flow.mesh.face_vector[f]) * flow.boundary_pressure[b]; });
   return area > 0 ? total / area : 0;
 }
@@ -39,9 +43,14 @@ FluxMeans flux_means(const Flow& flow, int patch) {
   const auto mean = [&](const auto& value) {
     return patch_sum(flow, patch, [&](int f, int b) { return std::abs(flow.flux[f]) * value(f, b); }) / through;
   };
-  return {mean([&](int, int b) { return flow.boundary_pressure[b]; }), mean([&](int f, int b) {
-            return flow.boundary_pressure[b] + 0.5 * flow.density * norm_squared(flow.velocity[flow.mesh.owner[f]]);
-          })};
+  // At the face: along it the velocity of the cell, through it the flux, which is what an inlet gives.
+  const auto velocity = [&](int f) {
+    const Vec3& S = flow.mesh.face_vector[f];
+    const Vec3& u = flow.velocity[flow.mesh.owner[f]];
+    return u + (flow.flux[f] - dot(u, S)) / norm_squared(S) * S;
+  };
+  return {mean([&](int, int b) { return flow.boundary_pressure[b]; }),
+          mean([&](int f, int b) { return flow.boundary_pressure[b] + 0.5 * flow.density * norm_squared(velocity(f)); })};
 }
 
 PatchForce patch_force(const Flow& flow, int patch, const Vec3& origin) {
@@ -56,7 +65,7 @@ PatchForce patch_force(const Flow& flow, int patch, const Vec3& origin) {
 YPlus y_plus_of(const Flow& flow, int patch) {
   const Patch& faces = flow.mesh.patches[static_cast<std::size_t>(patch)];
   if (sum(flow.mesh.comm, static_cast<std::int64_t>(flow.y_plus.size())) == 0) return {};
-  const double area = patch_sum(flow, patch, [&](int f, int) { return norm(flow.mesh.face_vector[f]); });
+  const double area = patch_area(flow, patch);
   const double total = patch_sum(flow, patch, [&](int f, int b) { return norm(flow.mesh.face_vector[f]) * flow.y_plus[b]; });
   if (!(area > 0)) return {};
   double lowest = std::numeric_limits<double>::infinity(), highest = 0;

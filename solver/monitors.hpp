@@ -7,9 +7,11 @@ namespace snag {
 
 /// Volume flow out of the domain through a patch, m3/s.
 double flow_rate(const Flow& flow, int patch);
+/// Sum of the areas of the faces of a patch, m2.
+double patch_area(const Flow& flow, int patch);
 /// Mean pressure of a patch over its area, Pa.
 double mean_pressure(const Flow& flow, int patch);
-/// Mean over the flux: of the static pressure, and of the total pressure p + rho u^2/2, Pa. Zero where nothing flows.
+/// Mean over the flux: of the static pressure, and of the total pressure p + rho u^2/2 with u at the faces, Pa. Zero where nothing flows.
 struct FluxMeans {
   double static_pressure = 0, total_pressure = 0;
 };

@@ -1,9 +1,9 @@
 #include "solver/revolution_statistics.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 
 namespace snag {
@@ -20,6 +20,33 @@ std::vector<double> between(const std::vector<double>& a, const std::vector<doub
   std::vector<double> result(a.size());
   for (std::size_t q = 0; q < a.size(); ++q) result[q] = (1 - part) * a[q] + part * b[q];
   return result;
+}
+
+/// Solution of M x = b for a symmetric positive definite M of n rows, by Cholesky; M and b are used up.
+std::vector<double> solved(std::vector<double> M, std::vector<double> b) {
+  const std::size_t n = b.size();
+  for (std::size_t j = 0; j < n; ++j) {  // M = L L^T, L in the lower half
+    for (std::size_t k = 0; k < j; ++k)
+      for (std::size_t i = j; i < n; ++i) M[i * n + j] -= M[i * n + k] * M[j * n + k];
+    const double pivot = std::sqrt(M[j * n + j]);
+    for (std::size_t i = j; i < n; ++i) M[i * n + j] /= pivot;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) b[i] -= M[i * n + k] * b[k];
+    b[i] /= M[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) b[i] -= M[k * n + i] * b[k];
+    b[i] /= M[i * n + i];
+  }
+  return b;
+}
+
+/// 1, cos theta, sin theta, cos 2 theta ...
+void fill_waves(double angle, std::vector<double>& waves) {
+  waves[0] = 1;
+  for (std::size_t h = 1; 2 * h < waves.size(); ++h)
+    waves[2 * h - 1] = std::cos(static_cast<double>(h) * angle), waves[2 * h] = std::sin(static_cast<double>(h) * angle);
 }
 
 /// Points that are samples: all but the first, and the last one if it was interpolated.
@@ -54,29 +81,28 @@ Extremes revolution_extremes(const Revolution& revolution, std::size_t quantity)
 Spectrum revolution_spectrum(const Revolution& revolution, std::size_t quantity) {
   const std::size_t n_points = revolution.turned.size(), end = end_of_samples(revolution);
   if (end < 2) return {};
-  const auto n = static_cast<Eigen::Index>(end - 1);
-  const std::size_t n_harmonics = std::min(max_harmonics, (end - 1) / samples_a_harmonic);
-  Eigen::MatrixXd basis(n, static_cast<Eigen::Index>(2 * n_harmonics + 1));
-  Eigen::VectorXd signal(n), weight(n);
+  const std::size_t n_harmonics = std::min(max_harmonics, (end - 1) / samples_a_harmonic), n = 2 * n_harmonics + 1;
+  const auto share = [&](std::size_t i) { return 0.5 * (revolution.turned[std::min(i + 1, n_points - 1)] - revolution.turned[i - 1]); };
+  // Normal equations: the waves are nearly orthogonal over a revolution, so that they lose nothing.
+  std::vector<double> waves(n), matrix(n * n), right(n);
   for (std::size_t i = 1; i < end; ++i) {
-    const auto row = static_cast<Eigen::Index>(i - 1);
-    const double angle = revolution.angle(i), after = revolution.turned[std::min(i + 1, n_points - 1)];
-    weight[row] = std::sqrt(0.5 * (after - revolution.turned[i - 1]));
-    signal[row] = revolution.values[i][quantity];
-    basis(row, 0) = 1;
-    for (std::size_t h = 1; h <= n_harmonics; ++h) {
-      basis(row, static_cast<Eigen::Index>(2 * h - 1)) = std::cos(static_cast<double>(h) * angle);
-      basis(row, static_cast<Eigen::Index>(2 * h)) = std::sin(static_cast<double>(h) * angle);
+    fill_waves(revolution.angle(i), waves);
+    for (std::size_t r = 0; r < n; ++r) {
+      right[r] += share(i) * waves[r] * revolution.values[i][quantity];
+      for (std::size_t c = 0; c <= r; ++c) matrix[r * n + c] += share(i) * waves[r] * waves[c];
     }
   }
-  const Eigen::VectorXd parts = (weight.asDiagonal() * basis).colPivHouseholderQr().solve(weight.asDiagonal() * signal);
+  const std::vector<double> parts = solved(std::move(matrix), std::move(right));
   Spectrum found;
-  for (std::size_t h = 1; h <= n_harmonics; ++h) {
-    const double c = parts[static_cast<Eigen::Index>(2 * h - 1)], s = parts[static_cast<Eigen::Index>(2 * h)];
-    found.harmonics.push_back({std::hypot(c, s), std::atan2(s, c)});
+  for (std::size_t h = 1; h <= n_harmonics; ++h)
+    found.harmonics.push_back({std::hypot(parts[2 * h - 1], parts[2 * h]), std::atan2(parts[2 * h], parts[2 * h - 1])});
+  double squares = 0, total = 0;
+  for (std::size_t i = 1; i < end; ++i) {
+    fill_waves(revolution.angle(i), waves);
+    const double rest = revolution.values[i][quantity] - std::inner_product(waves.begin(), waves.end(), parts.begin(), 0.0);
+    squares += share(i) * rest * rest, total += share(i);
   }
-  const Eigen::VectorXd rest = weight.asDiagonal() * (signal - basis * parts);
-  found.noise = rest.norm() / std::max(weight.norm(), 1e-300);
+  if (total > 0) found.noise = std::sqrt(squares / total);
   return found;
 }
 

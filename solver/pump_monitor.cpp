@@ -1,0 +1,68 @@
+#include "solver/pump_monitor.hpp"
+
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/words.hpp"
+#include "solver/monitors.hpp"
+
+namespace snag {
+
+namespace {
+
+int patch_of(const Mesh& mesh, const std::string& key, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    if (mesh.patches[p].name == name) return static_cast<int>(p);
+    names.push_back(mesh.patches[p].name);
+  }
+  const auto near = nearest_name(name, names);
+  throw Error(ExitCode::usage, "[pump] " + key + ": the mesh has no patch \"" + name + "\"; it has: " + joined(names) +
+                                   (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+}
+
+double area_of(const Flow& flow, int patch, const std::optional<double>& diameter) {
+  return diameter ? std::numbers::pi / 4 * *diameter * *diameter : patch_area(flow, patch);
+}
+
+}  // namespace
+
+Section PumpSettings::section() {
+  return {"pump",
+          "What is read off the pump, in cases with a rotating zone: head, torque, power and efficiency every step, and by revolution.",
+          {setting("inlet", &inlet, "Patch of the inlet flange."),
+           setting("outlet", &outlet, "Patch of the outlet flange."),
+           setting("walls", &walls, "Patches of the impeller: the torque of the water on them is that of the shaft."),
+           {"inlet_diameter", &inlet_diameter, "m", 1e-6, 1e6, Basis::assumed,
+            "Of the inlet where its pressure is measured, for the velocity in the head; not given: the area of the patch."},
+           {"outlet_diameter", &outlet_diameter, "m", 1e-6, 1e6, Basis::assumed, "The same of the outlet."},
+           {"gravity", &gravity, "m/s2", 1e-6, 1e6, Basis::literature, "Turns pressure into head; acts on nothing."}}};
+}
+
+PumpMonitor::PumpMonitor(const Flow& flow, const PumpSettings& settings)
+    : inlet_(patch_of(flow.mesh, "inlet", settings.inlet)),
+      outlet_(patch_of(flow.mesh, "outlet", settings.outlet)),
+      inlet_area_(area_of(flow, inlet_, settings.inlet_diameter)),
+      outlet_area_(area_of(flow, outlet_, settings.outlet_diameter)),
+      gravity_(settings.gravity) {
+  for (const std::string& name : settings.walls) walls_.push_back(patch_of(flow.mesh, "walls", name));
+}
+
+PumpReading PumpMonitor::read(const Flow& flow, const Shaft& shaft) const {
+  PumpReading now;
+  now.flow_in = -flow_rate(flow, inlet_), now.flow_out = flow_rate(flow, outlet_);
+  const double in = now.flow_in / inlet_area_, out = now.flow_out / outlet_area_;  // m/s
+  const double weight = flow.density * gravity_;                                   // N/m3
+  now.head = (mean_pressure(flow, outlet_) - mean_pressure(flow, inlet_)) / weight + (out * out - in * in) / (2 * gravity_);
+  now.head_total = (flux_means(flow, outlet_).total_pressure - flux_means(flow, inlet_).total_pressure) / weight;
+  for (const int wall : walls_) {
+    const PatchForce force = patch_force(flow, wall, shaft.origin);
+    now.torque_pressure += dot(force.pressure_torque, shaft.axis);
+    now.torque_friction += dot(force.friction_torque, shaft.axis);
+  }
+  now.shaft_power = -now.torque() * shaft.speed;
+  now.hydraulic_power = weight * now.flow_out * now.head;
+  return now;
+}
+
+}  // namespace snag
