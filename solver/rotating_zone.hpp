@@ -15,6 +15,8 @@
 
 namespace snag {
 
+class Table;
+
 struct RotatingZoneSettings {
   std::string zone, motion = "sliding";
   std::string rotor_patch = "interface_rotor", stator_patch = "interface_stator";
