@@ -4,7 +4,10 @@
 
 #include "base/words.hpp"
 #include "mesh/wall_surface.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 
@@ -59,6 +62,12 @@ void FieldOutput::write(const Flow& flow) {
          {std::pair{"turbulent_kinetic_energy [m2/s2]", &flow.turbulent_kinetic_energy},
           std::pair{"dissipation_rate [m2/s3]", &flow.dissipation_rate}, std::pair{"eddy_viscosity [m2/s]", &flow.eddy_viscosity}})
       piece_.cell_arrays.push_back(owned(name, *values));
+  if (flow.rotating_zone) {
+    piece_.points = mesh_.node;  // they may have turned
+    VtkArray turning{"turning [1]", 1, {}, true};
+    for (int c = 0; c < n; ++c) turning.values.push_back(mesh_.cell_zone[c] == flow.rotating_zone->zone());
+    piece_.cell_arrays.push_back(std::move(turning));
+  }
   piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
   const std::string stem = numbered("water", flow.time_step);
   std::vector<std::string> pieces;
@@ -71,25 +80,60 @@ void FieldOutput::write(const Flow& flow) {
   });
 }
 
-void write_walls(const std::filesystem::path& file, const Mesh& mesh) {
+WallOutput::WallOutput(std::filesystem::path folder, const Flow& flow, bool resume, double from_time) : folder_(std::move(folder)) {
+  if (flow.rotating_zone) collection_.emplace(folder_ / "walls.pvd", resume, from_time);
+}
+
+void WallOutput::initial(const Flow& flow) {
+  if (collection_) return write(flow);
+  const VtkPiece walls = walls_of(flow);
+  together(flow.mesh.comm, [&] {
+    if (rank_of(flow.mesh.comm) == 0) write_vtk(folder_ / "walls.vtp", VtkKind::polygons, walls);
+  });
+}
+
+void WallOutput::write(const Flow& flow) {
+  if (!collection_) return;
+  const VtkPiece walls = walls_of(flow);
+  const std::string file = numbered("walls", flow.time_step) + ".vtp";
+  together(flow.mesh.comm, [&] {
+    if (rank_of(flow.mesh.comm) != 0) return;
+    write_vtk(folder_ / file, VtkKind::polygons, walls);
+    collection_->add(flow.time, file);
+  });
+}
+
+VtkPiece WallOutput::walls_of(const Flow& flow) const {
+  const Mesh& mesh = flow.mesh;
   std::vector<std::string> names;
   for (const Patch& patch : mesh.patches) names.push_back(patch.name);
   const WallSurface surface = wall_surface(mesh, names);
-  together(mesh.comm, [&] {
-    if (rank_of(mesh.comm) != 0) return;
-    VtkPiece piece;
-    VtkArray part{"patch [1]", 1, {}, true};
-    for (const WallTriangle& triangle : surface.triangles) {
-      for (const Vec3& node : triangle.node) {
-        piece.connectivity.push_back(static_cast<std::int64_t>(piece.points.size()));
-        piece.points.push_back(node);
-      }
-      piece.offsets.push_back(static_cast<std::int64_t>(piece.points.size()));
-      part.values.push_back(triangle.part);
+  const auto of_faces = [&](const char* name, const std::vector<double>& values) {
+    std::vector<double> mine;
+    for (const Patch& patch : mesh.patches)
+      for (int f = patch.first; f < patch.end(); ++f) mine.push_back(values[f - mesh.n_interior]);
+    const std::vector<double> all = gathered(mesh.comm, mine);
+    VtkArray array{name, 1, {}, true};
+    for (const WallTriangle& triangle : surface.triangles) array.values.push_back(all[static_cast<std::size_t>(triangle.face)]);
+    return array;
+  };
+  VtkPiece piece;
+  VtkArray part{"patch [1]", 1, {}, true};
+  for (const WallTriangle& triangle : surface.triangles) {
+    for (const Vec3& node : triangle.node) {
+      piece.connectivity.push_back(static_cast<std::int64_t>(piece.points.size()));
+      piece.points.push_back(node);
     }
-    piece.cell_arrays.push_back(std::move(part));
-    write_vtk(file, VtkKind::polygons, piece);
-  });
+    piece.offsets.push_back(static_cast<std::int64_t>(piece.points.size()));
+    part.values.push_back(triangle.part);
+  }
+  piece.cell_arrays.push_back(std::move(part));
+  if (collection_) {
+    piece.cell_arrays.push_back(of_faces("pressure [Pa]", flow.boundary_pressure));
+    if (sum(mesh.comm, static_cast<std::int64_t>(flow.y_plus.size())) > 0) piece.cell_arrays.push_back(of_faces("y_plus [1]", flow.y_plus));
+    piece.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
+  }
+  return piece;
 }
 
 }  // namespace snag

@@ -57,6 +57,22 @@ std::vector<std::string> residual_columns() {
           "continuity_global [m3/s]"};
 }
 
+/// Walls on which a turbulence model gives y+. Collective.
+std::vector<int> walls_with_y_plus(const FlowSolver& water) {
+  std::vector<int> walls;
+  if (sum(MPI_COMM_WORLD, static_cast<std::int64_t>(water.flow.y_plus.size())) == 0) return walls;
+  for (int p = 0; p < static_cast<int>(water.flow.mesh.patches.size()); ++p)
+    if (water.boundary().is_wall(p)) walls.push_back(p);
+  return walls;
+}
+
+std::vector<std::string> wall_columns(const Mesh& mesh, const std::vector<int>& walls) {
+  std::vector<std::string> columns{"time [s]"};
+  for (const int p : walls)
+    for (const char* end : {"_y_plus_min [1]", "_y_plus_mean [1]", "_y_plus_max [1]"}) columns.push_back(mesh.patches[p].name + end);
+  return columns;
+}
+
 }  // namespace
 
 void check_output_folder(const fs::path& folder, bool resume, bool overwrite) {
@@ -90,6 +106,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     wall_contact_.resize(simulation.rags->rags().size());
     max_wall_overlap_.resize(wall_contact_.size());
   }
+  if (simulation.water) walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   together(MPI_COMM_WORLD, [&] {
     if (!root) return;
@@ -106,6 +123,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
           columns.push_back(patch.name + quantity);
       }
       patches_ = open("patches", columns);
+      if (!walls_with_y_plus_.empty()) wall_ = open("wall", wall_columns(*simulation.mesh, walls_with_y_plus_));
     }
     if (simulation.rags) {
       rags_ = open("rags", rag_columns());
@@ -116,14 +134,16 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     }
     if (simulation.coupled) coupling_ = open("coupling", CoupledSolver::columns());
   });
-  if (simulation.water)
+  if (simulation.water) {
     fields_ =
         std::make_unique<FieldOutput>(folder_ / "fields", *simulation.mesh, simulation.output_settings.single_precision, resume, from);
+    walls_ = std::make_unique<WallOutput>(folder_ / "walls", simulation.water->flow, resume, from);
+  }
   if (simulation.rags) rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
 }
 
 void Outputs::initial() {
-  if (simulation_.mesh) write_walls(folder_ / "walls" / "walls.vtp", *simulation_.mesh);
+  if (walls_) walls_->initial(simulation_.water->flow);
   if (fields_) fields_->write(simulation_.water->flow);
   if (rag_output_) write_rags();
 }
@@ -140,7 +160,10 @@ void Outputs::after_step() {
   write_monitors();
   const bool last =
       simulation_.time_step() == simulation_.time_settings.n_steps() || (simulation_.passage && simulation_.passage->all_exited());
-  if (fields_ && (last || due(fields_interval_))) fields_->write(simulation_.water->flow);
+  if (fields_ && (last || due(fields_interval_))) {
+    fields_->write(simulation_.water->flow);
+    walls_->write(simulation_.water->flow);
+  }
   if (rag_output_ && (last || due(rags_interval_))) write_rags();
   seconds_ += MPI_Wtime() - begun;
 }
@@ -158,6 +181,7 @@ void Outputs::write_monitors() {
   const double time = simulation_.time();
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   if (simulation_.water) write_water_monitors();
+  if (!walls_with_y_plus_.empty()) write_wall_monitors();
   if (simulation_.rags) write_rag_monitors();
   if (simulation_.coupled) {
     largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
@@ -186,6 +210,15 @@ void Outputs::write_water_monitors() {
   residuals_.add({simulation_.time(), static_cast<double>(simulation_.time_step()), report.courant_max, report.courant_mean,
                   last.momentum.final, static_cast<double>(last.momentum.sweeps), last.continuity.final,
                   static_cast<double>(last.continuity.iterations), report.continuity_local, report.continuity_global});
+}
+
+void Outputs::write_wall_monitors() {
+  std::vector<double> record{simulation_.time()};
+  for (const int patch : walls_with_y_plus_) {
+    const YPlus found = y_plus_of(simulation_.water->flow, patch);
+    record.insert(record.end(), {found.lowest, found.mean, found.highest});
+  }
+  if (rank_of(MPI_COMM_WORLD) == 0) wall_.add(record);
 }
 
 void Outputs::write_rag_monitors() {

@@ -39,6 +39,7 @@ class Outputs {
  private:
   void write_monitors();
   void write_water_monitors();
+  void write_wall_monitors();
   void write_rag_monitors();
   void write_rags();
   void measure_contacts();
@@ -48,12 +49,14 @@ class Outputs {
   std::filesystem::path folder_;
   const CaseFile& file_;
   Simulation& simulation_;
-  Series residuals_, patches_, rags_, contacts_, silhouettes_, coupling_, timing_;  // open on rank 0
+  Series residuals_, patches_, wall_, rags_, contacts_, silhouettes_, coupling_, timing_;  // open on rank 0
   std::unique_ptr<FieldOutput> fields_;
+  std::unique_ptr<WallOutput> walls_;
   std::unique_ptr<RagOutput> rag_output_;
   double fields_interval_ = 0, rags_interval_ = 0;  // s
   double seconds_ = 0;                              // spent here
   std::int64_t first_step_ = 0;                     // of this process
+  std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
 
   double n_contacts_ = 0, n_wall_contacts_ = 0, max_overlap_now_ = 0, beyond_walls_now_ = 0;
   // over the whole run, kept by checkpoints

@@ -14,7 +14,7 @@ struct WallFace {
   std::int64_t cell_id;
   std::array<std::int64_t, 4> node_id;  // from the lowest, right-handed about the way out of the fluid
   std::array<Vec3, 4> node;
-  int part, n_nodes;
+  int part, n_nodes, place;
 };
 
 WallFace wall_face(const Mesh& mesh, int face, int part) {
@@ -37,6 +37,7 @@ WallSurface wall_surface(const Mesh& mesh, const std::vector<std::string>& patch
     for (int face = patch.first; face < patch.end(); ++face) mine.push_back(wall_face(mesh, face, part));
   }
   std::vector<WallFace> faces = gathered(mesh.comm, mine);
+  for (int i = 0; i < static_cast<int>(faces.size()); ++i) faces[i].place = i;
   std::sort(faces.begin(), faces.end(),
             [](const WallFace& a, const WallFace& b) { return std::tie(a.cell_id, a.node_id) < std::tie(b.cell_id, b.node_id); });
 
@@ -50,7 +51,7 @@ WallSurface wall_surface(const Mesh& mesh, const std::vector<std::string>& patch
   for (const WallFace& face : faces)
     for (int i = 1; i + 1 < face.n_nodes; ++i) {  // a quadrilateral is cut from its node of lowest number
       WallTriangle triangle;
-      triangle.part = face.part;
+      triangle.part = face.part, triangle.face = face.place;
       for (std::size_t corner = 0; const int k : {0, i, i + 1}) {
         triangle.node[corner] = face.node[k];
         triangle.node_index[corner++] = index_of(face.node_id[k]);

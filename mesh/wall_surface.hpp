@@ -14,6 +14,7 @@ struct WallTriangle {
   Vec3 normal;                      // unit, out of the fluid
   int part = 0;                     // index into parts
   std::array<int, 3> node_index{};  // shared nodes have the same index: edges and corners are not counted twice
+  int face = 0;                     // of a mesh: place of its face among those of all ranks, in order of ranks, patches as named, faces
 };
 
 struct WallSurface {

@@ -78,7 +78,6 @@ void KEpsilon::prepare(Flow& flow, const BoundarySet& boundary) {
     field->assign(n_all, 0);
   for (auto* field : {&production_, &sink_, &strain_}) field->assign(static_cast<std::size_t>(mesh.n_cells), 0);
   for (auto* field : {&k_entering_, &epsilon_entering_, &flow.y_plus}) field->assign(n_boundary, 0);
-  diffusivity_.assign(static_cast<std::size_t>(mesh.n_faces), 0);
   flow.wall_function.assign(n_boundary, 0);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f)
@@ -216,6 +215,7 @@ void KEpsilon::set_diffusivity(const Flow& flow, double sigma) {
   const Mesh& mesh = flow.mesh;
   const double nu = flow.dynamic_viscosity / flow.density;
   const auto& nu_t = flow.eddy_viscosity;
+  diffusivity_.resize(static_cast<std::size_t>(mesh.n_faces));  // the number of facets changes as a mesh turns
   for (int f = 0; f < mesh.n_interior; ++f) {
     const double w = mesh.weight[f];
     diffusivity_[f] = nu + (w * nu_t[mesh.owner[f]] + (1 - w) * nu_t[mesh.neighbour[f]]) / sigma;

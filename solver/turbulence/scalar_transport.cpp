@@ -39,7 +39,6 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
       diagonal_(mesh.n_all_cells()),
       right_side_(mesh.n_all_cells()),
       explicit_(mesh.n_all_cells()),
-      flux_(mesh.n_faces),
       rate_(mesh.n_all_cells()),
       known_(mesh.n_faces - mesh.n_interior),
       gradient_(mesh.n_all_cells()) {
@@ -59,6 +58,7 @@ void ScalarTransport::mesh_turned() {
 void ScalarTransport::begin(const Flow& flow, const TimeScheme& time) {
   time_ = time;
   std::fill(rate_.begin(), rate_.end(), 0.0);
+  flux_.resize(static_cast<std::size_t>(mesh_.n_faces));
   for (int f = 0; f < mesh_.n_faces; ++f) flux_[f] = flow.flux[f] - flow.mesh_flux[f];
   for (int f = 0; f < mesh_.n_interior; ++f) {
     rate_[mesh_.owner[f]] += std::max(flux_[f], 0.0);

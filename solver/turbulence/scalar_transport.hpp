@@ -69,7 +69,8 @@ class ScalarTransport {
   LeastSquares squares_;
   CellMatrix matrix_;
   TimeScheme time_;
-  std::vector<double> diagonal_, right_side_, explicit_, flux_, rate_;
+  std::vector<double> diagonal_, right_side_, explicit_, rate_;
+  std::vector<double> flux_;   // [n_faces] of the step: the number of facets changes as a mesh turns
   std::vector<double> known_;  // at boundary faces, for gradients
   std::vector<Vec3> gradient_;
 };

@@ -31,7 +31,7 @@ WallFunctions::WallFunctions(const Mesh& mesh, const BoundarySet& boundary, cons
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
       const auto [entry, is_first] = place.try_emplace(mesh.owner[f], static_cast<int>(cells_.size()));
       if (is_first) cells_.push_back(mesh.owner[f]), area.push_back(0);
-      faces_.push_back({f, entry->second, norm(mesh.face_vector[f])});
+      faces_.push_back({f - mesh.n_interior, entry->second, norm(mesh.face_vector[f])});
       area[entry->second] += faces_.back().share;
     }
   }
@@ -42,9 +42,10 @@ WallFunctions::WallFunctions(const Mesh& mesh, const BoundarySet& boundary, cons
 void WallFunctions::set_viscosity(Flow& flow, const std::vector<double>& k) const {
   const double nu = flow.dynamic_viscosity / flow.density;
   for (const WallFace& wall : faces_) {
-    const double y_star = law_.friction_speed(k[cells_[wall.wall_cell]]) * wall_distance(flow.mesh, wall.face) / nu;
-    flow.y_plus[wall.face - flow.mesh.n_interior] = y_star;
-    flow.face_viscosity[wall.face] = flow.dynamic_viscosity * law_.viscosity_ratio(y_star);
+    const int f = wall.face(flow.mesh);
+    const double y_star = law_.friction_speed(k[cells_[wall.wall_cell]]) * wall_distance(flow.mesh, f) / nu;
+    flow.y_plus[wall.boundary_face] = y_star;
+    flow.face_viscosity[f] = flow.dynamic_viscosity * law_.viscosity_ratio(y_star);
   }
 }
 
@@ -53,10 +54,10 @@ void WallFunctions::equilibrium(const Flow& flow, const BoundarySet& boundary, c
   std::fill(production_.begin(), production_.end(), 0.0);
   std::fill(dissipation_.begin(), dissipation_.end(), 0.0);
   for (const WallFace& wall : faces_) {
-    const int P = cells_[wall.wall_cell];
-    const double y = wall_distance(flow.mesh, wall.face), u_star = law_.friction_speed(k[P]), y_star = u_star * y / nu;
-    const Vec3 slip = flow.velocity[P] - boundary.values().velocity[wall.face - flow.mesh.n_interior];
-    const double shear = nu * law_.viscosity_ratio(y_star) * norm(part_along(slip, unit(flow.mesh.face_vector[wall.face]))) / y;
+    const int P = cells_[wall.wall_cell], f = wall.face(flow.mesh);
+    const double y = wall_distance(flow.mesh, f), u_star = law_.friction_speed(k[P]), y_star = u_star * y / nu;
+    const Vec3 slip = flow.velocity[P] - boundary.values().velocity[wall.boundary_face];
+    const double shear = nu * law_.viscosity_ratio(y_star) * norm(part_along(slip, unit(flow.mesh.face_vector[f]))) / y;
     production_[wall.wall_cell] += wall.share * shear * u_star / (law_.kappa * y);
     dissipation_[wall.wall_cell] += wall.share * u_star * u_star * u_star / (law_.kappa * y);
   }
@@ -64,11 +65,11 @@ void WallFunctions::equilibrium(const Flow& flow, const BoundarySet& boundary, c
 
 void WallFunctions::slip(const Flow& flow, const BoundarySet& boundary, std::vector<Vec3>& velocity) const {
   for (const WallFace& wall : faces_) {
-    const int P = cells_[wall.wall_cell], b = wall.face - flow.mesh.n_interior;
-    const Vec3& u_w = boundary.values().velocity[b];
-    const Vec3 along = part_along(flow.velocity[P] - u_w, unit(flow.mesh.face_vector[wall.face]));
-    const double drop = flow.face_viscosity[wall.face] / (flow.dynamic_viscosity + flow.density * flow.eddy_viscosity[P]);
-    velocity[b] = u_w + (1 - std::min(drop, 1.0)) * along;
+    const int P = cells_[wall.wall_cell], f = wall.face(flow.mesh);
+    const Vec3& u_w = boundary.values().velocity[wall.boundary_face];
+    const Vec3 along = part_along(flow.velocity[P] - u_w, unit(flow.mesh.face_vector[f]));
+    const double drop = flow.face_viscosity[f] / (flow.dynamic_viscosity + flow.density * flow.eddy_viscosity[P]);
+    velocity[wall.boundary_face] = u_w + (1 - std::min(drop, 1.0)) * along;
   }
 }
 

@@ -46,8 +46,10 @@ class WallFunctions {
 
  private:
   struct WallFace {
-    int face, wall_cell;  // wall_cell: place in cells_
-    double share;         // of the area of the cell's wall faces
+    int boundary_face, wall_cell;  // f - n_interior, which stays as a turning mesh changes its facets; place in cells_
+    double share;                  // of the area of the cell's wall faces
+
+    int face(const Mesh& mesh) const { return mesh.n_interior + boundary_face; }
   };
   WallLaw law_;
   std::vector<WallFace> faces_;

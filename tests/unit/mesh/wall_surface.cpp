@@ -8,6 +8,7 @@
 #include "check.hpp"
 #include "mesh/import.hpp"
 #include "mesh/structured.hpp"
+#include "parallel/rows.hpp"
 #include "sample.hpp"
 
 namespace {
@@ -103,6 +104,23 @@ TEST(WallSurface, KnowsItsParts) {
   const WallSurface surface = wall_surface(mesh, {"z1", "x0"});
   for (const auto& t : surface.triangles) EXPECT_EQ(t.normal, t.part == 0 ? (Vec3{0, 0, 1}) : (Vec3{-1, 0, 0}));
   EXPECT_THROW(wall_surface(mesh, {"lid"}), Error);
+}
+
+// Values of faces find their triangles: the diagonal of each square meets in the centre of the face that the triangle names.
+TEST(WallSurface, TrianglesNameTheirFaces) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {0, 0, 0}, {2, 3, 5}, {2, 3, 5});
+  std::vector<Vec3> mine;
+  for (const char* name : {"y1", "x0", "z0"}) {
+    const Patch& patch = mesh.patches[static_cast<std::size_t>(mesh.patch_index(name))];
+    for (int f = patch.first; f < patch.end(); ++f) mine.push_back(mesh.face_centre[f]);
+  }
+  const std::vector<Vec3> centre = gathered(mesh.comm, mine);
+  for (const WallTriangle& t : wall_surface(mesh, {"y1", "x0", "z0"}).triangles) {
+    double nearest = 1;
+    for (const int i : {0, 1, 2})
+      nearest = std::min(nearest, norm(0.5 * (t.node[i] + t.node[(i + 1) % 3]) - centre[static_cast<std::size_t>(t.face)]));
+    EXPECT_LT(nearest, 1e-12);
+  }
 }
 
 // Binary and ASCII STL give the same closed surface; corners written apart are joined, and the unit is scaled.

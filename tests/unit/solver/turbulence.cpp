@@ -132,6 +132,46 @@ TEST(WallFunctions, several_faces) {
   EXPECT_EQ(sum(MPI_COMM_WORLD, corners), 1);
 }
 
+// Walls are found again when the number of facets of a turning mesh, which lie before the boundary faces, has changed.
+TEST(WallFunctions, facets_come_and_go) {
+  Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {0.3, 0.6, 0.9}, {3, 3, 3});
+  const FlowSolver solver(mesh, {}, conditions(all_walls), turbulence(model));
+  Flow flow(mesh);
+  flow.y_plus.resize(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior));
+  flow.eddy_viscosity.assign(static_cast<std::size_t>(mesh.n_all_cells()), 1e-4);
+  std::fill(flow.velocity.begin(), flow.velocity.end(), Vec3{1, 2, 2});
+  std::fill(flow.face_viscosity.begin(), flow.face_viscosity.end(), flow.dynamic_viscosity);
+  const std::vector<double> k(static_cast<std::size_t>(mesh.n_all_cells()), 0.04);
+  WallFunctions walls(mesh, solver.boundary(), WallLaw{});
+  struct Result {
+    std::vector<double> y_plus, viscosity, production, dissipation;
+    std::vector<Vec3> slip;
+    bool operator==(const Result& other) const {
+      return y_plus == other.y_plus && viscosity == other.viscosity && production == other.production && dissipation == other.dissipation &&
+             slip == other.slip;
+    }
+  };
+  const auto result = [&] {
+    walls.set_viscosity(flow, k);
+    walls.equilibrium(flow, solver.boundary(), k);
+    std::vector<Vec3> slip = solver.boundary().values().velocity;
+    walls.slip(flow, solver.boundary(), slip);
+    return Result{flow.y_plus,
+                  {flow.face_viscosity.begin() + mesh.n_interior, flow.face_viscosity.end()},
+                  walls.production(),
+                  walls.dissipation(),
+                  slip};
+  };
+  const Result before = result();
+  constexpr int n_more = 5;
+  const auto add_facets = [&](auto& field) { field.insert(field.begin() + mesh.n_interior, n_more, {}); };
+  add_facets(mesh.owner), add_facets(mesh.neighbour), add_facets(mesh.face_vector), add_facets(mesh.face_centre), add_facets(mesh.delta);
+  add_facets(flow.face_viscosity);
+  for (Patch& patch : mesh.patches) patch.first += n_more;
+  mesh.n_interior += n_more, mesh.n_faces += n_more;
+  EXPECT_EQ(before, result());
+}
+
 // The shear on a wall is that of the wall function at the speed relative to the wall: none where both move together.
 TEST(WallFunctions, relative_to_the_wall) {
   const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {2, 2, 6}, {true, true, false});
