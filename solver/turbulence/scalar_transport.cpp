@@ -106,18 +106,20 @@ void ScalarTransport::add_interior(std::span<const double> guess, std::span<cons
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d), D = diffusivity[f] * c, F = flux_[f];
+    const double w = mesh_.weight[f], c = conductance(S, d), F = flux_[f], change = guess[N] - guess[P];
+    const double cross = dot(blend(w, gradient_[P], gradient_[N]), S - c * d);
+    const double D = diffusivity[f] * (c + (change == 0 ? 0 : std::clamp(cross / change, -c, c)));
     const double to_owner = std::max(-F, 0.0) + D, to_neighbour = std::max(F, 0.0) + D;
     matrix_.value[matrix_.place_of_owner[f]] = -to_owner;
     matrix_.value[matrix_.place_of_neighbour[f]] = -to_neighbour;
     diagonal_[P] += to_owner;
     diagonal_[N] += to_neighbour;
 
-    const double change = guess[N] - guess[P];
-    const double high = F > 0 ? limited(change, dot(gradient_[P], d), 1 - w) : limited(-change, -dot(gradient_[N], d), w);
-    const double term = diffusivity[f] * dot(blend(w, gradient_[P], gradient_[N]), S - c * d) - F * high;
-    explicit_[P] += term;
-    explicit_[N] -= term;
+    // What leaves a cell through a face is at most twice its value, as if the value upstream of it were zero.
+    const double high = F > 0 ? std::min(limited(change, dot(gradient_[P], d), 1 - w), guess[P])
+                              : std::min(limited(-change, -dot(gradient_[N], d), w), guess[N]);
+    explicit_[P] -= F * high;
+    explicit_[N] += F * high;
   }
 }
 

@@ -4,12 +4,13 @@
 //   d phi/dt + div(F phi) - phi div F - div(Gamma grad phi) = P - s phi,      P >= 0, s >= 0
 //
 // BDF2 in time, BDF1 in cells where phi fell to less than half in the last step: there BDF2 would carry the fall on, below zero.
-// Convection: upwind, implicit, and the rest up to the limited linear scheme explicit; diffusion with its non-orthogonal part explicit. phi
-// div F is zero once continuity holds, and keeps the rest of it from acting as a source. Source of the treatment of explicit terms:
-// Patankar (1980), section 7.2-2: the sum N of all explicit terms of a cell enters as it is where it is positive, and as (N/phi*) phi, with
-// the first guess phi*, where it is negative. So the right-hand side is never negative and the matrix is an M-matrix: phi > 0 without
-// clipping, after any number of Gauss-Seidel sweeps. The error of phi* is of second order in time where phi* is extrapolated, and gone in a
-// steady state.
+// Convection: upwind, implicit, and the rest up to the limited linear scheme explicit. Diffusion: implicit with the non-orthogonal part as
+// a factor, D (1 + r) (phi_N - phi_P), r = cross part over direct part of the first guess, kept in [-1, 1], so that no face carries phi up
+// its slope: where phi differs by powers of ten from cell to cell an unlimited cross part would empty cells. phi div F is zero once
+// continuity holds, and keeps the rest of it from acting as a source. Source of the treatment of explicit terms: Patankar (1980),
+// section 7.2-2: the sum N of all explicit terms of a cell enters as it is where it is positive, and as (N/phi*) phi, with the first guess
+// phi*, where it is negative. So the right-hand side is never negative and the matrix is an M-matrix: phi > 0 without clipping, after any
+// number of Gauss-Seidel sweeps. The error of phi* is of second order in time where phi* is extrapolated, and gone in a steady state.
 #include <span>
 #include <vector>
 
