@@ -108,13 +108,14 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
   const std::size_t n = static_cast<std::size_t>(mesh.n_faces - mesh.n_interior);
   values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n), std::vector<Vec3>(n)};
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
-    conditions_[p].boundary->prepare(mesh, mesh.patches[p]);
+    conditions_[p].boundary->prepare(mesh, mesh.patches[p], conditions_);
     conditions_[p].turbulence.prepare(mesh, mesh.patches[p], conditions_[p].where);
     fixes_pressure_ = fixes_pressure_ || (conditions_[p].boundary->fixes() == Fixes::pressure && mesh.patches[p].count_global > 0);
   }
 }
 
 void BoundarySet::update(const Flow& flow, double time) {
+  for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->respond(flow, mesh_.patches[p], time);
   for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->update(flow, mesh_.patches[p], time, values_);
   if (!fixes_pressure_) check_net_flux();
 }
@@ -124,6 +125,24 @@ BoundaryValues BoundarySet::at_rest() {
   std::fill(values_.flux.begin(), values_.flux.end(), 0.0);
   std::fill(values_.acceleration.begin(), values_.acceleration.end(), Vec3{});
   return before;
+}
+
+std::vector<double> BoundarySet::state() const {
+  std::vector<double> all;
+  for (const PatchBoundary& condition : conditions_) {
+    const std::vector<double> state = condition.boundary->state();
+    all.insert(all.end(), state.begin(), state.end());
+  }
+  return all;
+}
+
+void BoundarySet::restore_state(const std::vector<double>& state) {
+  auto next = state.begin();
+  for (const PatchBoundary& condition : conditions_) {
+    const auto length = static_cast<std::ptrdiff_t>(condition.boundary->state().size());
+    condition.boundary->restore({next, next + length});
+    next += length;
+  }
 }
 
 void BoundarySet::check_net_flux() const {

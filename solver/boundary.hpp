@@ -24,6 +24,8 @@ struct BoundaryValues {
   std::vector<Vec3> acceleration;  // of the fluid at a wall where it is known, for the pressure there, m/s2
 };
 
+struct PatchBoundary;
+
 /// A boundary condition on one patch.
 class Boundary {
  public:
@@ -33,10 +35,18 @@ class Boundary {
   virtual Fixes fixes() const = 0;
   /// True for solid walls, where wall functions act.
   virtual bool is_wall() const { return false; }
-  /// Once, before the first step: what depends on the mesh. Collective.
-  virtual void prepare(const Mesh&, const Patch&) {}
+  /// True where the pressure is as given, false where its level follows from the flow.
+  virtual bool level_is_given() const { return fixes() == Fixes::pressure; }
+  /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
+  virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
+  /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
+  /// begin, flow.flux that of one step before. At a start time is flow.time. Collective.
+  virtual void respond(const Flow&, const Patch&, double /*time*/) {}
   /// Values of the patch at a time. Local; called every step, after the mesh has moved.
   virtual void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const = 0;
+  /// What a resume needs of it, the same on every rank and of the same length at any time.
+  virtual std::vector<double> state() const { return {}; }
+  virtual void restore(const std::vector<double>& /*state*/) {}
 };
 
 Registry<Boundary>& boundaries();
@@ -59,7 +69,7 @@ class BoundarySet {
  public:
   /// Throws Error(usage) for a patch without a condition, with two, and for a condition of an unknown patch. Collective.
   BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions);
-  /// Collective; throws Error(usage) if nothing fixes the pressure and what flows in does not flow out.
+  /// Once a step. Collective; throws Error(usage) if nothing fixes the pressure and what flows in does not flow out.
   void update(const Flow& flow, double time);
 
   const BoundaryValues& values() const { return values_; }
@@ -72,6 +82,10 @@ class BoundarySet {
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// True if some patch fixes the pressure.
   bool fixes_pressure() const { return fixes_pressure_; }
+
+  /// What a resume needs of all conditions, one after the other; empty if they need nothing.
+  std::vector<double> state() const;
+  void restore_state(const std::vector<double>& state);
 
  private:
   void check_net_flux() const;

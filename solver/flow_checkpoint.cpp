@@ -110,6 +110,8 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   const Poisson& poisson = continuity_.poisson();
   checkpoint.shared("flow/scalars", std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step),
                                                         started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0});
+  if (const std::vector<double> state = boundary_.state(); !state.empty())
+    checkpoint.shared("flow/boundary", std::span<const double>(state));
   write_cells(checkpoint, "flow/velocity", mesh, first(flow.velocity), 3);
   write_cells(checkpoint, "flow/velocity_old", mesh, first(flow.velocity_old), 3);
   write_cells(checkpoint, "flow/velocity_gradient", mesh, first(flow.velocity_gradient), 9);
@@ -139,6 +141,7 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   if (started_) load_preconditioner(checkpoint, scalars.at(4), scalars.at(5) != 0);
   if (rotating_zone_) turn_mesh(flow.time);
   const FaceRows rows(mesh);
+  if (checkpoint.has("flow/boundary")) boundary_.restore_state(checkpoint.shared("flow/boundary"));
   read_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity), 3);
   read_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old), 3);
   read_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient), 9);

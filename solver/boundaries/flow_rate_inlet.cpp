@@ -1,8 +1,9 @@
 // Inlet with a given volume flow Q over the patch, uniform along its mean normal:
 //
-//   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q exactly
+//   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q exactly;      Q may rise in time (solver/boundaries/time_course.hpp)
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
+#include "solver/boundaries/time_course.hpp"
 #include "solver/boundary.hpp"
 
 namespace snag {
@@ -11,19 +12,24 @@ namespace {
 struct FlowRateInlet final : Boundary {
   static constexpr const char* name = "flow_rate_inlet";
   double flow_rate = 0;
+  TimeCourse course;
   Vec3 area;  // sum S of the patch, m2
 
   Section section() override {
-    return {.name = name,
-            .meaning = "Uniform velocity along the mean normal of a plane patch that gives a volume flow; negative draws fluid out.",
-            .parameters = {{.key = "flow_rate",
-                            .target = &flow_rate,
-                            .unit = "m3/s",
-                            .meaning = "Volume flow into the domain, over the whole patch.",
-                            .required = true}}};
+    Section section{
+        .name = name,
+        .meaning = "Uniform velocity along the mean normal of a plane patch that gives a volume flow; negative draws fluid out.",
+        .parameters = {{.key = "flow_rate",
+                        .target = &flow_rate,
+                        .unit = "m3/s",
+                        .meaning = "Volume flow into the domain, over the whole patch.",
+                        .required = true}}};
+    course.add_keys(section, "flow rate");
+    return section;
   }
   Fixes fixes() const override { return Fixes::velocity; }
-  void prepare(const Mesh& mesh, const Patch& patch) override {
+  void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
+    course.check("[[boundary]] \"" + patch.name + "\"");
     std::vector<Vec3> S(mesh.face_vector.begin() + patch.first, mesh.face_vector.begin() + patch.end());
     std::vector<double> size;
     for (const Vec3& s : S) size.push_back(norm(s));
@@ -32,8 +38,8 @@ struct FlowRateInlet final : Boundary {
       throw Error(ExitCode::usage,
                   "[[boundary]] \"" + patch.name + "\": a closed or empty surface has no mean normal; give the inlet a patch of its own");
   }
-  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
-    const Vec3 velocity = -flow_rate / norm_squared(area) * area;
+  void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
+    const Vec3 velocity = -course.at(time) * flow_rate / norm_squared(area) * area;
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;
       values.velocity[b] = velocity;

@@ -1,8 +1,9 @@
 // Inlet with a given velocity:   u = s U,  or  u = - s U_n n  with n the normal out of the domain;   flux = u.S
-// s: profile over the patch with mean 1 (solver/inlet_profile.hpp)
+// s: profile over the patch with mean 1 (solver/inlet_profile.hpp), times a factor of time (solver/boundaries/time_course.hpp)
 #include <optional>
 
 #include "base/error.hpp"
+#include "solver/boundaries/time_course.hpp"
 #include "solver/boundary.hpp"
 #include "solver/inlet_profile.hpp"
 
@@ -14,28 +15,34 @@ struct VelocityInlet final : Boundary {
   Vec3 velocity;
   std::optional<double> normal_speed;
   std::string profile = "uniform";
+  TimeCourse course;
   std::vector<double> shape;  // s of each face
 
   Section section() override {
-    return {.name = name,
-            .meaning = "Velocity, uniform or with the profile of a developed flow.",
-            .parameters = {{"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the fluid."},
-                           {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed,
-                            "Speed into the domain along the normal, instead."},
-                           setting("profile", &profile, "Of the speed over the patch, slower towards its rim; velocity is then the mean.",
-                                   {"uniform", "laminar", "turbulent"})}};
+    Section section{
+        .name = name,
+        .meaning = "Velocity, uniform or with the profile of a developed flow.",
+        .parameters = {
+            {"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the fluid."},
+            {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed, "Speed into the domain along the normal, instead."},
+            setting("profile", &profile, "Of the speed over the patch, slower towards its rim; velocity is then the mean.",
+                    {"uniform", "laminar", "turbulent"})}};
+    course.add_keys(section, "velocity");
+    return section;
   }
   Fixes fixes() const override { return Fixes::velocity; }
-  void prepare(const Mesh& mesh, const Patch& patch) override {
+  void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
+    course.check("[[boundary]] \"" + patch.name + "\"");
     if (normal_speed && norm(velocity) > 0)
       throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": velocity and normal_speed are both given; give one of them");
     shape = inlet_profile(mesh, patch, profile);
   }
-  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
+  void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
+    const double factor = course.at(time);
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;
       const Vec3& S = flow.mesh.face_vector[f];
-      values.velocity[b] = shape[f - patch.first] * (normal_speed ? -*normal_speed * unit(S) : velocity);
+      values.velocity[b] = factor * shape[f - patch.first] * (normal_speed ? -*normal_speed * unit(S) : velocity);
       values.flux[b] = dot(values.velocity[b], S);
     }
   }

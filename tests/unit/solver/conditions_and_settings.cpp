@@ -33,7 +33,8 @@ Mesh box() { return structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {3, 3, 3}); }
 
 // Every kind of condition registers itself.
 TEST(Conditions, registry) {
-  const std::vector<std::string> known{"flow_rate_inlet", "moving_wall", "pressure_outlet", "symmetry", "velocity_inlet", "wall"};
+  const std::vector<std::string> known{"flow_rate_inlet", "moving_wall", "pressure_inlet", "pressure_outlet", "symmetry",
+                                       "velocity_inlet",  "wall"};
   for (const std::string& name : known) EXPECT_NO_THROW(boundaries().make(name, "test"));
   EXPECT_GE(boundary_sections().size(), known.size() + 1);
 }

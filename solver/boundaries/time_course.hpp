@@ -1,0 +1,25 @@
+#pragma once
+// How the value of a condition comes on in time: a factor on what the case gives.
+//
+//   ramp = T:              min(t/T, 1)
+//   times t_i, factors:    linear between the times, constant before the first and after the last
+#include <string>
+#include <vector>
+
+#include "base/parameter.hpp"
+
+namespace snag {
+
+struct TimeCourse {
+  double ramp = 0;                     // T, s
+  std::vector<double> times, factors;  // t_i, s; 1
+
+  /// Adds its keys to those of a condition; they point into this object. `value`: what they act on, for the manual.
+  void add_keys(Section& section, const std::string& value);
+  /// Throws Error(usage) if the keys contradict each other; `where` for the message.
+  void check(const std::string& where) const;
+  /// Factor at a time, 1 without any key.
+  double at(double time) const;
+};
+
+}  // namespace snag

@@ -1,0 +1,174 @@
+// ranks: 1 2 3
+// A pressure inlet and an outlet whose pressure floats until the flow is the one that is asked for.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "parallel/checkpoint.hpp"
+#include "solver/boundaries/water_column.hpp"
+#include "solver/monitors.hpp"
+#include "tests/verification/solver/flow_cases.hpp"
+
+using namespace snag;
+using namespace snag::test;
+
+namespace {
+
+constexpr double dt = 0.02, target = 0.8;
+
+/// A channel of walls between a tank and an outlet; `outlet`: more keys of the outlet.
+std::string channel(const std::string& outlet) {
+  return R"(
+[[boundary]]
+patches = ["z0", "z1"]
+kind = "wall"
+[[boundary]]
+patches = ["y0", "y1"]
+kind = "symmetry"
+[[boundary]]
+patch = "x0"
+kind = "pressure_inlet"
+pressure_Pa = 3
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+)" + outlet;
+}
+
+Mesh tetrahedra() { return tetrahedral_box(MPI_COMM_WORLD, {.upper = {2, 1, 1}, .distortion = 0.15}, {10, 3, 6}); }
+
+FlowSettings settings() {
+  FlowSettings chosen = sharp_settings();
+  chosen.kinematic_viscosity = 0.02;
+  return chosen;
+}
+
+/// Flow through x1 over its target after each of `steps` steps.
+std::vector<double> share_of_target(FlowSolver& solver, int steps) {
+  std::vector<double> share;
+  for (int i = 0; i < steps; ++i) {
+    solver.advance(dt);
+    share.push_back(flow_rate(solver.flow, solver.flow.mesh.patch_index("x1")) / target);
+  }
+  return share;
+}
+
+double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
+
+void print(const char* what, const std::vector<double>& share, double end) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank > 0) return;
+  std::size_t settled = share.size();
+  while (settled > 0 && std::abs(share[settled - 1] - end) < 1e-2) --settled;
+  std::printf("%s: lowest %.4f, highest %.4f, within 1 %% from step %zu on, last %.3e off\n", what, smallest(share), largest(share),
+              settled + 1, share.back() - end);
+}
+
+}  // namespace
+
+// The conductance of a straight column is its section over its length: exactly on hexahedra, to some per cent on distorted tetrahedra.
+TEST(TargetFlow, water_column) {
+  const auto conductance_of = [](const Mesh& mesh) {
+    std::vector<PatchBoundary> ordered(mesh.patches.size());
+    for (const PatchBoundary& condition : conditions(channel("")))
+      ordered[mesh.patch_index(condition.patch)] = {condition.patch, "", boundaries().make("wall", "test")};
+    for (const char* open : {"x0", "x1"}) ordered[mesh.patch_index(open)].boundary = boundaries().make("pressure_outlet", "test");
+    return column_conductance(mesh, ordered, mesh.patches[mesh.patch_index("x1")]);
+  };
+  EXPECT_NEAR(conductance_of(structured_box(MPI_COMM_WORLD, {}, {2, 1, 1}, {10, 3, 6})), 0.5, 1e-9);
+  EXPECT_NEAR(conductance_of(tetrahedra()), 0.5, 0.1);
+}
+
+// From rest, with a level at the start that is 10 dynamic heads off: the flow comes to its target within 1e-4, and not more than 3 % over
+// it.
+TEST(TargetFlow, from_rest) {
+  const Mesh mesh = tetrahedra();
+  for (const double level : {0.0, -4.0, 4.0}) {
+    FlowSolver solver(mesh, settings(), conditions(channel("target_flow_rate_m3_s = 0.8\npressure_Pa = " + std::to_string(level))));
+    const auto share = share_of_target(solver, 320);
+    print("from rest", share, 1);
+    EXPECT_LT(largest(share), 1.03) << level;
+    EXPECT_NEAR(share.back(), 1, 1e-4) << level;
+  }
+}
+
+// The target falls to a half: the flow follows, is not more than 3 % of the target off on the other side, and settles.
+TEST(TargetFlow, step_change) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings(), conditions(channel("target_flow_rate_m3_s = 0.8\ntimes_s = [5, 5.001]\nfactors = [1, 0.5]")));
+  EXPECT_NEAR(share_of_target(solver, 249).back(), 1, 1e-3);
+  const auto share = share_of_target(solver, 320);
+  print("step change", share, 0.5);
+  EXPECT_GT(smallest(share), 0.47);
+  EXPECT_NEAR(share.back(), 0.5, 1e-4);
+}
+
+// A flow that swings with the pressure of the inlet: an outlet that answers slowly lets it swing, one that answers fast does not.
+TEST(TargetFlow, response_time) {
+  const Mesh mesh = tetrahedra();
+  const auto swing = [&](const std::string& response) {
+    std::string times, factors;
+    for (int i = 0; i < 12; ++i) times += std::to_string(i) + ", ", factors += i % 2 == 0 ? "1, " : "0.8, ";
+    auto text = channel("target_flow_rate_m3_s = 0.8\nresponse_time_s = " + response);
+    text.replace(text.find("pressure_Pa = 3"), 15, "pressure_Pa = 3\ntimes_s = [" + times + "]\nfactors = [" + factors + "]");
+    FlowSolver solver(mesh, settings(), conditions(text));
+    share_of_target(solver, 400);
+    const auto share = share_of_target(solver, 100);
+    print(("swing, T = " + response + " s").c_str(), share, 1);
+    return largest(share) - smallest(share);
+  };
+  EXPECT_LT(swing("0.1"), 0.25 * swing("2"));
+}
+
+// Two outlets share what one inlet gives, each with a target of its own.
+TEST(TargetFlow, two_outlets) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings(), conditions(R"(
+[[boundary]]
+patches = ["z0", "y0", "y1"]
+kind = "wall"
+[[boundary]]
+patch = "z1"
+kind = "pressure_inlet"
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+target_flow_rate_m3_s = 0.8
+[[boundary]]
+patch = "x0"
+kind = "pressure_outlet"
+target_flow_rate_m3_s = 0.3
+)"));
+  const auto share = share_of_target(solver, 320);
+  print("two outlets", share, 1);
+  EXPECT_LT(largest(share), 1.05);
+  EXPECT_NEAR(share.back(), 1, 0.01);
+  EXPECT_NEAR(flow_rate(solver.flow, mesh.patch_index("x0")), 0.3, 0.003);
+}
+
+// A resumed run has the level and all that it comes from: the same pressures to the bit.
+TEST(TargetFlow, resume) {
+  const Mesh mesh = tetrahedra();
+  const std::string text = channel("target_flow_rate_m3_s = 0.8");
+  const auto folder = std::filesystem::temp_directory_path() / ("snag-target-flow-" + std::to_string(size_of(mesh.comm)));
+  FlowSolver whole(mesh, settings(), conditions(text));
+  share_of_target(whole, 7);
+  {
+    CheckpointWriter writer(mesh.comm, folder, {.case_sha256 = "", .ranks = size_of(mesh.comm), .time_step = 7});
+    whole.save(writer);
+    writer.finish();
+  }
+  share_of_target(whole, 5);
+  FlowSolver resumed(mesh, settings(), conditions(text));
+  {
+    CheckpointReader reader(mesh.comm, folder);
+    resumed.load(reader);
+  }
+  share_of_target(resumed, 5);
+  for (int c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(whole.flow.pressure[c], resumed.flow.pressure[c]);
+  EXPECT_EQ(whole.boundary().state(), resumed.boundary().state());
+  MPI_Barrier(mesh.comm);
+  if (rank_of(mesh.comm) == 0) std::filesystem::remove_all(folder);
+}
