@@ -25,7 +25,7 @@ double column_conductance(const Mesh& mesh, const std::vector<PatchBoundary>& co
   for (int c = 0; c < mesh.n_cells; ++c) square += right_side[c] * right_side[c];
 
   Poisson poisson(mesh, "boomeramg", false);
-  poisson.assemble(coefficient);
+  poisson.set_coefficients(coefficient);
   poisson.solve(right_side, phi, solved * std::sqrt(sum(mesh.comm, square)));
   std::vector<double> through;
   for (int f = patch.first; f < patch.end(); ++f) through.push_back(coefficient[f] * (1 - phi[mesh.owner[f]]));
