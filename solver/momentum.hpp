@@ -25,7 +25,8 @@ class Momentum {
  public:
   Momentum(const Mesh& mesh, const MomentumSettings& settings);
 
-  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms. Local.
+  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms.
+  /// Collective.
   void guess_from_history(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
   /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
   void guess_from_last(const Flow& flow);
@@ -40,6 +41,8 @@ class Momentum {
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
+  void set_rates(const Flow& flow);
+  double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
   void start_rows(const Flow& flow, const TimeScheme& time);
   template <Convection scheme>
