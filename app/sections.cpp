@@ -1,6 +1,7 @@
 #include "app/sections.hpp"
 
 #include "app/settings.hpp"
+#include "app/start_flow.hpp"
 #include "coupling/coupling_settings.hpp"
 #include "coupling/prescribed_field.hpp"
 #include "dem/contacts/contact_settings.hpp"
@@ -19,6 +20,7 @@ struct AllSections::Settings {
   PeriodicSettings periodic;
   TimeSettings time;
   FlowSettings flow;
+  StartSettings start;
   PumpSettings pump;
   PrescribedFlow prescribed;
   RagSettings rag{RagSettings::Shape::rag}, disc{RagSettings::Shape::disc}, fibre{RagSettings::Shape::fibre},
@@ -39,8 +41,8 @@ std::vector<Section> AllSections::list() {
   const auto append = [&](const std::vector<Section>& more) { all.insert(all.end(), more.begin(), more.end()); };
   append(boundary_sections());
   append(turbulence_sections());
-  append({s.pump.section(), s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(), s.particle.section(),
-          s.dem.section()});
+  append({s.start.section(), s.pump.section(), s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(),
+          s.particle.section(), s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});
