@@ -129,6 +129,9 @@ VtkPiece WallOutput::walls_of(const Flow& flow) const {
   }
   piece.cell_arrays.push_back(std::move(part));
   if (collection_) {
+    std::vector<double> turning;
+    for (int f = mesh.n_interior; f < mesh.n_faces; ++f) turning.push_back(mesh.cell_zone[mesh.owner[f]] == flow.rotating_zone->zone());
+    piece.cell_arrays.push_back(of_faces("turning [1]", turning));
     piece.cell_arrays.push_back(of_faces("pressure [Pa]", flow.boundary_pressure));
     if (sum(mesh.comm, static_cast<std::int64_t>(flow.y_plus.size())) > 0) piece.cell_arrays.push_back(of_faces("y_plus [1]", flow.y_plus));
     piece.field_arrays = {{"TimeValue", 1, {flow.time}, false}};

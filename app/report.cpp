@@ -7,6 +7,7 @@
 #include "app/report/monitor_plots.hpp"
 #include "app/report/page.hpp"
 #include "app/report/pictures.hpp"
+#include "app/report/pump_section.hpp"
 #include "app/report/results.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -67,6 +68,7 @@ std::string paraview_section(const std::filesystem::path& dir) {
   add("fields/water.pvd", "water: velocity, pressure and the part of each cell that is cloth, over time");
   add("rags/rags.pvd", "rags: sheets with the velocity of their particles and the tension of their bonds, over time");
   add("walls/walls.vtp", "walls");
+  add("walls/walls.pvd", "walls with the pressure on them, over time");
   if (rows.empty()) return "";
   return "<p>Open these files of the run's folder in ParaView (File, Open; then Apply). Colour the rag by tension, give the walls an "
          "opacity of 0.1, and "
@@ -120,7 +122,8 @@ void write_report(const std::filesystem::path& dir) {
       escaped(title) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n";
   page += heading(summary, title);
   page += section("What was run", run_table(summary));
-  page += section("Results", pump_table(summary) + rag_tables(summary));
+  page += section("Pump", pump_section(summary, dir / "monitors"));
+  page += section("Rags", rag_tables(summary));
   page += section("What must be conserved", conservation_table(summary));
   page += section("Pictures", picture_section(draw_pictures(dir)));
   page += section("Over time", plot_section(monitor_plots(dir / "monitors")));

@@ -144,12 +144,14 @@ ExitCode run_case(const RunOptions& options) {
     throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
                                      reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +
                                      "); resume with the same case and --set values");
+  const std::string start = reader ? "" : simulation.start();
   if (!reader) check_start(simulation);
   together(world, [&] {
     if (rank_of(world) == 0) prepare_output_folder(folder, !options.resume);
   });
   log::open(folder / "log.txt", options.resume);
   log_heading(simulation, file);
+  if (!start.empty()) log::info(start);
   if (reader) simulation.load(*reader);
   Outputs outputs(folder, file, simulation, options.resume);
   if (reader) {
@@ -182,8 +184,10 @@ ExitCode run_case(const RunOptions& options) {
 ExitCode check_case(const RunOptions& options) {
   const CaseFile file = CaseFile::read(options.case_file, options.overrides);
   Simulation simulation(file, world);
+  const std::string start = simulation.start();
   check_start(simulation);
   log_heading(simulation, file);
+  if (!start.empty()) log::info(start);
   if (simulation.mesh) {
     const std::string table = quality_table(*simulation.mesh, simulation.mesh_quality);
     log::info(table);

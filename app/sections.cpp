@@ -1,6 +1,7 @@
 #include "app/sections.hpp"
 
 #include "app/settings.hpp"
+#include "app/start_flow.hpp"
 #include "coupling/coupling_settings.hpp"
 #include "coupling/prescribed_field.hpp"
 #include "dem/contacts/contact_settings.hpp"
@@ -21,6 +22,7 @@ struct AllSections::Settings {
   TimeSettings time;
   FlowSettings flow;
   RotatingZoneSettings rotating_zone;
+  StartSettings start;
   PumpSettings pump;
   PrescribedFlow prescribed;
   RagSettings rag{RagSettings::Shape::rag}, disc{RagSettings::Shape::disc}, fibre{RagSettings::Shape::fibre},
@@ -42,8 +44,8 @@ std::vector<Section> AllSections::list() {
   append(boundary_sections());
   append({s.rotating_zone.section()});
   append(turbulence_sections());
-  append({s.pump.section(), s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(), s.particle.section(),
-          s.dem.section()});
+  append({s.start.section(), s.pump.section(), s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(),
+          s.particle.section(), s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});

@@ -57,6 +57,8 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::v
   read(root, time_settings);
   read(root, output_settings);
   read(root, checkpoint_settings);
+  read(root, start_settings_);
+  start_folder_ = file.path(start_settings_.from);
   time_settings.n_steps();
   read_mesh(file, std::move(partition));
   build_water(file);
@@ -169,11 +171,18 @@ void Simulation::check_inside() {
   strays_told_ = true;
 }
 
+std::string Simulation::start() const {
+  if (start_settings_.from.empty()) return {};
+  if (!water) throw Error(ExitCode::usage, "[start] from: this case computes no water; remove it, or give [mesh]");
+  return start_flow(*water, start_settings_, start_folder_);
+}
+
 void Simulation::save(CheckpointWriter& writer) const {
   if (mesh) {
     std::vector<std::int64_t> partition;
     for (const int rank : partition_of(*mesh)) partition.push_back(rank);
     writer.shared("mesh/partition", std::span<const std::int64_t>(partition));
+    save_cell_centres(writer, *mesh);
   }
   if (water) water->save(writer);
   if (rags) {

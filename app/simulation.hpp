@@ -5,6 +5,7 @@
 
 #include "app/passage.hpp"
 #include "app/settings.hpp"
+#include "app/start_flow.hpp"
 #include "base/case_file.hpp"
 #include "coupling/coupled_solver.hpp"
 #include "dem/rag_system.hpp"
@@ -26,6 +27,9 @@ class Simulation {
   double time() const { return static_cast<double>(time_step_) * time_settings.step; }
   std::int64_t time_step() const { return time_step_; }
 
+  /// Initial fields of the water from another run, if [start] names one; returns a line for the log, empty without. Collective; throws
+  /// Error.
+  std::string start() const;
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
 
@@ -61,6 +65,8 @@ class Simulation {
 
   MPI_Comm comm_;
   MeshSettings mesh_settings_;
+  StartSettings start_settings_;
+  std::filesystem::path start_folder_;
   std::optional<PrescribedFlow> prescribed_;
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling

@@ -29,8 +29,8 @@ class Momentum {
 
   /// Again after the facets of the mesh have changed. Local.
   void mesh_turned();
-  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms. Local.
-  /// `history`: how far fluxes were from their cells' velocities; used where faces turn.
+  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms.
+  /// `history`: how far fluxes were from their cells' velocities; used where faces turn. Collective.
   void guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
   /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
   void guess_from_last(const Flow& flow);
@@ -45,7 +45,9 @@ class Momentum {
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
-  void guess_flux(const Flow& flow, const FluxHistory& history, double ratio);
+  void guess_flux(const Flow& flow, const FluxHistory& history, double share);
+  void set_rates(const Flow& flow);
+  double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
   void start_rows(const Flow& flow, const TimeScheme& time);
   template <Convection scheme>

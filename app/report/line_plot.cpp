@@ -19,6 +19,16 @@ constexpr std::size_t max_legend = 9;
 const char* const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#7A5195"};
 constexpr std::size_t n_colours = std::size(colours);
 
+const char* const faint_colour = "#9aa7b4";
+
+/// Faint lines take no colour from the others.
+std::vector<std::string> colours_of(const LinePlot& plot) {
+  std::vector<std::string> result;
+  std::size_t n = 0;
+  for (const PlotLine& line : plot.lines) result.emplace_back(line.faint ? faint_colour : colours[n++ % n_colours]);
+  return result;
+}
+
 std::string printed(const char* format, double value) {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
@@ -150,9 +160,10 @@ std::string frame(const LinePlot& plot, const Axis& x, const Axis& y) {
 
 std::string legend(const LinePlot& plot) {
   if (plot.lines.size() < 2 && (plot.lines.empty() || plot.lines[0].label.empty())) return "";
+  const auto colour = colours_of(plot);
   std::string result = "<div class=\"legend\">";
   for (std::size_t i = 0; i < std::min(plot.lines.size(), max_legend); ++i)
-    result += "<span><b style=\"color:" + std::string(colours[i % n_colours]) + "\">━</b> " + escaped(plot.lines[i].label) + "</span> ";
+    result += "<span><b style=\"color:" + colour[i] + "\">━</b> " + escaped(plot.lines[i].label) + "</span> ";
   if (plot.lines.size() > max_legend) result += "<span>and " + std::to_string(plot.lines.size() - max_legend) + " more</span>";
   return result + "</div>";
 }
@@ -189,10 +200,13 @@ std::string figure(const LinePlot& plot) {
   set_ticks(y, 6);
   std::string svg = "<svg viewBox=\"0 0 " + printed("%.0f ", width) + printed("%.0f", height) + "\" role=\"img\" aria-label=\"" +
                     escaped(plot.title) + "\">\n" + frame(plot, x, y);
-  for (std::size_t i = 0; i < plot.lines.size(); ++i)
-    svg += path_of(
-        plot.lines[i], x, y,
-        "stroke=\"" + std::string(colours[i % n_colours]) + "\" stroke-width=\"1.4\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+  const auto colour = colours_of(plot);
+  for (const bool faint : {true, false})
+    for (std::size_t i = 0; i < plot.lines.size(); ++i)
+      if (plot.lines[i].faint == faint)
+        svg += path_of(plot.lines[i], x, y,
+                       "stroke=\"" + colour[i] + "\" stroke-width=\"" + (faint ? "0.7" : "1.4") +
+                           "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
   return "<figure class=\"plot\"><figcaption>" + escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) + gaps(plot, y) +
          "</figure>\n";
 }

@@ -8,6 +8,7 @@ namespace snag {
 struct PlotLine {
   std::string label;
   std::vector<double> x, y;
+  bool faint = false;  // thin and grey, behind the others
 };
 
 struct LinePlot {

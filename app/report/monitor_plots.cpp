@@ -23,9 +23,9 @@ struct KnownPlot {
 /// In the order of the page: the machine, the rags, the exchange, the solvers, the cost.
 const std::vector<KnownPlot>& known_plots() {
   static const std::vector<KnownPlot> plots = {
-      {"pump", "Head of the pump", {"head"}},
-      {"pump", "Flow rate through the pump", {"flow"}},
-      {"pump", "Torque on the impeller", {"torque"}},
+      {"pump", "Head of the pump", {"head", "head_total"}},
+      {"pump", "Flow rate through the pump", {"flow_in", "flow_out"}},
+      {"pump", "Torque of the water on the impeller", {"torque", "torque_pressure", "torque_friction"}},
       {"pump", "Shaft power", {"shaft_power", "hydraulic_power"}},
       {"pump", "Efficiency", {"efficiency"}},
       {"rags", "Where the rag is: its centroid", {"x", "y", "z"}},
@@ -49,6 +49,8 @@ const std::vector<KnownPlot>& known_plots() {
       {"coupling", "Largest part of a cell that is cloth", {"max_solid_fraction", "solid_fraction_max"}},
       {"patches", "Flow rate through each part of the boundary", {"*_flow"}},
       {"patches", "Mean pressure on each part of the boundary", {"*_pressure"}},
+      {"wall", "y+ of the cells at the walls, mean over each wall", {"*_y_plus_mean"}},
+      {"wall", "y+ of the cells at the walls, lowest and highest of each wall", {"*_y_plus_min", "*_y_plus_max"}},
       {"residuals", "Courant number", {"courant_max", "courant_mean"}},
       {"residuals", "Residuals of the water's equations", {"momentum_residual", "pressure_residual"}},
       {"residuals", "Continuity: volume not accounted for in a cell, relative", {"continuity_local"}},
@@ -87,7 +89,7 @@ class Monitor {
     left_.insert(table_.columns.begin() + 1, table_.columns.end());
     std::erase_if(left_, [](const std::string& header) {
       const auto column = column_of(header).name;
-      return column == "time_step" || column == "rag" || column == "step";
+      return column == "time_step" || column == "rag" || column == "step" || column == "angle" || column == "revolutions";
     });
     const auto rag = std::find_if(columns_.begin(), columns_.end(), [](const Column& column) { return column.name == "rag"; });
     if (rag == columns_.end()) {
@@ -177,11 +179,14 @@ std::optional<double> constant_value(const LinePlot& plot) {
   return value;
 }
 
+/// What is not over time has a section of its own.
+bool is_of_the_pump(const std::string& monitor) { return monitor == "revolutions" || monitor == "phase"; }
+
 std::vector<Monitor> monitors_of(const std::filesystem::path& folder, std::vector<std::string>& problems) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::is_directory(folder))
     for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().extension() == ".csv") files.push_back(entry.path());
+      if (entry.path().extension() == ".csv" && !is_of_the_pump(entry.path().stem())) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<Monitor> monitors;
   for (const auto& file : files) {

@@ -1,25 +1,28 @@
 #!/usr/bin/env python3
-"""Pictures of a run, without a screen: the rag in its surroundings at several instants, and the water's speed on slices.
+"""Pictures of a run, without a screen: the rag in its surroundings at several instants, the water's speed on slices; of a rotor the
+speed in its middle plane and the pressure on the walls.
 
     xvfb-run -a /usr/bin/python3 render.py DIR --out DIR/pictures
 
-Reads fields/water.pvd, rags/rags.pvd and walls/walls.vtp of DIR as far as they exist; writes PNG files and pictures.json, a list of
+Reads fields/water.pvd, rags/rags.pvd and walls/walls.vtp (or walls.pvd) of DIR as far as they exist; writes PNG files and pictures.json, a list of
 {file, group, caption}, rewritten after each picture so that what was made before a failure is kept.
 """
 import argparse
 import json
 import pathlib
 import sys
+import tomllib
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  (text)
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (the renderer registers itself)
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersCore import (vtkArrayCalculator, vtkCellDataToPointData, vtkCleanPolyData, vtkCutter, vtkFeatureEdges,
-                                       vtkPolyDataNormals)
+                                       vtkPolyDataNormals, vtkThreshold)
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPPolyDataReader, vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
@@ -64,6 +67,13 @@ class Series:
     def __init__(self, index):
         found = ElementTree.parse(index).iter("DataSet") if index.exists() else []
         self.entries = sorted((float(e.get("timestep")), index.parent / e.get("file")) for e in found)
+
+    @classmethod
+    def of_one(cls, file):
+        """A file that holds for all times."""
+        series = cls(file.with_suffix(".none"))
+        series.entries = [(0.0, file)]
+        return series
 
     def nearest(self, time):
         return min(self.entries, key=lambda entry: abs(entry[0] - time)) if self.entries else None
@@ -132,7 +142,7 @@ class Stage:
     def show(self, name, group, caption, scene, width=720):
         renderer = vtkRenderer()
         renderer.SetBackground(1, 1, 1)
-        size = look(renderer.GetActiveCamera(), scene["box"], scene["towards"], width)
+        size = look(renderer.GetActiveCamera(), scene["box"], scene["towards"], width, scene.get("tilt", True))
         self.window.SetSize(*size)
         front = vtkRenderer()
         front.SetLayer(1)
@@ -193,8 +203,8 @@ def colour_bar(table, centre, size):
     return bar
 
 
-def look(camera, box, towards, width):
-    """Parallel view along axis `towards`, tilted a little, that holds the box; returns the size of the picture in pixels."""
+def look(camera, box, towards, width, tilt=True):
+    """Parallel view along axis `towards`, perhaps tilted a little, that holds the box; returns the size of the picture in pixels."""
     centre, extent = box.mean(axis=1), box[:, 1] - box[:, 0]
     up = 2 if towards != 2 else int(np.argmin(extent[:2]))                     # z is up where it can be
     side = 3 - towards - up
@@ -206,8 +216,9 @@ def look(camera, box, towards, width):
     camera.SetFocalPoint(*centre)
     camera.SetPosition(*(centre + 3 * reach * sight))
     camera.SetViewUp(*np.eye(3)[up])
-    camera.Azimuth(-18)
-    camera.Elevation(16)
+    if tilt:
+        camera.Azimuth(-18)
+        camera.Elevation(16)
     camera.OrthogonalizeViewUp()
     above = np.array(camera.GetViewUp())
     right = np.cross(camera.GetDirectionOfProjection(), above)
@@ -296,18 +307,60 @@ def rag_actors(rag, tables):
     return [actor, line_actor(outline, (0.2, 0.02, 0.05), 1.5)]
 
 
+def part_of(data, name, value):
+    """The cells of a grid or surface whose array `name` has this value, as a surface; None if there are none."""
+    array = array_named(data.GetCellData(), name)
+    if array is None:
+        return None
+    choice = vtkThreshold()
+    choice.SetInputData(data)
+    choice.SetInputArrayToProcess(0, 0, 0, 1, array.GetName())
+    choice.SetLowerThreshold(value - 0.5)
+    choice.SetUpperThreshold(value + 0.5)
+    skin = vtkGeometryFilter()
+    skin.SetInputConnection(choice.GetOutputPort())
+    skin.Update()
+    return skin.GetOutput() if skin.GetOutput().GetNumberOfCells() > 0 else None
+
+
+class Rotor:
+    """Axis and middle of the zone that turns, from the case and the cells; `axis` is None where nothing turns."""
+
+    def __init__(self, folder, grid):
+        self.axis, case = None, folder / "case.resolved.toml"
+        table = tomllib.loads(case.read_text()).get("rotating_zone") if case.exists() else None
+        skin = part_of(grid, "turning", 1) if table and grid is not None else None
+        if skin is None:
+            return
+        self.axis = np.array(table.get("axis", [0, 0, 1]), float)
+        self.axis /= np.linalg.norm(self.axis)
+        origin = np.array(table.get("origin_m", [0, 0, 0]), float)
+        points = vtk_to_numpy(skin.GetPoints().GetData()) - origin
+        along = points @ self.axis
+        self.reach = float(np.linalg.norm(points - np.outer(along, self.axis), axis=1).max())
+        self.middle = origin + 0.5 * (along.min() + along.max()) * self.axis
+        self.box = bounds_of(skin.GetBounds())
+        self.towards = int(np.argmax(np.abs(self.axis)))
+
+
 class Run:
     """What there is of a run, and the ranges and views that all its pictures share."""
 
     def __init__(self, folder):
         self.water, self.rags = Series(folder / "fields/water.pvd"), Series(folder / "rags/rags.pvd")
-        self.walls = read(folder / "walls/walls.vtp")
+        moving = Series(folder / "walls/walls.pvd")
+        self.walls = moving if moving.entries else Series.of_one(folder / "walls/walls.vtp")
+        walls = read(self.walls.entries[-1][1])
         self.grids = {}
-        self.domain = None if self.walls is None else bounds_of(self.walls.GetBounds())
+        self.domain = None if walls is None else bounds_of(walls.GetBounds())
         last = self.grid(self.water.entries[-1][1]) if self.water.entries else None
         if last is not None:
             self.domain = bounds_of(last.GetBounds(), self.domain)
+        self.rotor = Rotor(folder, last)
         self.tables = {}
+        self.instants = self.rags.spread(N_INSTANTS)
+        if moving.entries:                      # walls are known at the times of the fields: rags are shown at these
+            self.instants = sorted({self.rags.nearest(time) for time, _ in moving.spread(N_INSTANTS)} - {None})
         self.travel = self.look_at_rags()
         self.domain = self.travel if self.domain is None else self.domain
         if last is not None:
@@ -317,6 +370,9 @@ class Run:
                 speeds = speeds[np.isfinite(speeds)]                           # a diverged run is drawn as far as it is a number
                 self.tables["speed"] = colour_table(BLUES, 0, float(np.percentile(speeds, 99.5)) if speeds.size else 1)
 
+    def walls_at(self, time):
+        return wall_actors(read(self.walls.nearest(time)[1]))
+
     def grid(self, file):
         if file not in self.grids:
             self.grids = {file: read(file)}     # one at a time: a field may be large
@@ -325,7 +381,7 @@ class Run:
     def look_at_rags(self):
         """Box that the rags pass through at the instants shown; sets the range of their tension."""
         box, low, high = None, 0.0, 0.0
-        for _, file in self.rags.spread(N_INSTANTS):
+        for _, file in self.instants:
             rag = read(file)
             if rag is None or not np.all(np.isfinite(rag.GetBounds())):
                 continue
@@ -363,24 +419,83 @@ class Run:
         return [actor]
 
 
+def in_kilopascal(surface):
+    """Adds the cell array `kPa`; None if there is no pressure."""
+    pressure = array_named(surface.GetCellData(), "pressure")
+    if pressure is None:
+        return None
+    array = numpy_to_vtk(1e-3 * vtk_to_numpy(pressure), deep=1)
+    array.SetName("kPa")
+    surface.GetCellData().AddArray(array)
+    return surface
+
+
+def draw_rotor(run, stage):
+    """The water in the middle plane of the rotor, and the pressure on all walls and on those of the rotor."""
+    rotor, (time, file) = run.rotor, run.water.entries[-1]
+    grid, walls = run.grid(file), read(run.walls.nearest(time)[1])
+    cut = slice_of(grid, rotor.middle, rotor.axis) if "speed" in run.tables else None
+    if cut is not None:
+        plane = coloured(actor_of(cut), "speed", "points", run.tables["speed"])
+        plane.GetProperty().LightingOff()
+        reach = 1.75 * rotor.reach              # the casing around the rotor
+        box = np.stack([rotor.middle - reach, rotor.middle + reach], axis=1)
+        box = np.stack([np.maximum(box[:, 0], run.domain[:, 0]), np.minimum(box[:, 1], run.domain[:, 1])], axis=1)
+        box[rotor.towards] = rotor.middle[rotor.towards]
+        outline = vtkCutter()                   # walls where the plane cuts them
+        lines = []
+        if walls is not None:
+            level = vtkPlane()
+            level.SetOrigin(*rotor.middle)
+            level.SetNormal(*rotor.axis)
+            outline.SetInputData(walls)
+            outline.SetCutFunction(level)
+            outline.Update()
+            lines = [actor_of(outline.GetOutput(), (0.15, 0.17, 0.2))]
+        scene = {"surroundings": [plane] + lines, "rags": [], "bars": run.bars(False), "text": f"t = {time:.4g} s", "box": box,
+                 "towards": rotor.towards, "tilt": False}
+        stage.show("rotor_speed.png", "speed", f"Speed of the water at t = {time:.4g} s in the middle plane of the rotor", scene, 1000)
+    if walls is None or in_kilopascal(walls) is None:
+        return
+    for name, surface, box, towards, words in (
+            ("walls", walls, run.domain, rotor.towards, "all walls; those in front are left out"),
+            ("rotor_walls", part_of(walls, "turning", 1), rotor.box, rotor.towards, "the walls that turn; those in front are left out")):
+        if surface is None:
+            continue
+        values = vtk_to_numpy(surface.GetCellData().GetArray("kPa"))
+        values = values[np.isfinite(values)]
+        if values.size == 0:
+            continue
+        table = colour_table(FIRE, float(np.percentile(values, 0.5)), float(np.percentile(values, 99.5)))
+        actor = coloured(actor_of(surface), "kPa", "cells", table)
+        actor.GetProperty().SetAmbient(0.55)
+        actor.GetProperty().SetDiffuse(0.5)
+        actor.GetProperty().FrontfaceCullingOn()    # walls are oriented out of the water: those between it and the eye are left out
+        scene = {"surroundings": [actor], "rags": [], "bars": [("Pressure [kPa]", table)], "text": f"t = {time:.4g} s", "box": box,
+                 "towards": towards}
+        stage.show(f"pressure_{name}.png", "speed", f"Pressure at t = {time:.4g} s on {words}", scene, 1000)
+
+
 def draw(run, stage):
     extent = run.domain[:, 1] - run.domain[:, 0]
     thin = int(np.argmin(extent))
     middle = run.domain.mean(axis=1)
-    walls = wall_actors(run.walls)
     letter = "xyz"
-    shown = run.rags.spread(N_INSTANTS)
+    shown = run.instants
     for i, (time, file) in enumerate(shown):
         rag = read(file)
         water = run.water.nearest(time)
         note = "" if rag is not None else " (no rag in the domain)"
-        surroundings = (run.slice_actors(water[1], middle, thin) if water is not None else []) + walls
+        surroundings = (run.slice_actors(water[1], middle, thin) if water is not None else []) + run.walls_at(time)
         scene = {"surroundings": surroundings, "rags": rag_actors(rag, run.tables), "bars": run.bars(True),
                  "text": f"t = {time:.4g} s{note}", "box": run.view_of_rags(), "towards": thin}
         stage.show(f"rag_{i + 1}.png", "rag", f"t = {time:.4g} s{note}", scene)
     if not run.water.entries:
         return
     time, file = run.water.entries[-1]
+    if run.rotor.axis is not None:
+        draw_rotor(run, stage)
+    walls = run.walls_at(time)
     last_rag = read(shown[-1][1]) if shown else None
     centre = middle if last_rag is None else np.array(last_rag.GetBounds()).reshape(3, 2).mean(axis=1)
     views = [(thin, middle, "the middle of the domain")]

@@ -153,22 +153,26 @@ std::string run_table(const json& summary) {
   add_rows(rows, member(summary, "mesh"),
            {{"cells", "Cells of the mesh", ""},
             {"interior_faces", "Faces between cells", ""},
-            {"facets", "Facets of the sliding interface", ""},
+            {"facets", real(member(summary, "mesh"), "facets") == 0 ? "" : "Facets of the sliding interface", ""},
             {"min_quality", "Lowest quality of a cell (1 is best)", ""}});
+  std::erase_if(rows, [](const auto& row) { return row[0].empty(); });
   return table_of({}, rows);
 }
 
 std::string pump_table(const json& summary) {
   const json& pump = member(summary, "pump");
+  if (!pump.is_object()) return "";
   Rows rows;
   add_rows(rows, pump,
            {{"flow_m3_s", "Flow rate", "m³/s"},
             {"head_m", "Head", "m"},
+            {"head_total_m", "Head of the total pressure", "m"},
             {"torque_Nm", "Torque", "N m"},
             {"shaft_power_W", "Shaft power", "W"},
             {"efficiency", "Hydraulic efficiency", ""},
-            {"revolutions", "Revolutions", ""}});
-  return table_of({"Pump, mean of the last revolution", "Value"}, rows);
+            {"revolutions", "Revolutions of the run", ""}});
+  const bool is_part = real(pump, "revolutions") < 1;
+  return table_of({is_part ? "Mean of the whole run: no revolution is complete" : "Mean of the last complete revolution", "Value"}, rows);
 }
 
 std::string rag_tables(const json& summary) {
@@ -229,6 +233,7 @@ std::string conservation_table(const json& summary) {
   Rows rows;
   for (const auto& check : checks) {
     const json& value = member(conservation, check.key);
+    if (value.is_null() && check.key == std::string("interface_closure_rel")) continue;  // there is no interface
     const char* verdict = "<span class=\"idle\">not measured</span>";
     if (value.is_number())  // what is not a number fails
       verdict = value.get<double>() <= check.limit ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">FAIL</span>";

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/report/pump_section.hpp"
 #include "base/atomic_file.hpp"
 #include "base/series.hpp"
 #include "mesh/structured.hpp"
@@ -102,6 +104,20 @@ TEST_F(PumpOutputTest, RevolutionsAndPhase) {
     EXPECT_NEAR(phase.column("head_deviation")[bin], 0, 1e-9);
   }
   EXPECT_EQ(phase.column("revolutions")[0], 3);
+
+  // The report finds its numbers in these files: the last two revolutions side by side, and its six plots.
+  const std::string html = pump_section({{"pump", {{"head_m", 4.0}, {"revolutions", 4.04}}}}, dir);
+  const auto times = [&](const std::string& text) {
+    std::size_t n = 0;
+    for (std::size_t at = html.find(text); at != std::string::npos; at = html.find(text, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(times("class=\"problem\""), 0u) << html;
+  EXPECT_EQ(times("<th>Revolution 4</th><th>Revolution 3</th>"), 1u);
+  EXPECT_EQ(times("<td>Head</td><td>4 m</td>"), 2u) << "in the summary and in the table of revolutions";
+  EXPECT_EQ(times("<tr><td>1</td><td>1 m</td><td>50°</td>"), 1u);
+  EXPECT_EQ(times("<svg"), 6u);
+  EXPECT_EQ(times("stroke-width=\"0.7\""), 2u * 3 + 2 * 2) << "three revolutions before the last, and the scatter, twice";
 }
 
 TEST_F(PumpOutputTest, ResumedRunWritesTheSame) {
