@@ -256,6 +256,7 @@ double TurningMesh::closure() const {
     Vec3 total;
     double surface = 0;
     for (const int f : row(mesh_.cell_face_start, mesh_.cell_face, cell)) {
+      if (mesh_.neighbour[f] == mesh_.owner[f]) continue;  // one period wide: both sides of the face are its own
       total += (mesh_.owner[f] == cell ? 1.0 : -1.0) * mesh_.face_vector[f];
       surface += norm(mesh_.face_vector[f]);
     }

@@ -92,7 +92,7 @@ void Momentum::mesh_turned() {
 
 /// Fluxes with a share of their extrapolation. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are,
 /// so that the flux is that of the face as it lies now; facets have no psi.
-void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double share) {
+void Momentum::guess_flux(const Flow& flow, const BoundarySet& boundary, const FluxHistory& history, double share) {
   const auto &u = flow.velocity_old, &before = flow.velocity_older;
   const auto& G = flow.velocity_gradient;
   const auto& psi = history.psi;
@@ -110,15 +110,21 @@ void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double s
     flux_[f] = (turns ? of_cells(f) + psi[f] + share * (psi[f] - history.psi_old[f]) : extrapolated(f)) - flow.mesh_flux[f];
   }
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] = of_cells(f);
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = extrapolated(f) - flow.mesh_flux[f];
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    const bool is_given = boundary.fixes(static_cast<int>(p)) == Fixes::velocity;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const bool turns = is_given && mesh_.cell_zone[mesh_.owner[f]] == turning;
+      flux_[f] = (turns ? boundary.values().flux[f - mesh_.n_interior] : extrapolated(f)) - flow.mesh_flux[f];
+    }
+  }
 }
 
-void Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
+void Momentum::guess_from_history(Flow& flow, const BoundarySet& boundary, const FluxHistory& history, const TimeScheme& time) {
   const double r = time.ratio;
-  guess_flux(flow, history, 0);
+  guess_flux(flow, boundary, history, 0);
   set_rates(flow);
   if (const double share = r * flux_share(flow, time); share > 0) {
-    guess_flux(flow, history, share);
+    guess_flux(flow, boundary, history, share);
     set_rates(flow);
   }
   mesh_.halo.exchange(rate_, 2);

@@ -98,7 +98,7 @@ void expect_consistent(const Mesh& mesh, const TurningMesh& turning) {
     EXPECT_LT(mesh.cell_id[P], mesh.cell_id[N]);
     EXPECT_EQ((mesh.cell_zone[P] == turning.zone()) != (mesh.cell_zone[N] == turning.zone()), is_facet);
     EXPECT_LT(norm(mesh.cell_centre[N] - mesh.cell_centre[P] - mesh.delta[f]), tiny);
-    EXPECT_GT(mesh.weight[f], 0);
+    EXPECT_GT(mesh.weight[f], 0) << (is_facet ? "facet" : "face");
     EXPECT_LT(mesh.weight[f], 1);
     EXPECT_GT(dot(mesh.face_vector[f], mesh.delta[f]), 0);
   }
@@ -124,7 +124,9 @@ void expect_nodes_follow(const Mesh& mesh, const Shells& shells) {
       is_curved =
           is_curved || std::abs(norm(a - dot(a, axis) * axis) - shells.radius) < 1e-9 || std::abs(dot(a, axis) - shells.height) < 1e-9;
     }
-    if (!is_curved) EXPECT_LT(norm(vector - mesh.face_vector[f]), 1e-12 * norm(vector) + 1e-17);
+    if (!is_curved) {
+      EXPECT_LT(norm(vector - mesh.face_vector[f]), 1e-12 * norm(vector) + 1e-17);
+    }
   }
 }
 
@@ -190,7 +192,9 @@ TEST(TurningMesh, MovesTheZoneAsARigidBody) {
   for (int f = 0; f < mesh.n_faces; ++f) {
     const Vec3 &x = mesh.face_centre[f], &S = mesh.face_vector[f];
     const double expected = mesh.cell_zone[mesh.owner[f]] == turning.zone() ? 3 * dot({-x.y, x.x, 0}, S) : 0;
-    if (f < mesh.first_facet || f >= mesh.n_interior) EXPECT_NEAR(flux[f], expected, 0.03 * 3 * shells.radius * norm(S));
+    if (f < mesh.first_facet || f >= mesh.n_interior) {
+      EXPECT_NEAR(flux[f], expected, 0.03 * 3 * shells.radius * norm(S));
+    }
   }
 }
 

@@ -1,0 +1,155 @@
+# timeout: 600
+# processors: 5
+"""Requirement: a run with a turning zone and k-epsilon agrees to 1e-6 on 1, 2, 3 and 5 ranks, and one resumed in mid-turn equals the uninterrupted one to the bit on the same ranks."""
+import math
+import shutil
+
+import harness
+
+N_STEPS = 50
+CASE = """
+[case]
+name = "turning-rings"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 0.05
+step_s = 1e-3
+[rotating_zone]
+zone = "rotor"
+motion = "{motion}"
+speed = "1200 rpm"
+ramp = "0.02 s"
+start_angle = "5 deg"
+[flow]
+pressure_tolerance = 1e-11
+pressure_tolerance_intermediate = 1e-11
+momentum_tolerance = 1e-11
+[turbulence]
+model = "k_epsilon"
+initial_k_m2_s2 = 0.01
+initial_epsilon_m2_s3 = 0.1
+[[boundary]]
+patch = "inlet"
+kind = "flow_rate_inlet"
+flow_rate_m3_s = 2e-3
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patch = "impeller_walls"
+kind = "moving_wall"
+speed = "1200 rpm"
+ramp_s = 0.02
+[[boundary]]
+patch = "walls"
+kind = "wall"
+[checkpoint]
+interval_s = 0.03
+[output]
+report = false
+single_precision = false
+"""
+
+SURFACES = {"interface_rotor": 1, "interface_stator": 2, "inlet": 3, "outlet": 4, "impeller_walls": 5, "walls": 6}
+INNER, RADIUS, OUTER, HEIGHT, TOP = 0.03, 0.05, 0.08, 0.04, 0.06  # m
+
+
+class Rings:
+    """Hexahedra of a turning ring with four radial gaps in its cells, so that it moves water, a ring around it and a lid above; a gmsh file."""
+
+    def __init__(self):
+        self.nodes, self.elements = [], []
+        gaps = lambda i, j, k: j == 1 and i % 4 == 0  # blades
+        self.add(1, (INNER, RADIUS, 0, HEIGHT, 0), (16, 3, 4), dict(r0="impeller_walls", r1="interface_rotor", z0="impeller_walls", z1="interface_rotor"), gaps)
+        self.add(2, (RADIUS, OUTER, 0, HEIGHT, 0.1), (19, 3, 4), dict(r0="interface_stator", r1="walls", z0="outlet", z1="walls"))
+        self.add(2, (INNER, RADIUS, HEIGHT, TOP, 0.1), (19, 3, 2), dict(r0="walls", r1="walls", z0="interface_stator", z1="inlet"))
+
+    def add(self, zone, size, cells, patch, gap=lambda i, j, k: False):
+        (r0, r1, z0, z1, start), (n, n_r, n_z), first = size, cells, len(self.nodes) + 1
+        for k in range(n_z + 1):
+            for j in range(n_r + 1):
+                for i in range(n):
+                    angle, r = start + 2 * math.pi * i / n, r0 + (r1 - r0) * j / n_r
+                    self.nodes.append((r * math.cos(angle), r * math.sin(angle), z0 + (z1 - z0) * k / n_z))
+        node = lambda i, j, k: first + i % n + n * (j + (n_r + 1) * k)
+        inside = lambda i, j, k: 0 <= j < n_r and 0 <= k < n_z and not gap(i % n, j, k)
+        sides = [((0, 3, 7, 4), (0, -1, 0), "r0"), ((1, 2, 6, 5), (0, 1, 0), "r1"), ((0, 1, 2, 3), (0, 0, -1), "z0"),
+                 ((4, 5, 6, 7), (0, 0, 1), "z1"), ((0, 1, 5, 4), (-1, 0, 0), None), ((3, 2, 6, 7), (1, 0, 0), None)]
+        for k in range(n_z):
+            for j in range(n_r):
+                for i in range(n):
+                    if not inside(i, j, k):
+                        continue
+                    c = [node(i + a, j + b, k + h) for h in (0, 1) for a, b in ((0, 0), (0, 1), (1, 1), (1, 0))]
+                    self.elements.append((5, zone, c))
+                    for corners, (a, b, h), rim in sides:
+                        if inside(i + a, j + b, k + h):
+                            continue
+                        at_rim = rim and not (0 <= j + b < n_r and 0 <= k + h < n_z)
+                        self.elements.append((3, SURFACES[patch[rim] if at_rim else "impeller_walls"], [c[m] for m in corners]))
+
+    def write(self, file):
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(SURFACES) + 2)]
+        lines += [f'2 {tag} "{name}"' for name, tag in SURFACES.items()] + ['3 1 "rotor"', '3 2 "stator"', "$EndPhysicalNames"]
+        lines += ["$Nodes", str(len(self.nodes))] + [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(self.nodes)] + ["$EndNodes"]
+        lines += ["$Elements", str(len(self.elements))]
+        lines += [f"{i + 1} {kind} 2 {tag} {tag} " + " ".join(map(str, nodes)) for i, (kind, tag, nodes) in enumerate(self.elements)]
+        file.write_text("\n".join([*lines, "$EndElements", ""]))
+
+
+class TurningZone(harness.CaseTest):
+    def rings(self, motion="sliding"):
+        mesh = self.work / "rings.msh"
+        Rings().write(mesh)
+        return self.case(CASE.format(mesh=mesh, motion=motion))
+
+    def agree(self, motion):
+        case = self.rings(motion)
+        one = self.run_case(case, 1, out="1")
+        self.assertEqual(one.summary["time_steps"], N_STEPS)
+        for ranks in (2, 3, 5):
+            other = self.run_case(case, ranks, out=str(ranks))
+            for monitor in ("patches", "residuals", "pump"):
+                self.assert_monitors_agree(one, other, monitor, 1e-6)
+
+    def test_sliding_on_any_number_of_ranks(self):
+        self.agree("sliding")
+
+    def test_frame_on_any_number_of_ranks(self):
+        self.agree("frame")
+
+    def crash_and_resume(self, ranks):
+        """The finished run's folder without its last checkpoint and fields is what a crash leaves behind: step 30 is the newest state."""
+        case = self.rings()
+        whole = self.run_case(case, ranks, out="whole")
+        shutil.copytree(whole.folder, self.work / "crashed")
+        crashed = harness.Run(self.work / "crashed", 0, "", "")
+        slots = sorted((crashed.folder / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
+        self.assertEqual(len(slots), 2)
+        slots[-1].write_bytes(slots[-1].read_bytes()[:-5000])
+        finals = sorted((whole.folder / "fields").glob(f"water_{N_STEPS:06}_*.vtu"))
+        self.assertGreaterEqual(len(finals), 1)
+        for file in finals:
+            (crashed.folder / file.relative_to(whole.folder)).unlink()
+        resumed = self.run_case(case, ranks, "--resume", out="crashed")
+        self.assertIn("resumed at 0.03", resumed.stdout)
+        for file in sorted((whole.folder / "monitors").glob("*.csv")):
+            if file.stem == "timing":  # the clock never shows the same twice
+                continue
+            a, b = (run.monitor(file.stem).lines for run in (whole, resumed))
+            for i, (line, other) in enumerate(zip(a, b)):
+                self.assertEqual(line, other, f"{file.name}, line {i + 1} of {len(a)}")
+            self.assertEqual(len(a), len(b), file.name)
+        for file in finals:
+            self.assertEqual(file.read_bytes(), (resumed.folder / file.relative_to(whole.folder)).read_bytes(), f"{file.name} differs")
+
+    def test_resume_on_one_rank(self):
+        self.crash_and_resume(1)
+
+    def test_resume_on_two_ranks(self):
+        self.crash_and_resume(2)
+
+
+if __name__ == "__main__":
+    harness.main()
