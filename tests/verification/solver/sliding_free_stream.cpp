@@ -30,6 +30,7 @@ Deviation deviation(const Shells& shells, bool has_outlet) {
       boundary.push_back(std::move(outlet));
   FlowSettings settings = sharp_settings();
   settings.initial_velocity = stream;
+  settings.momentum_tolerance = settings.pressure_tolerance = settings.pressure_tolerance_intermediate = 1e-13;
   FlowSolver solver(mesh, settings, std::move(boundary), nullptr, std::move(zone));
   const Flow& flow = solver.flow;
   Deviation worst;

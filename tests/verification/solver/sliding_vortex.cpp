@@ -24,7 +24,7 @@ Vec3 exact_velocity(const Vec3& x, double t) {
 }
 double exact_pressure(const Vec3& x, double t) {
   const Vec3 y = x - t * stream;
-  return 0.25 * 1.2 * std::exp(-4 * viscosity * k * k * t) * (std::cos(2 * k * y.x) + std::cos(2 * k * y.y));
+  return -0.25 * 1.2 * std::exp(-4 * viscosity * k * k * t) * (std::cos(2 * k * y.x) + std::cos(2 * k * y.y));
 }
 
 /// The exact velocity at the face and the exact flux through it, so that fluxes sum to zero:   int u.dS = U.S + closed integral psi dz
