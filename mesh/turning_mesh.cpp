@@ -19,6 +19,9 @@ namespace snag {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// At the rim of a coarse interface a facet may lie beyond the centre of a flat cell; interpolation stays exact for linear fields, as it is
+// completed from the point that the weight stands for.
+constexpr double least_weight = 0.05;
 
 /// What a face sweeps in a turn: a part of the interface and a range of z or of r.
 struct Band {
@@ -205,7 +208,7 @@ void TurningMesh::turn_geometry() {
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) {
     const Vec3 &x_P = mesh_.cell_centre[mesh_.owner[f]], &x_N = mesh_.cell_centre[mesh_.neighbour[f]], &S = mesh_.face_vector[f];
     mesh_.delta[f] = x_N - x_P;
-    mesh_.weight[f] = dot(S, x_N - mesh_.face_centre[f]) / dot(S, mesh_.delta[f]);
+    mesh_.weight[f] = std::clamp(dot(S, x_N - mesh_.face_centre[f]) / dot(S, mesh_.delta[f]), least_weight, 1 - least_weight);
   }
 }
 

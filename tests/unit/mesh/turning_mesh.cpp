@@ -98,7 +98,7 @@ void expect_consistent(const Mesh& mesh, const TurningMesh& turning) {
     EXPECT_LT(mesh.cell_id[P], mesh.cell_id[N]);
     EXPECT_EQ((mesh.cell_zone[P] == turning.zone()) != (mesh.cell_zone[N] == turning.zone()), is_facet);
     EXPECT_LT(norm(mesh.cell_centre[N] - mesh.cell_centre[P] - mesh.delta[f]), tiny);
-    EXPECT_GT(mesh.weight[f], 0) << (is_facet ? "facet" : "face");
+    EXPECT_GT(mesh.weight[f], 0);
     EXPECT_LT(mesh.weight[f], 1);
     EXPECT_GT(dot(mesh.face_vector[f], mesh.delta[f]), 0);
   }
