@@ -15,6 +15,7 @@ using Action = std::function<ExitCode()>;
 Action add_run(CLI::App& app);
 Action add_check(CLI::App& app);
 Action add_mesh(CLI::App& app);
+Action add_study(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_manual(CLI::App& app);
 

@@ -26,20 +26,6 @@ constexpr const char* about =
     "Exit codes: 0 ok, 2 usage or case file, 3 mesh, 4 diverged, 5 invariant broken, 6 input/output, 7 stopped on request (checkpoint "
     "written)";
 
-/// Every rank that fails alone leaves the others waiting in some exchange: give them a moment to fail too, else end them with the same
-/// code.
-void leave_together(ExitCode code) {
-  MPI_Request request;
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
-  for (int waited = 0; waited < 100; ++waited) {
-    int done = 0;
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-    if (done) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
-}
-
 /// A misspelt subcommand gets the nearest known one.
 void explain_unknown_command(int argc, char** argv, const std::vector<std::string>& known) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -55,8 +41,9 @@ int parse_and_act(int argc, char** argv, const Session& session) {
   app.set_version_flag("--version", std::string("snag ") + version_number + " (" + version_git + ")");
   bool build_info = false;
   app.add_flag("--build-info", build_info, "Compiler, flags and libraries of this program");
-  const std::vector<std::pair<std::string, Action>> actions = {
-      {"run", add_run(app)}, {"check", add_check(app)}, {"mesh", add_mesh(app)}, {"report", add_report(app)}, {"manual", add_manual(app)}};
+  const std::vector<std::pair<std::string, Action>> actions = {{"run", add_run(app)},       {"check", add_check(app)},
+                                                               {"mesh", add_mesh(app)},     {"study", add_study(app)},
+                                                               {"report", add_report(app)}, {"manual", add_manual(app)}};
   std::vector<std::string> known;
   for (const auto& [name, action] : actions) known.push_back(name);
   explain_unknown_command(argc, argv, known);
@@ -80,6 +67,18 @@ int parse_and_act(int argc, char** argv, const Session& session) {
 }
 
 }  // namespace
+
+void leave_together(ExitCode code) {
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (int waited = 0; waited < 100; ++waited) {
+    int done = 0;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+}
 
 int run_command_line(int argc, char** argv, const Session& session) {
   ExitCode code = ExitCode::io;

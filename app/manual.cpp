@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "app/sections.hpp"
+#include "app/study.hpp"
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
 
@@ -56,6 +57,10 @@ std::string case_file_manual() {
       "is written to `case.resolved.toml` in the output folder.\n\n";
   AllSections all;
   for (const Section& section : all.list()) text += section_text(section);
+  text +=
+      "# The study file\n\n"
+      "A file of its own for `snag study`: a case, what varies, what is kept of each run.\n\n";
+  for (const Section& section : study_sections()) text += section_text(section);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "solver/monitors.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 
@@ -71,6 +72,10 @@ std::vector<std::string> wall_columns(const Mesh& mesh, const std::vector<int>& 
   for (const int p : walls)
     for (const char* end : {"_y_plus_min [1]", "_y_plus_mean [1]", "_y_plus_max [1]"}) columns.push_back(mesh.patches[p].name + end);
   return columns;
+}
+
+RotorState rotor_state(const RotatingZone& zone, double time) {
+  return {{zone.origin(), zone.axis(), zone.speed(time)}, zone.angle(time), zone.slides()};
 }
 
 }  // namespace
@@ -139,6 +144,10 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
         std::make_unique<FieldOutput>(folder_ / "fields", *simulation.mesh, simulation.output_settings.single_precision, resume, from);
     walls_ = std::make_unique<WallOutput>(folder_ / "walls", simulation.water->flow, resume, from);
   }
+  if (simulation.pump) {
+    const Flow& flow = simulation.water->flow;
+    pump_ = std::make_unique<PumpOutput>(folder_ / "monitors", flow, *simulation.pump, rotor_state(*flow.rotating_zone, 0), resume, from);
+  }
   if (simulation.rags) rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
 }
 
@@ -181,6 +190,7 @@ void Outputs::write_monitors() {
   const double time = simulation_.time();
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   if (simulation_.water) write_water_monitors();
+  if (simulation_.water && simulation_.water->flow.rotating_zone) write_rotor_monitors();
   if (!walls_with_y_plus_.empty()) write_wall_monitors();
   if (simulation_.rags) write_rag_monitors();
   if (simulation_.coupled) {
@@ -219,6 +229,12 @@ void Outputs::write_wall_monitors() {
     record.insert(record.end(), {found.lowest, found.mean, found.highest});
   }
   if (rank_of(MPI_COMM_WORLD) == 0) wall_.add(record);
+}
+
+void Outputs::write_rotor_monitors() {
+  const Flow& flow = simulation_.water->flow;
+  largest_closure_ = std::max(largest_closure_, flow.rotating_zone->mesh().closure());
+  if (pump_) pump_->after_step(flow, rotor_state(*flow.rotating_zone, flow.time));
 }
 
 void Outputs::write_rag_monitors() {
@@ -281,17 +297,22 @@ void Outputs::measure_contacts() {
 }
 
 void Outputs::save(CheckpointWriter& writer) const {
-  std::vector<double> kept{largest_exchange_, largest_imbalance_, max_overlap_, most_beyond_walls_};
+  std::vector<double> kept{largest_exchange_, largest_imbalance_, max_overlap_, most_beyond_walls_, largest_closure_};
   kept.insert(kept.end(), wall_contact_.begin(), wall_contact_.end());
   kept.insert(kept.end(), max_wall_overlap_.begin(), max_wall_overlap_.end());
   writer.shared("outputs", std::span<const double>(kept));
+  if (!pump_) return;
+  pump_->save(writer);
+  write_phase();
 }
 
 void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
   largest_exchange_ = kept[0], largest_imbalance_ = kept[1], max_overlap_ = kept[2], most_beyond_walls_ = kept[3];
+  largest_closure_ = kept[4];
   for (std::size_t r = 0; r < wall_contact_.size(); ++r)
-    wall_contact_[r] = kept[4 + r], max_wall_overlap_[r] = kept[4 + wall_contact_.size() + r];
+    wall_contact_[r] = kept[5 + r], max_wall_overlap_[r] = kept[5 + wall_contact_.size() + r];
+  if (pump_) pump_->load(reader);
 }
 
 void Outputs::summarise_rags(Summary& summary) const {
@@ -320,6 +341,12 @@ void Outputs::summarise_rags(Summary& summary) const {
   }
 }
 
+void Outputs::write_phase() const {
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) == 0) pump_->write_phase();
+  });
+}
+
 void Outputs::finish(ExitCode exit, double wall_seconds) {
   Summary s;
   s.case_name = simulation_.case_settings.name;
@@ -336,6 +363,14 @@ void Outputs::finish(ExitCode exit, double wall_seconds) {
   if (simulation_.rags) s.performance.particle_steps = static_cast<double>(sum(MPI_COMM_WORLD, simulation_.rags->n_particle_steps()));
   s.conservation.mass_imbalance = largest_imbalance_;
   s.conservation.momentum_exchange = largest_exchange_;
+  if (const RotatingZone* zone = simulation_.water ? simulation_.water->flow.rotating_zone : nullptr) {
+    s.mesh.facets = zone->mesh().n_facets_global();
+    s.conservation.interface_closure = largest_closure_;
+  }
+  if (pump_) {
+    s.pump = pump_->summary();
+    write_phase();
+  }
   s.conservation.particles_beyond_walls = static_cast<std::int64_t>(most_beyond_walls_);
   together(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/field_output.hpp"
+#include "app/pump_output.hpp"
 #include "app/rag_output.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
@@ -31,7 +32,7 @@ class Outputs {
   void initial();
   /// summary.json. Collective.
   void finish(ExitCode exit, double wall_seconds);
-  /// What a resume needs of the past of this run.
+  /// What a resume needs of the past of this run. Collective.
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
   double seconds() const { return seconds_; }
@@ -39,6 +40,8 @@ class Outputs {
  private:
   void write_monitors();
   void write_water_monitors();
+  void write_rotor_monitors();
+  void write_phase() const;
   void write_wall_monitors();
   void write_rag_monitors();
   void write_rags();
@@ -53,6 +56,7 @@ class Outputs {
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<WallOutput> walls_;
   std::unique_ptr<RagOutput> rag_output_;
+  std::unique_ptr<PumpOutput> pump_;
   double fields_interval_ = 0, rags_interval_ = 0;  // s
   double seconds_ = 0;                              // spent here
   std::int64_t first_step_ = 0;                     // of this process
@@ -60,7 +64,7 @@ class Outputs {
 
   double n_contacts_ = 0, n_wall_contacts_ = 0, max_overlap_now_ = 0, beyond_walls_now_ = 0;
   // over the whole run, kept by checkpoints
-  double largest_exchange_ = 0, largest_imbalance_ = 0, max_overlap_ = 0, most_beyond_walls_ = 0;
+  double largest_exchange_ = 0, largest_imbalance_ = 0, max_overlap_ = 0, most_beyond_walls_ = 0, largest_closure_ = 0;
   std::vector<double> wall_contact_, max_wall_overlap_;  // [n_rags] s, 1
 };
 

@@ -133,6 +133,7 @@ void Momentum::guess_from_history(Flow& flow, const BoundarySet& boundary, const
         r * extrapolation_share(time.dt * rate_[2 * c] / mesh_.cell_volume[c], time.dt * rate_[2 * c + 1] / mesh_.cell_volume[c]);
     const Mat3 &G = flow.velocity_gradient[c], &G_old = flow.velocity_gradient_old[c];
     for (int i = 0; i < 3; ++i) gradient_[c][i] = (1 + e) * G[i] - e * G_old[i];
+    flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
   limit(flow);
 }

@@ -114,6 +114,17 @@ std::vector<std::size_t> drawn(const std::vector<double>& y) {
   return result;
 }
 
+/// A small ring at each point, as a part of the path.
+std::string dots(const PlotLine& line, const Axis& x, const Axis& y) {
+  std::string path;
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    const double px = pixel_x(x, line.x[i]), py = pixel_y(y, line.y[i]);
+    if (std::isfinite(px) && std::isfinite(py))
+      path += "M" + printed("%.1f ", px - 2) + printed("%.1f", py) + "a2 2 0 1 0 4 0a2 2 0 1 0 -4 0";
+  }
+  return path;
+}
+
 std::string path_of(const PlotLine& line, const Axis& x, const Axis& y, const std::string& style) {
   std::string path;
   bool is_open = false;
@@ -127,6 +138,7 @@ std::string path_of(const PlotLine& line, const Axis& x, const Axis& y, const st
     is_open = true;
   }
   if (path.empty()) return "";
+  if (line.dotted) path = dots(line, x, y) + path;
   return "<path d=\"" + path + (path.find('L') == std::string::npos ? "h0.1" : "") + "\" fill=\"none\" " + style + "/>\n";
 }
 

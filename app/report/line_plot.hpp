@@ -8,7 +8,8 @@ namespace snag {
 struct PlotLine {
   std::string label;
   std::vector<double> x, y;
-  bool faint = false;  // thin and grey, behind the others
+  bool faint = false;   // thin and grey, behind the others
+  bool dotted = false;  // a dot at each point
 };
 
 struct LinePlot {

@@ -468,8 +468,8 @@ def draw_rotor(run, stage):
             continue
         table = colour_table(FIRE, float(np.percentile(values, 0.5)), float(np.percentile(values, 99.5)))
         actor = coloured(actor_of(surface), "kPa", "cells", table)
-        actor.GetProperty().SetAmbient(0.55)
-        actor.GetProperty().SetDiffuse(0.5)
+        actor.GetProperty().SetAmbient(0.8)         # little shade: colours are to be read off the bar
+        actor.GetProperty().SetDiffuse(0.25)
         actor.GetProperty().FrontfaceCullingOn()    # walls are oriented out of the water: those between it and the eye are left out
         scene = {"surroundings": [actor], "rags": [], "bars": [("Pressure [kPa]", table)], "text": f"t = {time:.4g} s", "box": box,
                  "towards": towards}

@@ -1,20 +1,33 @@
-// Wall at rest, or fixed to a turning mesh:   u = u_wall,   flux = the volume that the face itself sweeps
-#include "solver/boundary.hpp"
+// Wall:   at rest   u = 0,   or turning with the turning zone   u = omega x (x - x_0)
+//
+// A face of a cell that turns (solver/rotating_zone.hpp) turns with it, unless the wall is told to stay: a casing wall that is a surface of
+// revolution about the axis. In either case the flux is the volume that the mesh face sweeps.
+#include "solver/boundaries/turning_wall.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 namespace {
 
 struct Wall final : Boundary {
   static constexpr const char* name = "wall";
+  bool fixed = false;
 
-  Section section() override { return {.name = name, .meaning = "No slip on a wall at rest.", .parameters = {}}; }
+  Section section() override {
+    return {.name = name,
+            .meaning = "No slip on a wall at rest, or turning with the turning zone where it is part of that.",
+            .parameters = {
+                setting("fixed", &fixed, "The wall stays at rest though its cells turn: a casing wall that is a surface of revolution.")}};
+  }
   Fixes fixes() const override { return Fixes::velocity; }
   bool is_wall() const override { return true; }
-  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
+  void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
+    const RotatingZone* zone = fixed ? nullptr : flow.rotating_zone;
+    const Turning still,
+        turning =
+            zone ? Turning::over_step(flow, time, zone->origin(), zone->rotation_speed(time), zone->rotation_speed(flow.time)) : still;
     for (int f = patch.first; f < patch.end(); ++f) {
-      const int b = f - flow.mesh.n_interior;
-      values.velocity[b] = {};
-      values.flux[b] = flow.mesh_flux[f];
+      const bool turns = zone && flow.mesh.cell_zone[flow.mesh.owner[f]] == zone->zone();
+      set_turning_wall(turns ? turning : still, {}, flow, f, values);
     }
   }
 };

@@ -203,6 +203,43 @@ for i in range(1, 10):
   EXPECT_EQ(n, 9);
 }
 
+// A rotor: the speed in its middle plane, and the pressure on all walls and on its own, the last ones of the series.
+TEST_F(Report, PicturesOfARotor) {
+  if (std::system("/usr/bin/python3 -c 'import vtkmodules.vtkIOXML, matplotlib' 2> /dev/null && command -v xvfb-run > /dev/null") != 0)
+    GTEST_SKIP() << "python3-vtk9, python3-matplotlib or xvfb is not installed";
+  for (const char* folder : {"fields", "walls", "monitors"}) std::filesystem::create_directories(dir / folder);
+  VtkCollection water(dir / "fields/water.pvd", false), walls(dir / "walls/walls.pvd", false);
+  VtkPiece piece = channel_half(1, 0.3);
+  piece.cell_arrays.push_back({"turning [1]", 1, std::vector<double>(piece.offsets.size(), 1), true});
+  write_vtk(dir / "fields/water_1.vtu", VtkKind::unstructured_grid, piece);
+  water.add(0.3, "water_1.vtu");
+  for (const int k : {0, 1}) {
+    VtkPiece box;
+    for (int corner = 0; corner < 8; ++corner)
+      box.points.push_back({0.6 + 0.6 * (corner & 1), 0.3 * (corner >> 1 & 1), 0.4 * (corner >> 2)});
+    box.connectivity = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3};
+    box.offsets = {4, 8, 12, 16};
+    box.cell_arrays = {{"pressure [Pa]", 1, {1e3, 2e3, 3e3, 9e3 * k}, true}, {"turning [1]", 1, {0, 1, 0, 1}, true}};
+    const std::string name = "walls_" + std::to_string(k) + ".vtp";
+    write_vtk(dir / "walls" / name, VtkKind::polygons, box);
+    walls.add(0.3 * k, name);
+  }
+  std::ofstream(dir / "case.resolved.toml") << "[rotating_zone]\naxis = [0.0, 2.0, 0.0]\norigin_m = [0.9, 0.0, 0.2]\n";
+  write_report(dir);
+  const auto html = page();
+  EXPECT_TRUE(holds(html, "Speed of the water at t = 0.3 s in the middle plane of the rotor"));
+  EXPECT_TRUE(holds(html, "Pressure at t = 0.3 s on all walls"));
+  EXPECT_TRUE(holds(html, "Pressure at t = 0.3 s on the walls that turn"));
+  EXPECT_FALSE(holds(html, "missing:")) << html.substr(html.find("missing:"), 300);
+  const auto shares = python(R"(
+import sys, matplotlib.image as image
+for name in ('rotor_speed', 'pressure_walls', 'pressure_rotor_walls'):
+    p = image.imread(f'{sys.argv[1]}/pictures/{name}.png')[40:-76, :, :3]
+    print((p[..., 2] > p[..., 0] + 0.1).mean() > 0.2, (p[..., 0] > p[..., 2] + 0.1).mean() > 0.05)
+)");
+  EXPECT_EQ(shares, "True False\nFalse True\nFalse True\n");
+}
+
 // Results are told in words with units; a broken limit is marked as failed, what was not measured is not called passed; new keys are shown.
 TEST_F(Report, TellsResultsInWords) {
   std::ofstream(dir / "summary.json") << summary_text;

@@ -1,0 +1,19 @@
+// snag study STUDY.toml --out DIR: sweeps and ensembles of a case.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/study.hpp"
+
+namespace snag {
+
+Action add_study(CLI::App& app) {
+  const auto options = std::make_shared<StudyOptions>();
+  CLI::App* command = app.add_subcommand("study", "Run a case again and again with other values; a table and plots of what came out");
+  command->add_option("STUDY", options->study_file, "Study file (.toml)")->required();
+  command->add_option("--out", options->out, "Output folder (default results/NAME of the study); runs that have ended there are kept");
+  command->add_flag("--dry-run", options->dry_run, "Only list the runs");
+  return [options] { return run_study(*options); };
+}
+
+}  // namespace snag

@@ -1,0 +1,12 @@
+#pragma once
+// What came out of a study: study.csv and study.html, from the summaries of its runs.
+#include <filesystem>
+
+#include "app/study.hpp"
+
+namespace snag {
+
+/// Writes both from the runs that have a summary. One rank only; throws Error(io).
+void write_study_results(const Study& study, const std::filesystem::path& folder);
+
+}  // namespace snag

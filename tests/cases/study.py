@@ -1,0 +1,113 @@
+# timeout: 600
+# processors: 2
+"""Requirement: a study runs a case with all values asked for, each as it would be by itself, runs nothing twice, and tells what came out."""
+import csv
+import json
+import shutil
+
+import harness
+from small_cases import TWO_SHEETS
+
+STUDY = """
+[study]
+name = "sheets"
+case = "case.toml"
+set = ["time.end_s=0.008", "time.step_s=8e-4"]
+results = ["rags.0.particles", "rags.0.elongation_ratio", "rags.1.outcome", "no.such.key"]
+{zip}
+[[vary]]
+key = "rag.0.radius_mm"
+values = [1, 1.25]
+[[vary]]
+key = "rag.0.length"
+name = "length"
+texts = ["100 mm", "120 mm"]
+[[plot]]
+title = "Particles"
+x = "radius_mm"
+y = ["rags.0.particles", "rags.0.elongation_ratio"]
+"""
+NAMES = ["radius_mm-1_length-100_mm", "radius_mm-1_length-120_mm", "radius_mm-1.25_length-100_mm", "radius_mm-1.25_length-120_mm"]
+
+
+class Study(harness.CaseTest):
+    def study(self, text="", ranks=2, code=0, out="study"):
+        self.case(TWO_SHEETS)
+        (self.work / "study.toml").write_text(text or STUDY.format(zip=""))
+        run = harness.snag(["study", self.work / "study.toml", "--out", self.work / out], ranks, self.work / out)
+        self.assertEqual(run.code, code, run.tail())
+        return run
+
+    def table(self, out="study"):
+        with open(self.work / out / "study.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def test_all_combinations(self):
+        done = self.study()
+        rows = self.table()
+        self.assertEqual([row["run"] for row in rows], NAMES)
+        self.assertEqual([row["length"] for row in rows], ["100 mm", "120 mm"] * 2)
+        self.assertEqual([int(row["rags.0.particles"]) for row in rows], [50 * 40, 60 * 40, 40 * 32, 48 * 32])
+        self.assertEqual({row["exit"] for row in rows}, {"0"})
+        self.assertEqual({row["no.such.key"] for row in rows}, {""})
+        page = (done.folder / "study.html").read_text()
+        self.assertEqual(page.count("<svg"), 1)
+        for name in NAMES:
+            self.assertIn(f'href="{name}/report.html"', page)
+        # The last of the four runs of one process is the run that it is by itself.
+        alone = self.run_case(self.work / "case.toml", 2, *(word for one in ("time.end_s=0.008", "time.step_s=8e-4", "rag.0.radius_mm=1.25", "rag.0.length=120 mm") for word in ("--set", one)))
+        last = json.loads((done.folder / NAMES[-1] / "summary.json").read_text())
+        self.assertEqual(last["rags"], alone.summary["rags"])
+        self.assertEqual(last["case_sha256"], alone.summary["case_sha256"])
+        self.assertEqual(float(rows[-1]["rags.0.elongation_ratio"]), alone.summary["rags"][0]["elongation_ratio"])
+
+    def test_nothing_is_run_twice(self):
+        done = self.study(STUDY.format(zip="zip = true"))
+        summaries = [done.folder / name / "summary.json" for name in (NAMES[0], NAMES[3])]
+        self.assertEqual([row["run"] for row in self.table()], [NAMES[0], NAMES[3]])
+        text = [file.read_text() for file in summaries]
+        summaries[1].unlink()  # as if the computer had gone down: the checkpoint at the end is there
+        again = self.study(STUDY.format(zip="zip = true"))
+        self.assertIn("has been run before", again.stdout)
+        self.assertIn("resumed at 0.008", again.stdout)
+        self.assertEqual(summaries[0].read_text(), text[0], "an ended run is left alone")
+        for key in ("max_bond_tension_N", "wall_contact_s", "bond_strain_p99"):
+            self.assertEqual(json.loads(summaries[1].read_text())["rags"][0][key], json.loads(text[1])["rags"][0][key])
+        summaries[1].unlink()
+        shutil.rmtree(done.folder / NAMES[3] / "checkpoint")  # without it the run begins anew
+        again = self.study(STUDY.format(zip="zip = true"))
+        self.assertNotIn("resumed", again.stdout)
+        self.assertEqual(json.loads(summaries[1].read_text())["rags"], json.loads(text[1])["rags"])
+
+    def test_changed_study_is_refused(self):
+        text = STUDY.replace("[1, 1.25]", "[1]").replace('["100 mm", "120 mm"]', '["100 mm"]').format(zip="")
+        self.study(text)
+        refused = self.study(text.replace("0.008", "0.016"), code=2)
+        self.assertIn("holds a run of another case or other values", refused.stderr)
+
+    def test_failed_run_does_not_stop_the_others(self):
+        """A rag at 400 m/s leaves its bonds behind within a step: the study goes on and ends with the code of that run."""
+        text = STUDY.format(zip="zip = true").replace("rag.0.length", "rag.1.velocity_m_s").replace('"100 mm", "120 mm"', '"[4e4, 0, -3e4]", "[2, 0, -3]"')
+        done = harness.snag(["study", self.written(text), "--out", self.work / "study"], 1, self.work / "study")
+        rows = self.table()
+        self.assertEqual(len(rows), 2)
+        self.assertEqual(rows[1]["exit"], "0", done.tail())
+        self.assertNotEqual(rows[0]["exit"], "0", done.tail())
+        self.assertEqual(done.code, int(rows[0]["exit"]))
+
+    def written(self, text):
+        self.case(TWO_SHEETS)
+        (self.work / "study.toml").write_text(text)
+        return self.work / "study.toml"
+
+    def test_words_of_errors(self):
+        for change, words in (
+            (("values = [1, 1.25]", ""), "give either values (numbers) or texts"),
+            (("values = [1, 1.25]", "values = [1, 1]"), "two runs would be named"),
+        ):
+            self.assertIn(words, self.study(STUDY.replace(*change).format(zip=""), code=2, ranks=1).stderr)
+        self.assertIn("need as many", self.study(STUDY.replace("[1, 1.25]", "[1]").format(zip="zip = true"), code=2, ranks=1).stderr)
+
+
+if __name__ == "__main__":
+    harness.main()
