@@ -4,6 +4,8 @@
 import math
 import shutil
 
+import numpy
+
 import harness
 
 N_STEPS = 50
@@ -25,6 +27,7 @@ start_angle = "5 deg"
 pressure_tolerance = 1e-11
 pressure_tolerance_intermediate = 1e-11
 momentum_tolerance = 1e-11
+[pump]
 [turbulence]
 model = "k_epsilon"
 initial_k_m2_s2 = 0.01
@@ -37,12 +40,7 @@ flow_rate_m3_s = 2e-3
 patch = "outlet"
 kind = "pressure_outlet"
 [[boundary]]
-patch = "impeller_walls"
-kind = "moving_wall"
-speed = "1200 rpm"
-ramp_s = 0.02
-[[boundary]]
-patch = "walls"
+patches = ["impeller_walls", "walls"]
 kind = "wall"
 [checkpoint]
 interval_s = 0.03
@@ -56,11 +54,11 @@ INNER, RADIUS, OUTER, HEIGHT, TOP = 0.03, 0.05, 0.08, 0.04, 0.06  # m
 
 
 class Rings:
-    """Hexahedra of a turning ring with four radial gaps in its cells, so that it moves water, a ring around it and a lid above; a gmsh file."""
+    """Hexahedra of a turning ring with four blades, where cells are left out, a ring around it and a lid above; a gmsh file."""
 
     def __init__(self):
         self.nodes, self.elements = [], []
-        gaps = lambda i, j, k: j == 1 and i % 4 == 0  # blades
+        gaps = lambda i, j, k: j == 1 and i % 4 == 0 and k < 3  # blades
         self.add(1, (INNER, RADIUS, 0, HEIGHT, 0), (16, 3, 4), dict(r0="impeller_walls", r1="interface_rotor", z0="impeller_walls", z1="interface_rotor"), gaps)
         self.add(2, (RADIUS, OUTER, 0, HEIGHT, 0.1), (19, 3, 4), dict(r0="interface_stator", r1="walls", z0="outlet", z1="walls"))
         self.add(2, (INNER, RADIUS, HEIGHT, TOP, 0.1), (19, 3, 2), dict(r0="walls", r1="walls", z0="interface_stator", z1="inlet"))
@@ -108,6 +106,8 @@ class TurningZone(harness.CaseTest):
         case = self.rings(motion)
         one = self.run_case(case, 1, out="1")
         self.assertEqual(one.summary["time_steps"], N_STEPS)
+        self.assertGreater(numpy.abs(one.monitor("pump").column("torque")).max(), 1e-3, "the blades must move water, else the case shows nothing")
+        self.assertLess(one.summary["conservation"]["interface_closure_rel"], 1e-12)
         for ranks in (2, 3, 5):
             other = self.run_case(case, ranks, out=str(ranks))
             for monitor in ("patches", "residuals", "pump"):
@@ -119,9 +119,9 @@ class TurningZone(harness.CaseTest):
     def test_frame_on_any_number_of_ranks(self):
         self.agree("frame")
 
-    def crash_and_resume(self, ranks):
+    def crash_and_resume(self, ranks, motion="sliding"):
         """The finished run's folder without its last checkpoint and fields is what a crash leaves behind: step 30 is the newest state."""
-        case = self.rings()
+        case = self.rings(motion)
         whole = self.run_case(case, ranks, out="whole")
         shutil.copytree(whole.folder, self.work / "crashed")
         crashed = harness.Run(self.work / "crashed", 0, "", "")
@@ -149,6 +149,9 @@ class TurningZone(harness.CaseTest):
 
     def test_resume_on_two_ranks(self):
         self.crash_and_resume(2)
+
+    def test_resume_in_a_frame(self):
+        self.crash_and_resume(1, "frame")
 
 
 if __name__ == "__main__":

@@ -62,7 +62,9 @@ void expect_undisturbed(const Shells& shells, bool has_outlet) {
 // A uniform stream through a turning drum with a lid stays uniform to round-off through ten turns, whatever the meshes of both sides.
 TEST(SlidingFreeStream, meshes_that_do_not_match) { expect_undisturbed({.tetrahedra = false}, false); }
 
-TEST(SlidingFreeStream, tetrahedra_and_an_outlet) { expect_undisturbed({.rotor = {10, 2, 3}, .stator = {12, 2, 3}}, true); }
+TEST(SlidingFreeStream, tetrahedra_about_an_oblique_axis_and_an_outlet) {
+  expect_undisturbed({.rotor = {10, 2, 3}, .stator = {12, 2, 3}, .origin = {0.3, -0.2, 0.1}, .axis = {0.2, -0.1, 0.5}}, true);
+}
 
 TEST(SlidingFreeStream, meshes_that_coincide) {
   expect_undisturbed({.rotor = {13, 2, 3}, .stator = {13, 2, 3}, .stator_start = 0, .tetrahedra = false}, true);

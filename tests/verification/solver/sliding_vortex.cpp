@@ -1,4 +1,4 @@
-// ranks: 2
+// ranks: 1 2 3
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/turning_rings.hpp"

@@ -1,4 +1,4 @@
-// ranks: 1 2
+// ranks: 1 2 3
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/turning_rings.hpp"
@@ -36,10 +36,8 @@ Errors errors_with(int around, const std::string& motion) {
   auto zone = turning_rotor(mesh, shells, Omega, motion, 0.3);
   FlowSettings settings = sharp_settings();
   settings.density = rho, settings.dynamic_viscosity = mu, settings.body_force = {0, 0, G};
-  FlowSolver solver(mesh, settings,
-                    conditions("[[boundary]]\npatch = \"rotor_inner\"\nkind = \"moving_wall\"\nspeed_rad_s = 1\n"
-                               "[[boundary]]\npatch = \"stator_outer\"\nkind = \"wall\"\n"),
-                    nullptr, std::move(zone));
+  FlowSolver solver(mesh, settings, conditions("[[boundary]]\npatches = [\"rotor_inner\", \"stator_outer\"]\nkind = \"wall\"\n"), nullptr,
+                    std::move(zone));
   Flow& flow = solver.flow;
   for (int c = 0; c < mesh.n_cells; ++c) {
     flow.velocity[c] = exact_velocity(mesh.cell_centre[c], 0);

@@ -18,11 +18,7 @@ flow_rate_m3_s = 1e-3
 patch = "stator_bottom"
 kind = "pressure_outlet"
 [[boundary]]
-patches = ["rotor_inner", "rotor_bottom"]
-kind = "moving_wall"
-speed_rad_s = 50
-[[boundary]]
-patches = ["lid_inner", "lid_outer", "stator_outer", "stator_top"]
+patches = ["rotor_inner", "rotor_bottom", "lid_inner", "lid_outer", "stator_outer", "stator_top"]
 kind = "wall"
 )";
 
