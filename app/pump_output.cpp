@@ -1,5 +1,6 @@
 #include "app/pump_output.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -134,8 +135,9 @@ void PumpOutput::write_phase() const {
 
 PumpSummary PumpOutput::summary() const {
   const std::vector<double> means = last_means_.empty() ? means_of(sampler_.current()) : last_means_;
-  return {means[flow_out],    means[head],       means[head_total],         means[torque],
-          means[shaft_power], means[efficiency], std::abs(turned_) / two_pi};
+  // A revolution that is complete but for round-off counts as one.
+  const double revolutions = std::max(std::abs(turned_) / two_pi, static_cast<double>(sampler_.current().number - 1));
+  return {means[flow_out], means[head], means[head_total], means[torque], means[shaft_power], means[efficiency], revolutions};
 }
 
 void PumpOutput::save(CheckpointWriter& writer) const {

@@ -1,4 +1,5 @@
 // ranks: 1 2 3
+// timeout: 600
 // A pressure inlet and an outlet whose pressure floats until the flow is the one that is asked for.
 #include <gtest/gtest.h>
 
@@ -146,6 +147,21 @@ target_flow_rate_m3_s = 0.3
   EXPECT_LT(largest(share), 1.05);
   EXPECT_NEAR(share.back(), 1, 0.01);
   EXPECT_NEAR(flow_rate(solver.flow, mesh.patch_index("x0")), 0.3, 0.003);
+}
+
+// A run that starts with the water of one that has settled finds the level in its pressure, whatever the case says of it: the flow stays.
+TEST(TargetFlow, from_settled_water) {
+  const Mesh mesh = tetrahedra();
+  const std::string text = channel("target_flow_rate_m3_s = 0.8\npressure_Pa = 40");
+  FlowSolver settled(mesh, settings(), conditions(text));
+  share_of_target(settled, 320);
+  FlowSolver solver(mesh, settings(), conditions(text));
+  std::copy_n(settled.flow.velocity.begin(), mesh.n_cells, solver.flow.velocity.begin());
+  std::copy_n(settled.flow.pressure.begin(), mesh.n_cells, solver.flow.pressure.begin());
+  const auto share = share_of_target(solver, 60);
+  print("from settled water", share, 1);
+  EXPECT_GT(smallest(share), 0.98);
+  EXPECT_LT(largest(share), 1.02);
 }
 
 // A resumed run has the level and all that it comes from: the same pressures to the bit.

@@ -1,0 +1,117 @@
+# timeout: 900
+# processors: 2
+"""Requirement: a pump with a sliding rotor tells flow, head, torque and its geometry at every time; a resumed run, and
+one on other ranks, tells the same."""
+import shutil
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+import harness
+
+N_STEPS, STEP, OMEGA = 60, 2e-4, 1200 * 2 * numpy.pi / 60  # 1.44 degrees a step
+CASE = """
+[case]
+name = "pump"
+[mesh]
+file = "{mesh}"
+[rotating_zone]
+zone = "rotor"
+speed_rpm = 1200
+[time]
+end_s = 0.012
+step_s = 2e-4
+[flow]
+kinematic_viscosity_m2_s = 1.0048e-6
+pressure_tolerance = 1e-10
+pressure_tolerance_intermediate = 1e-10
+momentum_tolerance = 1e-10
+[turbulence]
+model = "k_epsilon"
+[pump]
+inlet_diameter_mm = 100
+outlet_diameter_mm = 80
+[[boundary]]
+patch = "inlet"
+kind = "flow_rate_inlet"
+flow_rate_L_s = 26.8
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["impeller_walls", "casing_walls"]
+kind = "wall"
+[output]
+report = false
+single_precision = false
+fields_interval_s = 0.004
+[checkpoint]
+interval_s = 0.005
+"""
+
+
+def surface(file):
+    """Points and cell arrays of a .vtp."""
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    data = reader.GetOutput()
+    arrays = {data.GetCellData().GetArrayName(i): vtk_to_numpy(data.GetCellData().GetArray(i)) for i in range(data.GetCellData().GetNumberOfArrays())}
+    return vtk_to_numpy(data.GetPoints().GetData()), arrays
+
+
+class Pump(harness.CaseTest):
+    def setUp(self):
+        super().setUp()
+        self.file = self.case(CASE.format(mesh=harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh"))
+
+    def test_pump_and_its_resume(self):
+        whole = self.run_case(self.file, 2, out="whole")
+        self.looks_like_a_pump(whole)
+        self.walls_turn(whole)
+        shutil.copytree(whole.folder, self.work / "crashed")
+        slots = sorted((self.work / "whole" / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
+        broken = self.work / "crashed" / "checkpoint" / slots[-1].name
+        broken.write_bytes(broken.read_bytes()[:-5000])  # the newest state is then that of step 50
+        resumed = self.run_case(self.file, 2, "--resume", out="crashed")
+        self.assertIn("resumed at 0.01", resumed.stdout)
+        self.assertEqual(whole.monitor("pump").lines[:51], resumed.monitor("pump").lines[:51], "no line twice, none missing")
+        self.assert_monitors_agree(whole, resumed, "pump", 1e-3)
+        other = self.run_case(self.file, 3, out="three")
+        self.assert_monitors_agree(whole, other, "pump", 1e-3)
+
+    def looks_like_a_pump(self, run):
+        pump = run.monitor("pump")
+        self.assertEqual(len(pump.values), N_STEPS)
+        numpy.testing.assert_allclose(pump.column("angle"), numpy.degrees(OMEGA * STEP) * numpy.arange(1, N_STEPS + 1), rtol=1e-9)
+        numpy.testing.assert_allclose(pump.column("flow_in"), 0.0268, rtol=1e-9)
+        numpy.testing.assert_allclose(pump.column("flow_out"), 0.0268, rtol=1e-5)  # the interface loses nothing
+        numpy.testing.assert_allclose(pump.column("shaft_power"), -OMEGA * pump.column("torque"), rtol=1e-12)
+        self.assertLess(pump.column("torque")[-20:].max(), 0, "the water holds the impeller back")
+        self.assertGreater(pump.column("head")[-20:].min(), 0)
+        summary = run.summary
+        self.assertAlmostEqual(summary["pump"]["revolutions"], 0.24, places=9)
+        self.assertGreater(summary["mesh"]["facets"], 3000)
+        self.assertLess(summary["conservation"]["interface_closure_rel"], 1e-12)
+        self.assertEqual(len(run.monitor("revolutions").values), 0, "no revolution is complete")
+
+    def walls_turn(self, run):
+        """The walls of the rotor turn as a whole about the axis, those of the casing stand; pressure is on both."""
+        files = sorted((run.folder / "walls").glob("walls_*.vtp"))
+        self.assertEqual([file.name for file in files], [f"walls_{n:06}.vtp" for n in (0, 20, 40, 60)])
+        first, _ = surface(files[0])
+        for file, n in zip(files, (0, 20, 40, 60)):
+            points, arrays = surface(file)
+            turning = numpy.repeat(arrays["turning [1]"] == 1, 3)
+            self.assertTrue(turning.any() and not turning.all())
+            angle = OMEGA * STEP * n
+            turned = first[:, 0] * numpy.cos(angle) - first[:, 1] * numpy.sin(angle), first[:, 0] * numpy.sin(angle) + first[:, 1] * numpy.cos(angle), first[:, 2]
+            expected = numpy.where(turning[:, None], numpy.stack(turned, axis=1), first)
+            numpy.testing.assert_allclose(points, expected, atol=1e-6)
+            if n:
+                self.assertGreater(numpy.ptp(arrays["pressure [Pa]"]), 1000, "pressure on the walls")
+
+
+if __name__ == "__main__":
+    harness.main()
