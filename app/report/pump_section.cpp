@@ -84,7 +84,8 @@ std::string over_angle(const SeriesTable& instants, const std::string& title, co
   const std::vector<double>&turned = instants.column("revolutions"), &angle = instants.column("angle"), &value = instants.column(column);
   const int last = static_cast<int>(std::floor(turned.back() + 1e-9));  // complete ones
   LinePlot plot{title, "angle of the rotor [deg]", label, {}};
-  for (int revolution = std::max(1, last - n_shown + 1); revolution <= std::max(1, last); ++revolution) {
+  const int first = last > 1 ? 2 : 1;  // the start from rest would hide the rest
+  for (int revolution = std::max(first, last - n_shown + 1); revolution <= std::max(1, last); ++revolution) {
     std::vector<std::pair<double, double>> points;
     for (std::size_t i = 0; i < turned.size(); ++i)
       if (turned[i] > revolution - 1 + 1e-9 && turned[i] <= revolution + 1e-9) points.emplace_back(angle[i], value[i]);
@@ -111,7 +112,11 @@ std::string scatter(const SeriesTable& phase, const std::string& title, const st
 }
 
 std::string over_revolutions(const SeriesTable& revolutions, const std::string& title, const char* column, const char* label) {
-  return figure({title, "revolution", label, {{"", revolutions.column("revolution"), revolutions.column(column)}}});
+  std::vector<double> number = revolutions.column("revolution"), value = revolutions.column(column);
+  if (number.size() > 2) number.erase(number.begin()), value.erase(value.begin());  // the start from rest
+  PlotLine line{"", number, value};
+  line.dotted = true;
+  return figure({title, "revolution", label, {line}});
 }
 
 }  // namespace
