@@ -158,7 +158,7 @@ void FlowSolver::begin_step(const TimeScheme& time) {
     continuity_.mesh_turned(flow, boundary_, time);
     turbulence_->mesh_turned(flow, boundary_);
   }
-  momentum_.guess_from_history(flow, boundary_, continuity_.history, time);
+  momentum_.guess_from_history(flow, continuity_.history, time);
   continuity_.history.begin_step(momentum_.rates(), time);
   std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
   turbulence_->begin_step(flow, time);

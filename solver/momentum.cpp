@@ -92,7 +92,7 @@ void Momentum::mesh_turned() {
 
 /// Fluxes with a share of their extrapolation. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are,
 /// so that the flux is that of the face as it lies now; facets have no psi.
-void Momentum::guess_flux(const Flow& flow, const BoundarySet& boundary, const FluxHistory& history, double share) {
+void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double share) {
   const auto &u = flow.velocity_old, &before = flow.velocity_older;
   const auto& G = flow.velocity_gradient;
   const auto& psi = history.psi;
@@ -110,21 +110,15 @@ void Momentum::guess_flux(const Flow& flow, const BoundarySet& boundary, const F
     flux_[f] = (turns ? of_cells(f) + psi[f] + share * (psi[f] - history.psi_old[f]) : extrapolated(f)) - flow.mesh_flux[f];
   }
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] = of_cells(f);
-  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const bool is_given = boundary.fixes(static_cast<int>(p)) == Fixes::velocity;
-    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
-      const bool turns = is_given && mesh_.cell_zone[mesh_.owner[f]] == turning;
-      flux_[f] = (turns ? boundary.values().flux[f - mesh_.n_interior] : extrapolated(f)) - flow.mesh_flux[f];
-    }
-  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = extrapolated(f) - flow.mesh_flux[f];
 }
 
-void Momentum::guess_from_history(Flow& flow, const BoundarySet& boundary, const FluxHistory& history, const TimeScheme& time) {
+void Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
   const double r = time.ratio;
-  guess_flux(flow, boundary, history, 0);
+  guess_flux(flow, history, 0);
   set_rates(flow);
   if (const double share = r * flux_share(flow, time); share > 0) {
-    guess_flux(flow, boundary, history, share);
+    guess_flux(flow, history, share);
     set_rates(flow);
   }
   mesh_.halo.exchange(rate_, 2);
@@ -178,6 +172,7 @@ void Momentum::limit(const Flow& flow) {
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
+  take_given_flux(flow, boundary);
   start_rows(flow, time);
   switch (settings_.convection) {
     case Convection::upwind:
@@ -197,6 +192,17 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
   const auto report = gauss_seidel<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
   record_boundary(flow, boundary);
   return report;
+}
+
+/// Where a turning face has a given flux, that of the new time: a guess from the past is that of the face as it lay then.
+void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
+  if (!flow.rotating_zone || !flow.rotating_zone->slides()) return;
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    if (boundary.fixes(static_cast<int>(p)) != Fixes::velocity) continue;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
+      if (mesh_.cell_zone[mesh_.owner[f]] == flow.rotating_zone->zone())
+        flux_[f] = boundary.values().flux[f - mesh_.n_interior] - flow.mesh_flux[f];
+  }
 }
 
 /// Time derivative, drag, pressure gradient and forces; N a cell.

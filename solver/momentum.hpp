@@ -31,7 +31,7 @@ class Momentum {
   void mesh_turned();
   /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms.
   /// `history`: how far fluxes were from their cells' velocities; used where faces turn. Collective.
-  void guess_from_history(Flow& flow, const BoundarySet& boundary, const FluxHistory& history, const TimeScheme& time);
+  void guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
   /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
   void guess_from_last(const Flow& flow);
   /// Solve for u*, from flow.velocity as first guess into flow.velocity, ghosts too; fills flow.boundary_friction, boundary_convection.
@@ -45,9 +45,10 @@ class Momentum {
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
-  void guess_flux(const Flow& flow, const BoundarySet& boundary, const FluxHistory& history, double share);
+  void guess_flux(const Flow& flow, const FluxHistory& history, double share);
   void set_rates(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
+  void take_given_flux(const Flow& flow, const BoundarySet& boundary);
   void limit(const Flow& flow);
   void start_rows(const Flow& flow, const TimeScheme& time);
   template <Convection scheme>
