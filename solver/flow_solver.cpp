@@ -88,7 +88,7 @@ StepReport FlowSolver::advance(double dt) {
   StepReport report;
   const double begun = seconds();
   time_ = bdf(dt, flow.time_step > 0 ? flow.time_step_size : 0);
-  begin_step(time_);
+  begin_step(time_, report);
   const int n_outer = flow.time_step > 0 ? settings_.outer_correctors : std::max(settings_.outer_correctors, first_step_correctors);
   for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, time_, report);
   continuity_.history.end_step(flow, momentum_.gradient_guess());
@@ -148,15 +148,19 @@ void FlowSolver::fields_follow_facets() {
 }
 
 /// The mesh at the new time; shift the history, values of the boundary, first guesses.
-void FlowSolver::begin_step(const TimeScheme& time) {
+void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
+  const double begun = seconds();
   if (rotating_zone_) turn_mesh(flow.time + time.dt);
+  report.seconds_mesh = seconds() - begun;
   std::swap(flow.velocity_older, flow.velocity_old);
   std::swap(flow.velocity_old, flow.velocity);
   std::swap(flow.flux_old, flow.flux);
   boundary_.update(flow, flow.time + time.dt);
   if (rotating_zone_ && rotating_zone_->slides()) {
+    const double turned = seconds();
     continuity_.mesh_turned(flow, boundary_, time);
     turbulence_->mesh_turned(flow, boundary_);
+    report.seconds_mesh += seconds() - turned;
   }
   momentum_.guess_from_history(flow, continuity_.history, time);
   continuity_.history.begin_step(momentum_.rates(), time);

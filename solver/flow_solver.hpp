@@ -28,6 +28,7 @@ struct StepReport {
   double continuity_global = 0;  // net flux out of the domain, m3/s
   double courant_mean = 0, courant_max = 0;
   double seconds_momentum = 0, seconds_pressure = 0, seconds_turbulence = 0, seconds_rest = 0;
+  double seconds_mesh = 0;  // of seconds_rest: turning the mesh, and all that follows from it
 };
 
 /// Terms of the momentum balance of the whole domain in the last step, N; not closed in a turning frame, which adds a force.
@@ -68,7 +69,7 @@ class FlowSolver {
  private:
   void start();
   void balance_body_force();
-  void begin_step(const TimeScheme& time);
+  void begin_step(const TimeScheme& time, StepReport& report);
   void turn_mesh(double time);
   void fields_follow_facets();
   void correct_once(int outer, const TimeScheme& time, StepReport& report);

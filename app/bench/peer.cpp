@@ -1,0 +1,159 @@
+#include "app/bench/peer.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstring>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/bench/peer_script.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/words.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+const MPI_Comm world = MPI_COMM_WORLD;
+constexpr auto nap = std::chrono::milliseconds(100);
+
+/// The first rank works while the others sleep: a barrier of MPI would keep their processors busy. An error is one of all ranks.
+template <class Work>
+void first_rank_alone(const Work& work) {
+  std::exception_ptr failure;
+  if (rank_of(world) == 0) {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(world, &request);
+  for (int done = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done;) std::this_thread::sleep_for(nap);
+  together(world, [&] {
+    if (failure) std::rethrow_exception(failure);
+  });
+}
+
+/// The environment without what ties this process to its MPI job: the other program is a job of its own.
+std::vector<char*> own_environment() {
+  std::vector<char*> environment;
+  for (char** entry = environ; *entry; ++entry) {
+    const auto begins = [&](const char* prefix) { return std::strncmp(*entry, prefix, std::strlen(prefix)) == 0; };
+    if (!begins("OMPI_") && !begins("PMIX_") && !begins("PRTE_") && !begins("ORTE_")) environment.push_back(*entry);
+  }
+  environment.push_back(nullptr);
+  return environment;
+}
+
+int run(std::vector<std::string> command, const std::filesystem::path& output) {
+  std::vector<char*> arguments, environment = own_environment();
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environment.data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) throw Error(ExitCode::io, command[0] + ": cannot be started; install python3");
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string written(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+PeerEquation equation(const nlohmann::json& found, const char* name) {
+  const auto& one = found.at(name);
+  return {.iterations = one.at("iterations"), .drop = one.at("drop")};
+}
+
+PeerFlow parsed(const std::string& text, const std::filesystem::path& log) {
+  try {
+    const auto found = nlohmann::json::parse(text);
+    return {.program = found.at("program"),
+            .wall = found.at("wall_s"),
+            .cpu = found.at("cpu_s"),
+            .momentum = equation(found, "momentum"),
+            .pressure = equation(found, "pressure"),
+            .k = equation(found, "k"),
+            .epsilon = equation(found, "epsilon")};
+  } catch (const nlohmann::json::exception& wrong) {
+    throw Error(ExitCode::io, "the other program has left no result (" + std::string(wrong.what()) + "); " + log.string() + " says more");
+  }
+}
+
+bool in_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  for (const std::string& folder : split(path ? path : "/usr/bin", ':'))
+    if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void require_peer() {
+  together(world, [] {
+    if (rank_of(world) == 0 && !in_path("pimpleFoam"))
+      throw Error(ExitCode::usage,
+                  "--peer: OpenFOAM is not installed (no pimpleFoam in PATH); install the Debian package openfoam (apt-get install "
+                  "openfoam), or leave --peer out");
+  });
+}
+
+PeerFlow run_peer(const PeerFlowCase& flow_case) {
+  const auto result = flow_case.folder / "peer.json", log = flow_case.folder / "log.txt";
+  std::string text;
+  first_rank_alone([&] {
+    std::error_code failure;
+    std::filesystem::remove_all(flow_case.folder, failure);
+    std::filesystem::create_directories(flow_case.folder, failure);
+    write_atomically(flow_case.folder / "openfoam.py", peer_script);
+    const int code = run({"/usr/bin/python3",
+                          (flow_case.folder / "openfoam.py").string(),
+                          "--mesh",
+                          flow_case.mesh.string(),
+                          "--out",
+                          flow_case.folder.string(),
+                          "--ranks",
+                          std::to_string(flow_case.ranks),
+                          "--warm-up",
+                          std::to_string(flow_case.n_warm_up),
+                          "--steps",
+                          std::to_string(flow_case.n_steps),
+                          "--time-step",
+                          written(flow_case.time_step),
+                          "--flow-rate",
+                          written(flow_case.flow_rate),
+                          "--speed",
+                          written(flow_case.speed),
+                          "--viscosity",
+                          written(flow_case.kinematic_viscosity)},
+                         log);
+    if (code != 0) throw Error(ExitCode::io, "OpenFOAM ended with code " + std::to_string(code) + "; " + log.string() + " says more");
+    text = file_text(result).value_or("");
+    parsed(text, log);
+  });
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, world);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, world);
+  return parsed(text, log);
+}
+
+}  // namespace snag

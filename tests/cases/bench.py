@@ -1,0 +1,65 @@
+# timeout: 600
+# processors: 2
+"""Requirement: a benchmark of the flow writes what it measured, with its limit, under stable keys; and refuses what it does not know."""
+import json
+import subprocess
+
+import harness
+
+KEYS = ["name", "value", "unit", "ranks", "limit", "peer", "peer_value", "ratio", "note"]
+EQUATIONS = ["momentum", "pressure", "turbulence", "rest"]
+
+
+class Bench(harness.CaseTest):
+    def bench(self, *arguments, ranks=1, code=0):
+        run = harness.snag(["bench", *arguments, "--out", self.work / "bench"], ranks, self.work / "bench")
+        self.assertEqual(run.code, code, run.tail())
+        return run
+
+    def test_flow(self):
+        run = self.bench("flow", "--level", "coarse", "--steps", "2", ranks=2)
+        records = json.loads((run.folder / "bench.json").read_text())
+        for record in records:
+            self.assertEqual(list(record), KEYS)
+            self.assertEqual(record["ranks"], 2)
+            self.assertEqual((record["peer"], record["peer_value"], record["ratio"]), (None, None, None), "no peer was asked for")
+            self.assertIn(record["name"], run.stdout)
+        values = {record["name"]: record for record in records}
+        self.assertEqual(len(values), len(records), "no name twice")
+        step = values["flow.step"]
+        self.assertEqual(step["unit"], "s")
+        self.assertLessEqual(values["flow.step_lowest"]["value"], step["value"])
+        self.assertGreaterEqual(values["flow.step_highest"]["value"], step["value"])
+        self.assertAlmostEqual(values["flow.step_per_cell"]["value"], step["value"] * 1e6 / values["flow.cells"]["value"])
+        # The parts make up the whole, in time and in traffic; the median of two steps is their mean.
+        parts = [values[f"flow.{name}"] for name in EQUATIONS] + [values["flow.mesh_motion"]]
+        self.assertAlmostEqual(sum(part["value"] for part in parts) / step["value"], 1, delta=0.2)
+        self.assertAlmostEqual(sum(values[f"flow.{name}"]["limit"] for name in EQUATIONS) / step["limit"], 1, places=9)
+        for name in EQUATIONS:
+            traffic, bandwidth = 1e6 * values[f"flow.{name}_traffic"]["value"], 1e9 * values["machine.bandwidth"]["value"]
+            self.assertAlmostEqual(values[f"flow.{name}"]["limit"] / (traffic / bandwidth), 1, places=9)
+        # Residuals drop at least as far as the peer is told to reduce them.
+        for name in ("momentum", "k", "epsilon", "pressure"):
+            self.assertLess(values[f"flow.{name}_drop"]["value"], 0.02, name)
+        self.assertAlmostEqual(values["flow.courant_max"]["value"], 6, delta=4)
+        mesh = (run.folder / "pump_coarse.msh").stat()
+        again = self.bench("flow", "--level", "coarse", "--steps", "1")
+        self.assertEqual((run.folder / "pump_coarse.msh").stat().st_mtime_ns, mesh.st_mtime_ns, "the mesh is used again")
+        self.assertEqual(json.loads((again.folder / "bench.json").read_text())[0]["ranks"], 1)
+
+    def test_refusals(self):
+        self.assertIn("there is: flow", self.bench("dem", code=2).stderr)
+        self.assertIn("known: coarse, medium", self.bench("flow", "--level", "huge", code=2).stderr)
+        self.assertIn("at least 1", self.bench("flow", "--steps", "0", code=2).stderr)
+
+    def test_missing_peer_is_named(self):
+        """Before anything is computed."""
+        command = [harness.BINARY_DIR / "snag", "bench", "flow", "--peer", "--out", self.work / "bench"]
+        run = subprocess.run(command, env=dict(harness.ENVIRONMENT, PATH=str(self.work), OMPI_MCA_plm_rsh_agent="/bin/false"), capture_output=True, text=True)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn("Debian package openfoam", run.stderr)
+        self.assertFalse((self.work / "bench").exists())
+
+
+if __name__ == "__main__":
+    harness.main()
