@@ -87,6 +87,17 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   return report;
 }
 
+/// Of the water at a wall: that of the wall where it does not slip. With a wall function it slips, and is carried round a turning wall with
+/// its own velocity u along that of the wall, v: (u.v/v.v)^2 of the wall's acceleration, exact where the wall is a surface of revolution.
+/// What the curvature of a standing wall asks for is not known here and taken as zero: first order.
+Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b) {
+  if (flow.wall_function.empty() || !flow.wall_function[b]) return values.acceleration[b];
+  const Vec3& v = values.velocity[b];
+  if (norm_squared(v) == 0) return {};
+  const double carried = dot(flow.velocity[cell], v) / norm_squared(v);
+  return carried * carried * values.acceleration[b];
+}
+
 /// What the boundary gives to p': the change of the fixed pressure, or of the normal slope.
 void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
@@ -97,8 +108,8 @@ void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
         given_[b] = boundary.values().pressure[b] - flow.boundary_pressure[b];
         continue;
       }
-      const Vec3 force =
-          flow.body_force + flow.reaction[P] - flow.drag[P] * flow.velocity[P] - flow.density * boundary.values().acceleration[b];
+      const Vec3 acceleration = acceleration_at_wall(flow, boundary.values(), P, b);
+      const Vec3 force = flow.body_force + flow.reaction[P] - flow.drag[P] * flow.velocity[P] - flow.density * acceleration;
       const double slope = dot(force, unit(mesh_.face_vector[f]));
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;

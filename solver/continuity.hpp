@@ -57,6 +57,7 @@ class Continuity {
   void restore(PreconditionerState state, const BoundarySet& boundary, double fresh_cost, bool rebuild_due);
 
  private:
+  static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b);
   void give_boundary(const Flow& flow, const BoundarySet& boundary);
   void set_mobility(const Flow& flow, double inertia);
   void set_face_mobility();

@@ -30,23 +30,28 @@ struct Range {
 inline double barth_jespersen(double a, double b, double) { return std::abs(a) <= std::abs(b) ? 1 : b / a; }
 inline double venkatakrishnan(double a, double b, double e2) { return (b * b + e2 + 2 * a * b) / (b * b + 2 * a * a + a * b + e2); }
 
+/// Factor of each component.
 template <double (*law)(double, double, double)>
-double factor(const Vec3& a, const Vec3& above, const Vec3& below, double e2) {
-  double psi = 1;
+Vec3 factors(const Vec3& a, const Vec3& above, const Vec3& below, double e2) {
+  Vec3 psi{1, 1, 1};
   for (int i = 0; i < 3; ++i) {
     const double b = a[i] > 0 ? above[i] : below[i];
-    if (a[i] != 0) psi = std::min(psi, law(a[i], b, e2));
+    if (a[i] != 0) psi[i] = std::min(1.0, law(a[i], b, e2));
   }
   return psi;
 }
+
+inline Vec3 least(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+inline void keep(double& psi, const Vec3& factors) { psi = std::min({factors.x, factors.y, factors.z}); }
+inline void keep(Vec3& psi, const Vec3& factors) { psi = factors; }
 
 /// What a facet has to say in cell c: all from a quarter of the cell's face on, nothing when it is a sliver that comes or goes.
 double say(const Mesh& mesh, int f, int c) {
   return std::min(1.0, 4 * mesh.facet_share[static_cast<std::size_t>(f - mesh.first_facet)][mesh.owner[f] == c ? 0 : 1]);
 }
 
-template <double (*law)(double, double, double)>
-void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double threshold, std::vector<double>& psi) {
+template <double (*law)(double, double, double), class Factor>
+void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double threshold, std::vector<Factor>& psi) {
   for (int c = 0; c < mesh.n_cells; ++c) {
     Range range{u[c], u[c]};
     const int first = mesh.cell_face_start[c], last = mesh.cell_face_start[c + 1];
@@ -57,17 +62,17 @@ void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, d
       range.include(f < mesh.first_facet ? other : u[c] + say(mesh, f, c) * (other - u[c]));
     }
     const Vec3 above = range.highest - u[c], below = range.lowest - u[c];
-    double smallest = 1;
+    Vec3 smallest{1, 1, 1};
     for (int k = first; k < last; ++k) {
       const int f = mesh.cell_face[k];
       if (f >= mesh.n_interior) continue;
       Vec3 way = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]];
       if (mesh.owner[f] != c) way -= mesh.delta[f];
-      double psi_f = factor<law>(G[c] * way, above, below, threshold * mesh.cell_volume[c]);
-      if (f >= mesh.first_facet) psi_f = 1 - say(mesh, f, c) * (1 - psi_f);
-      smallest = std::min(smallest, psi_f);
+      Vec3 psi_f = factors<law>(G[c] * way, above, below, threshold * mesh.cell_volume[c]);
+      if (f >= mesh.first_facet) psi_f = Vec3{1, 1, 1} - say(mesh, f, c) * (Vec3{1, 1, 1} - psi_f);
+      smallest = least(smallest, psi_f);
     }
-    psi[c] = smallest;
+    keep(psi[c], smallest);
   }
 }
 
@@ -85,6 +90,10 @@ void limit_gradient(const Mesh& mesh, Limiter limiter, std::span<const Vec3> u, 
     limit<venkatakrishnan>(mesh, u, G, threshold, psi);
   }
   mesh.halo.exchange(psi);
+}
+
+void limit_components(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, std::vector<Vec3>& psi) {
+  limit<barth_jespersen>(mesh, u, G, 0, psi);
 }
 
 }  // namespace snag

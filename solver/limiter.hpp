@@ -15,4 +15,7 @@ enum class Limiter { none, barth_jespersen, venkatakrishnan };
 void limit_gradient(const Mesh& mesh, Limiter limiter, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
                     std::vector<double>& psi);
 
+/// A factor for each component of u by itself, [n_cells], after Barth and Jespersen. Local.
+void limit_components(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, std::vector<Vec3>& psi);
+
 }  // namespace snag

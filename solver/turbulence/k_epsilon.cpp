@@ -3,6 +3,9 @@
 // epsilon:  P_eps = C_1 C_mu k* 2 S:S,      s_eps = C_2 epsilon*/k*          (P/nu_t = 2 S:S, and nu_t epsilon/k = C_mu k)
 // k:        P = C_mu k*^2/epsilon* 2 S:S,   s_k = epsilon/k*
 //
+// S is that of the limited gradient: next to the steep layer at a wall the least-squares gradient of a coarse mesh reaches beyond the
+// velocities of the neighbours, and production goes with its square.
+//
 // A guess a* is extrapolated from a^n and a^(n-1), linearly where a grows and with 1/a linear where it falls: positive, and exact for the
 // turnover time k/epsilon of decaying turbulence, which grows linearly. Where a step is longer than the turnover time or the Courant number
 // large, the guess goes over to a^n, which is first order and robust.
@@ -13,6 +16,7 @@
 
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
+#include "solver/limiter.hpp"
 
 namespace snag {
 
@@ -76,6 +80,7 @@ void KEpsilon::prepare(Flow& flow, const BoundarySet& boundary) {
   k_ = &flow.turbulent_kinetic_energy, epsilon_ = &flow.dissipation_rate;
   for (auto* field : {k_, epsilon_, &flow.eddy_viscosity, &k_old_, &k_older_, &k_guess_, &epsilon_old_, &epsilon_older_, &epsilon_guess_})
     field->assign(n_all, 0);
+  limiter_.assign(static_cast<std::size_t>(mesh.n_cells), {});
   for (auto* field : {&production_, &sink_, &strain_}) field->assign(static_cast<std::size_t>(mesh.n_cells), 0);
   for (auto* field : {&k_entering_, &epsilon_entering_, &flow.y_plus}) field->assign(n_boundary, 0);
   flow.wall_function.assign(n_boundary, 0);
@@ -146,7 +151,11 @@ TurbulenceReport KEpsilon::correct(Flow& flow, const BoundarySet& boundary, cons
   k_equation_->begin(flow, time), epsilon_equation_->begin(flow, time);
   set_entering(flow, boundary);
   guess(flow, time, outer);
-  for (int c = 0; c < mesh.n_cells; ++c) strain_[c] = twice_strain_squared(flow.velocity_gradient[c]);
+  limit_components(mesh, flow.velocity, flow.velocity_gradient, limiter_);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const Mat3& G = flow.velocity_gradient[c];
+    strain_[c] = twice_strain_squared({limiter_[c].x * G[0], limiter_[c].y * G[1], limiter_[c].z * G[2]});
+  }
   walls_.equilibrium(flow, boundary, k_guess_);
 
   set_diffusivity(flow, sigma_epsilon_);
