@@ -4,7 +4,7 @@
 // What is compared is an equal number of outer corrections a step: two, each of one momentum equation, two pressure equations (one repeated
 // for the non-orthogonal mesh) and k and epsilon, second order in time, linear-upwind convection with limited gradients. Tolerances are
 // chosen so that residuals drop as far as the other program's, which is told to reduce them to 0.01 (pressure: 0.05, at the end of the step
-// 0.01, of each repetition); both drops are in the table.
+// 0.01, of each repetition); both drops are in the table. The tolerance of k and epsilon is not a setting of Snag: changes of 1e-8.
 #include "app/bench/flow.hpp"
 
 #include <sys/resource.h>
@@ -37,7 +37,8 @@ constexpr double speed_rpm = 1200, flow_rate = 0.0268, kinematic_viscosity = 1.0
 constexpr double frame_step = 5e-4, frame_ramp = 8e-3, sliding_step = 1e-4;              // s
 constexpr int n_frame_steps = 20, n_warm_up = 2;
 
-const char* const compared = "equal outer corrections a step; tolerances such that residuals drop alike";
+const char* const compared =
+    "equal outer corrections a step; residuals of momentum and pressure drop alike, those of Snag's k and epsilon further";
 
 std::string case_text(const std::filesystem::path& mesh, const std::string& motion, double step, double ramp) {
   std::string text = "[case]\nname = \"bench-flow\"\n[mesh]\nfile = \"" + mesh.string() + "\"\n";
@@ -47,7 +48,7 @@ std::string case_text(const std::filesystem::path& mesh, const std::string& moti
   text += "[flow]\nkinematic_viscosity_m2_s = " + words(kinematic_viscosity) + R"(
 outer_correctors = 2
 n_non_orthogonal = 1
-momentum_tolerance = 1e-5
+momentum_tolerance = 3e-6
 pressure_tolerance_intermediate = 0.05
 pressure_tolerance = 1e-3
 [turbulence]
