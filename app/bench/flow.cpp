@@ -167,6 +167,10 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 /// Mean over the steps of a number of a step.
 template <class Number>
 double mean(const Steps& steps, const Number& number) {
@@ -229,6 +233,8 @@ class Findings {
     const auto lowest = [](const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); };
     const auto highest = [](const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); };
     add("flow.step", median(wall), "s", limit, compared, [](const PeerFlow& peer) { return median(peer.wall); });
+    add("flow.step_mean", mean(wall), "s", limit, "with the set-ups of the preconditioner that fell into the timed steps",
+        [](const PeerFlow& peer) { return mean(peer.wall); });
     add("flow.step_lowest", lowest(wall), "s", limit, "of the timed steps", [&](const PeerFlow& peer) { return lowest(peer.wall); });
     add("flow.step_highest", highest(wall), "s", limit, "of the timed steps", [&](const PeerFlow& peer) { return highest(peer.wall); });
     add("flow.step_cpu", median(cpu), "s", {}, "processor time of the first rank; to be trusted more on a busy machine",
