@@ -88,7 +88,10 @@ std::filesystem::path pump_mesh(const std::filesystem::path& out, const std::str
   const ExitCode code = generate_mesh({"pump", "--set", "resolution=\"" + level + "\"", "--out", unfinished.string()});
   if (code != ExitCode::ok) throw Error(code, "bench: no mesh was made; try snag mesh pump by itself");
   together(world, [&] {
-    if (rank_of(world) == 0) std::filesystem::rename(unfinished, mesh);
+    if (rank_of(world) != 0) return;
+    auto parameters = mesh, written = unfinished;  // what snag-mesh writes beside the mesh
+    std::filesystem::rename(written.replace_extension(".resolved.toml"), parameters.replace_extension(".resolved.toml"));
+    std::filesystem::rename(unfinished, mesh);
   });
   return mesh;
 }
