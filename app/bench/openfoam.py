@@ -230,7 +230,7 @@ class Steps:
         if found := re.match(r"(\w+):  Solving for (\w+), Initial residual = (\S+), Final residual = (\S+), No Iterations (\d+)", line):
             _, name, initial, final, n = found.groups()
             self.solves[-1].append((name, float(initial), float(final), int(n)))
-        elif found := re.search(r"Version: +(\S+)", line):
+        elif found := re.match(r"Build +: (?:OPENFOAM=)?(\S+)", line):
             self.version = found.group(1)
         elif found := re.match(r"ExecutionTime = (\S+) s", line):
             self.clock.append(time.monotonic())

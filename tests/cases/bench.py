@@ -2,7 +2,9 @@
 # processors: 2
 """Requirement: a benchmark of the flow writes what it measured, with its limit, under stable keys; and refuses what it does not know."""
 import json
+import shutil
 import subprocess
+import unittest
 
 import harness
 
@@ -27,11 +29,12 @@ class Bench(harness.CaseTest):
         values = {record["name"]: record for record in records}
         self.assertEqual(len(values), len(records), "no name twice")
         step = values["flow.step"]
+        self.assertAlmostEqual(values["flow.step_mean"]["value"], step["value"], places=12, msg="the median of two steps is their mean")
         self.assertEqual(step["unit"], "s")
         self.assertLessEqual(values["flow.step_lowest"]["value"], step["value"])
         self.assertGreaterEqual(values["flow.step_highest"]["value"], step["value"])
         self.assertAlmostEqual(values["flow.step_per_cell"]["value"], step["value"] * 1e6 / values["flow.cells"]["value"])
-        # The parts make up the whole, in time and in traffic; the median of two steps is their mean.
+        # The parts make up the whole, in time and in traffic.
         parts = [values[f"flow.{name}"] for name in EQUATIONS] + [values["flow.mesh_motion"]]
         self.assertAlmostEqual(sum(part["value"] for part in parts) / step["value"], 1, delta=0.2)
         self.assertAlmostEqual(sum(values[f"flow.{name}"]["limit"] for name in EQUATIONS) / step["limit"], 1, places=9)
@@ -46,6 +49,20 @@ class Bench(harness.CaseTest):
         again = self.bench("flow", "--level", "coarse", "--steps", "1")
         self.assertEqual((run.folder / "pump_coarse.msh").stat().st_mtime_ns, mesh.st_mtime_ns, "the mesh is used again")
         self.assertEqual(json.loads((again.folder / "bench.json").read_text())[0]["ranks"], 1)
+
+    @unittest.skipUnless(shutil.which("pimpleFoam"), "the Debian package openfoam is not installed")
+    def test_peer(self):
+        """The other program does the same steps under an MPI job of its own; its numbers stand beside ours."""
+        run = self.bench("flow", "--peer", "--level", "coarse", "--steps", "2", ranks=2)
+        values = {record["name"]: record for record in json.loads((run.folder / "bench.json").read_text())}
+        for name in ("step", "step_cpu", "momentum_sweeps", "pressure_iterations", "k_sweeps", "epsilon_sweeps", "momentum_drop", "pressure_drop"):
+            record = values[f"flow.{name}"]
+            self.assertEqual(record["peer"], "OpenFOAM 1912")
+            self.assertGreater(record["peer_value"], 0, name)
+            self.assertAlmostEqual(record["ratio"], record["value"] / record["peer_value"], msg=name)
+        self.assertLess(values["flow.momentum_drop"]["peer_value"], 0.02)
+        self.assertIsNone(values["flow.momentum"]["peer"], "the peer does not tell the time of each equation")
+        self.assertEqual(len(json.loads((run.folder / "peer" / "peer.json").read_text())["wall_s"]), 2)
 
     def test_refusals(self):
         self.assertIn("there is: flow", self.bench("dem", code=2).stderr)
