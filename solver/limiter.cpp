@@ -5,8 +5,9 @@
 //   Barth and Jespersen (1989):   psi = min(1, b/a)
 //   Venkatakrishnan (1995):       psi = ((b^2 + e^2) + 2 a b) / (b^2 + 2 a^2 + a b + e^2),    e^2 = K^3 (V/V_total) U^2
 //
-// The minimum over faces and components. e is Venkatakrishnan's threshold (K h)^3 made dimensionless with the volume of the domain and the
-// speed U: a smooth extremum, where |b| ~ h^2 u'', is limited by O(h^2) only and the scheme stays second order.
+// The minimum over faces, for each component of u by itself: one that hardly varies does not limit the others. e is Venkatakrishnan's
+// threshold (K h)^3 made dimensionless with the volume of the domain and the speed U: a smooth extremum, where |b| ~ h^2 u'', is limited by
+// O(h^2) only and the scheme stays second order.
 #include "solver/limiter.hpp"
 
 #include <algorithm>
@@ -42,16 +43,14 @@ Vec3 factors(const Vec3& a, const Vec3& above, const Vec3& below, double e2) {
 }
 
 inline Vec3 least(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-inline void keep(double& psi, const Vec3& factors) { psi = std::min({factors.x, factors.y, factors.z}); }
-inline void keep(Vec3& psi, const Vec3& factors) { psi = factors; }
 
 /// What a facet has to say in cell c: all from a quarter of the cell's face on, nothing when it is a sliver that comes or goes.
 double say(const Mesh& mesh, int f, int c) {
   return std::min(1.0, 4 * mesh.facet_share[static_cast<std::size_t>(f - mesh.first_facet)][mesh.owner[f] == c ? 0 : 1]);
 }
 
-template <double (*law)(double, double, double), class Factor>
-void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double threshold, std::vector<Factor>& psi) {
+template <double (*law)(double, double, double)>
+void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double threshold, std::vector<Vec3>& psi) {
   for (int c = 0; c < mesh.n_cells; ++c) {
     Range range{u[c], u[c]};
     const int first = mesh.cell_face_start[c], last = mesh.cell_face_start[c + 1];
@@ -72,15 +71,15 @@ void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, d
       if (f >= mesh.first_facet) psi_f = Vec3{1, 1, 1} - say(mesh, f, c) * (Vec3{1, 1, 1} - psi_f);
       smallest = least(smallest, psi_f);
     }
-    keep(psi[c], smallest);
+    psi[c] = smallest;
   }
 }
 
 }  // namespace
 
 void limit_gradient(const Mesh& mesh, Limiter limiter, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
-                    std::vector<double>& psi) {
-  if (limiter == Limiter::none) return std::fill(psi.begin(), psi.end(), 1.0);
+                    std::vector<Vec3>& psi) {
+  if (limiter == Limiter::none) return std::fill(psi.begin(), psi.end(), Vec3{1, 1, 1});
   if (limiter == Limiter::barth_jespersen) {
     limit<barth_jespersen>(mesh, u, G, 0, psi);
   } else {
@@ -90,10 +89,6 @@ void limit_gradient(const Mesh& mesh, Limiter limiter, std::span<const Vec3> u, 
     limit<venkatakrishnan>(mesh, u, G, threshold, psi);
   }
   mesh.halo.exchange(psi);
-}
-
-void limit_components(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, std::vector<Vec3>& psi) {
-  limit<barth_jespersen>(mesh, u, G, 0, psi);
 }
 
 }  // namespace snag

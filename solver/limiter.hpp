@@ -9,13 +9,10 @@ namespace snag {
 
 enum class Limiter { none, barth_jespersen, venkatakrishnan };
 
-/// Factor of the gradient G of u such that values at the face centres stay between those of the cell and its neighbours; `psi`
+/// Factor of each row of the gradient G of u such that values at the face centres stay between those of the cell and its neighbours; `psi`
 /// [n_all_cells], ghosts filled. `reference_speed`, m/s: variations far below it on the scale of a cell are left alone by venkatakrishnan,
 /// which keeps second order. Collective.
 void limit_gradient(const Mesh& mesh, Limiter limiter, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
-                    std::vector<double>& psi);
-
-/// A factor for each component of u by itself, [n_cells], after Barth and Jespersen. Local.
-void limit_components(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, std::vector<Vec3>& psi);
+                    std::vector<Vec3>& psi);
 
 }  // namespace snag

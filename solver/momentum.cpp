@@ -1,7 +1,7 @@
 // Assembly and solution of the momentum equation, one row a cell, common to the three components but for the diagonal at symmetry planes.
 //
 //   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess
-//     linear_upwind    u_f^high = u_C + psi G_C (x_f - x_C)
+//     linear_upwind    u_f^high = u_C + psi G_C (x_f - x_C)                psi: limiter of each component
 //     central          u_f^high = w u_P + (1 - w) u_N + G_f s
 //     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C),  r = 2 (G_C d)/(u_D - u_C) - 1, each component for itself
 //   diffusion    mu (c (u_N - u_P) + G_f T [+ G_f^T S where mu varies])     first part implicit
@@ -47,13 +47,13 @@ inline double limited(double downwind_change, double upwind_slope_change, double
 /// u_f^high - u_C of one face with flux F from P to N.
 template <Convection scheme>
 inline Vec3 high_order_part(const Mesh& mesh, int f, double F, std::span<const Vec3> u, std::span<const Mat3> G,
-                            std::span<const double> psi) {
+                            std::span<const Vec3> psi) {
   const int P = mesh.owner[f], N = mesh.neighbour[f];
   if constexpr (scheme == Convection::upwind) {
     return {};
   } else if constexpr (scheme == Convection::linear_upwind) {
     const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P];
-    return F > 0 ? psi[P] * (G[P] * way) : psi[N] * (G[N] * (way - mesh.delta[f]));
+    return F > 0 ? scaled(psi[P], G[P] * way) : scaled(psi[N], G[N] * (way - mesh.delta[f]));
   } else if constexpr (scheme == Convection::central) {
     const double w = mesh.weight[f];
     const Vec3 u_f = blend(w, u[P], u[N]) + blend(w, G[P], G[N]) * skewness(mesh, f);
@@ -82,7 +82,7 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings)
       right_side_(mesh.n_all_cells()),
       flux_(mesh.n_faces),
       gradient_(mesh.n_all_cells()),
-      psi_(mesh.n_all_cells(), 1.0),
+      psi_(mesh.n_all_cells(), Vec3{1, 1, 1}),
       rate_(2 * static_cast<std::size_t>(mesh.n_all_cells())) {}
 
 void Momentum::mesh_turned() {

@@ -3,8 +3,8 @@
 // epsilon:  P_eps = C_1 C_mu k* 2 S:S,      s_eps = C_2 epsilon*/k*          (P/nu_t = 2 S:S, and nu_t epsilon/k = C_mu k)
 // k:        P = C_mu k*^2/epsilon* 2 S:S,   s_k = epsilon/k*
 //
-// S is that of the limited gradient: next to the steep layer at a wall the least-squares gradient of a coarse mesh reaches beyond the
-// velocities of the neighbours, and production goes with its square.
+// Where epsilon more than doubles in a step, production of k goes with epsilon/2 instead of epsilon*: in the sudden strain of an impulsive
+// start k would else grow by a power of ten in a step, far ahead of the epsilon that holds it.
 //
 // A guess a* is extrapolated from a^n and a^(n-1), linearly where a grows and with 1/a linear where it falls: positive, and exact for the
 // turnover time k/epsilon of decaying turbulence, which grows linearly. Where a step is longer than the turnover time or the Courant number
@@ -16,7 +16,6 @@
 
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
-#include "solver/limiter.hpp"
 
 namespace snag {
 
@@ -80,7 +79,6 @@ void KEpsilon::prepare(Flow& flow, const BoundarySet& boundary) {
   k_ = &flow.turbulent_kinetic_energy, epsilon_ = &flow.dissipation_rate;
   for (auto* field : {k_, epsilon_, &flow.eddy_viscosity, &k_old_, &k_older_, &k_guess_, &epsilon_old_, &epsilon_older_, &epsilon_guess_})
     field->assign(n_all, 0);
-  limiter_.assign(static_cast<std::size_t>(mesh.n_cells), {});
   for (auto* field : {&production_, &sink_, &strain_}) field->assign(static_cast<std::size_t>(mesh.n_cells), 0);
   for (auto* field : {&k_entering_, &epsilon_entering_, &flow.y_plus}) field->assign(n_boundary, 0);
   flow.wall_function.assign(n_boundary, 0);
@@ -151,11 +149,7 @@ TurbulenceReport KEpsilon::correct(Flow& flow, const BoundarySet& boundary, cons
   k_equation_->begin(flow, time), epsilon_equation_->begin(flow, time);
   set_entering(flow, boundary);
   guess(flow, time, outer);
-  limit_components(mesh, flow.velocity, flow.velocity_gradient, limiter_);
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    const Mat3& G = flow.velocity_gradient[c];
-    strain_[c] = twice_strain_squared({limiter_[c].x * G[0], limiter_[c].y * G[1], limiter_[c].z * G[2]});
-  }
+  for (int c = 0; c < mesh.n_cells; ++c) strain_[c] = twice_strain_squared(flow.velocity_gradient[c]);
   walls_.equilibrium(flow, boundary, k_guess_);
 
   set_diffusivity(flow, sigma_epsilon_);
@@ -168,7 +162,8 @@ TurbulenceReport KEpsilon::correct(Flow& flow, const BoundarySet& boundary, cons
                                {walls_.cells(), walls_.dissipation()}, *epsilon_);
   set_diffusivity(flow, sigma_k_);
   for (int c = 0; c < mesh.n_cells; ++c) {
-    production_[c] = flow.eddy_viscosity[c] * strain_[c];
+    const double growth = 0.5 * (*epsilon_)[c] / epsilon_guess_[c];
+    production_[c] = flow.eddy_viscosity[c] * strain_[c] / std::max(1.0, growth);
     sink_[c] = (*epsilon_)[c] / k_guess_[c];
   }
   for (std::size_t i = 0; i < walls_.cells().size(); ++i) production_[walls_.cells()[i]] = walls_.production()[i];

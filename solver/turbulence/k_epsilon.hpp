@@ -43,7 +43,6 @@ class KEpsilon final : public Turbulence {
   std::vector<double> k_old_, k_older_, k_guess_;         // [n_all_cells]
   std::vector<double> epsilon_old_, epsilon_older_, epsilon_guess_;
   std::vector<double> production_, sink_, strain_;     // [n_cells]; strain_: 2 S:S, 1/s2
-  std::vector<Vec3> limiter_;                          // [n_cells]
   std::vector<double> diffusivity_;                    // [n_faces], m2/s
   std::vector<double> k_entering_, epsilon_entering_;  // [n_faces - n_interior]
   std::vector<Vec3> velocity_for_gradient_;            // likewise

@@ -106,20 +106,20 @@ void ScalarTransport::add_interior(std::span<const double> guess, std::span<cons
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d), F = flux_[f], change = guess[N] - guess[P];
+    const double w = mesh_.weight[f], c = conductance(S, d), change = guess[N] - guess[P];
     const double cross = dot(blend(w, gradient_[P], gradient_[N]), S - c * d);
     const double D = diffusivity[f] * (c + (change == 0 ? 0 : std::clamp(cross / change, -c, c)));
-    const double to_owner = std::max(-F, 0.0) + D, to_neighbour = std::max(F, 0.0) + D;
-    matrix_.value[matrix_.place_of_owner[f]] = -to_owner;
-    matrix_.value[matrix_.place_of_neighbour[f]] = -to_neighbour;
-    diagonal_[P] += to_owner;
-    diagonal_[N] += to_neighbour;
 
-    // What leaves a cell through a face is at most twice its value, as if the value upstream of it were zero.
-    const double high = F > 0 ? std::min(limited(change, dot(gradient_[P], d), 1 - w), guess[P])
-                              : std::min(limited(-change, -dot(gradient_[N], d), w), guess[N]);
-    explicit_[P] -= F * high;
-    explicit_[N] += F * high;
+    const double F = std::abs(flux_[f]);
+    const bool from_owner = flux_[f] > 0;
+    const double high =
+        from_owner ? limited(change, dot(gradient_[P], d), 1 - w) / guess[P] : limited(-change, -dot(gradient_[N], d), w) / guess[N];
+    const double beta = 1 + std::min(high, 1.0);
+    const double upwind = D + F * (beta - 1), downwind = D + F, carried = D + F * beta;
+    matrix_.value[matrix_.place_of_owner[f]] = -(from_owner ? D : carried);
+    matrix_.value[matrix_.place_of_neighbour[f]] = -(from_owner ? carried : D);
+    diagonal_[P] += from_owner ? upwind : downwind;
+    diagonal_[N] += from_owner ? downwind : upwind;
   }
 }
 

@@ -4,13 +4,17 @@
 //   d phi/dt + div(F phi) - phi div F - div(Gamma grad phi) = P - s phi,      P >= 0, s >= 0
 //
 // BDF2 in time, BDF1 in cells where phi fell to less than half in the last step: there BDF2 would carry the fall on, below zero.
-// Convection: upwind, implicit, and the rest up to the limited linear scheme explicit. Diffusion: implicit with the non-orthogonal part as
-// a factor, D (1 + r) (phi_N - phi_P), r = cross part over direct part of the first guess, kept in [-1, 1], so that no face carries phi up
-// its slope: where phi differs by powers of ten from cell to cell an unlimited cross part would empty cells. phi div F is zero once
-// continuity holds, and keeps the rest of it from acting as a source. Source of the treatment of explicit terms: Patankar (1980),
-// section 7.2-2: the sum N of all explicit terms of a cell enters as it is where it is positive, and as (N/phi*) phi, with the first guess
-// phi*, where it is negative. So the right-hand side is never negative and the matrix is an M-matrix: phi > 0 without clipping, after any
-// number of Gauss-Seidel sweeps. The error of phi* is of second order in time where phi* is extrapolated, and gone in a steady state.
+//
+// Convection: a face carries beta phi_C of its upwind cell C, beta = 1 + what the limited linear scheme adds to phi_C, over phi_C, both of
+// the first guess; at most 2, as if the value upstream of C were zero, and positive because phi_D of the downwind cell is. Diffusion: D (1
+// + r) (phi_N - phi_P), r = cross part over direct part of the first guess, in [-1, 1], so that no face carries phi up its slope. Both
+// factors are in the matrix, which is an M-matrix: phi > 0 without clipping, after any number of Gauss-Seidel sweeps, and a cell that is
+// nearly empty fills as fast as its neighbours flow in, even where phi differs by powers of ten from cell to cell. The error of the first
+// guess is of second order in time where it is extrapolated, and gone in a steady state. phi div F is zero once continuity holds, and keeps
+// the rest of it from acting as a source.
+//
+// What is left of the history enters as it is where it is positive, and as (H/phi*) phi, with the first guess phi*, where it is negative
+// (Patankar 1980, section 7.2-2).
 #include <span>
 #include <vector>
 
