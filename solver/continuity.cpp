@@ -61,7 +61,6 @@ void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
 
 void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
   squares_.update();
-  history.mesh_turned();
   coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
   set_mobility(flow, time.now * flow.density / time.dt);
   start_pressure(flow, boundary);

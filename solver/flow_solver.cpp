@@ -143,6 +143,7 @@ void FlowSolver::fields_follow_facets() {
   const Mesh& mesh = flow.mesh;
   resize_facets(mesh, flow.flux), resize_facets(mesh, flow.flux_old);
   resize_facets(mesh, flow.face_viscosity, flow.dynamic_viscosity);
+  continuity_.history.mesh_turned();
   squares_.update();
   momentum_.mesh_turned();
 }

@@ -5,6 +5,7 @@
 
 #include <petscksp.h>
 
+#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -170,6 +171,21 @@ void Poisson::restore(double fresh_cost, bool rebuild_due) {
   fresh_cost_ = fresh_cost, rebuild_ = rebuild_due;
 }
 
+/// Shifts x by the constant that makes the sum of all residuals zero. A common level of x is felt by the few fixed faces only: its residual
+/// is small however wrong it is.
+void Poisson::fix_level(std::span<const double> b, std::span<double> x) const {
+  std::array<double, 2> local{0, 0};
+  for (int c = 0; c < mesh_.n_cells; ++c) local[0] += b[c];
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    local[0] -= coefficient_[f] * x[mesh_.owner[f]];
+    local[1] += coefficient_[f];
+  }
+  std::array<double, 2> all{};
+  MPI_Allreduce(local.data(), all.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  const double shift = all[0] / all[1];
+  for (double& value : x) value += shift;
+}
+
 void Poisson::remove_mean(std::span<double> x) const {
   double local = 0;
   for (const double value : x) local += value;
@@ -183,6 +199,8 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   if (rebuild_) set_up_preconditioner();
   // An absolute target; the relative one is out of reach. The divergence test is left to the number of iterations.
   check_petsc(KSPSetTolerances(p.solver, 1e-50, target, 1e30, max_iterations), "KSPSetTolerances");
+  const std::span<double> owned{x.data(), static_cast<std::size_t>(mesh_.n_cells)};
+  if (!singular_) fix_level(b, owned);
   check_petsc(VecPlaceArray(p.b, b.data()), "VecPlaceArray");
   check_petsc(VecPlaceArray(p.x, x.data()), "VecPlaceArray");
   const auto error = KSPSolve(p.solver, p.b, p.x);
@@ -211,7 +229,10 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   } else if (rebuild_ && report.iterations > 0) {
     rebuild_ = false;
   }
-  if (singular_) remove_mean({x.data(), static_cast<std::size_t>(mesh_.n_cells)});
+  if (singular_)
+    remove_mean(owned);
+  else
+    fix_level(b, owned);
   mesh_.halo.exchange(x);
   return report;
 }
