@@ -18,6 +18,7 @@ namespace snag {
 namespace {
 
 constexpr double rebuild_ratio = 1.4;  // of iterations a decade: a set-up costs about as much as it saves in two solves
+constexpr double few_iterations = 3;   // by which short solves differ anyway
 constexpr int max_iterations = 500;
 
 // Measured on tetrahedra: three to five times faster than BoomerAMG's defaults, symmetric overall.
@@ -225,7 +226,7 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   if (decades > 0.5) {
     const double cost = report.iterations / decades;
     if (rebuild_) fresh_cost_ = cost;
-    rebuild_ = !rebuild_ && report.iterations > 3 && cost > rebuild_ratio * fresh_cost_;
+    rebuild_ = !rebuild_ && report.iterations > rebuild_ratio * fresh_cost_ * decades + few_iterations;
   } else if (rebuild_ && report.iterations > 0) {
     rebuild_ = false;
   }
