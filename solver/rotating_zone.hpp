@@ -41,8 +41,6 @@ class RotatingZone {
   Vec3 rotation_speed(double time) const { return speed(time) * axis_; }
   /// Angle of the rotor from where the mesh file has it, rad, not reduced; that of the start in a frame.
   double angle(double time) const;
-  /// Velocity of a point that turns with the zone, m/s.
-  Vec3 velocity(double time, const Vec3& x) const { return cross(rotation_speed(time), x - origin_); }
   /// Unit vector of the axis and a point on it.
   const Vec3& axis() const { return axis_; }
   const Vec3& origin() const { return origin_; }
