@@ -4,6 +4,7 @@
 // with the very terms of the last solve: each cell's imbalance is the residual of that linear equation, whatever the mesh.
 #include "solver/continuity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "parallel/sum.hpp"
@@ -93,7 +94,7 @@ Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& va
   if (flow.wall_function.empty() || !flow.wall_function[b]) return values.acceleration[b];
   const Vec3& v = values.velocity[b];
   if (norm_squared(v) == 0) return {};
-  const double carried = dot(flow.velocity[cell], v) / norm_squared(v);
+  const double carried = std::clamp(dot(flow.velocity[cell], v) / norm_squared(v), 0.0, 1.0);
   return carried * carried * values.acceleration[b];
 }
 
