@@ -31,6 +31,8 @@ struct RagPiece {
   Vec3 centre;                      // of the lattice, m
   Quaternion orientation;           // of the lattice frame
   Vec3 velocity, spin;              // of the whole piece, about its centre; m/s, rad/s
+  double insert_time = 0;           // before it the piece is not in the run, s
+  bool with_water = false;          // begins with the mean velocity of the water at its particles, added to `velocity`
   std::vector<ParticlePose> poses;  // [n_rows * n_columns] instead of centre and orientation, if not empty
 
   bool exists(int column, int row) const;

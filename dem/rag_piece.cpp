@@ -133,6 +133,7 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   set_mass(s, piece.rag);
   set_bonds(s, where, piece.rag);
   piece.centre = s.position, piece.velocity = s.velocity, piece.spin = s.spin;
+  piece.insert_time = s.insert_time, piece.with_water = s.with_water;
   // A chain needs one direction only: any other that is not parallel completes the frame.
   const Vec3 aside = std::abs(s.lengthwise.x) < 0.9 * norm(s.lengthwise) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   try {

@@ -70,6 +70,9 @@ void add_pose(RagSettings& s, Records& r) {
   r.push_back(number("velocity", &s.velocity, "m/s", -infinity, Basis::assumed, "At the start."));
   r.push_back(
       number("spin", &s.spin, "rad/s", -infinity, Basis::assumed, "Angular velocity of the whole piece about its centre at the start."));
+  r.push_back(number("insert_time", &s.insert_time, "s", 0, Basis::assumed,
+                     "When it is put into the run, into water that has developed by then; walls that turn are where they are then."));
+  r.push_back(setting("with_water", &s.with_water, "The mean velocity of the water at its particles is added to `velocity`."));
   if (point) return;
   r.push_back(number("lengthwise", &s.lengthwise, "1", -infinity, Basis::assumed, "Direction of the rows, any length."));
   if (s.shape != Shape::fibre)

@@ -37,6 +37,8 @@ struct RagSettings {
   Vec3 position, velocity, spin;  // centre, m; m/s; rad/s
   Vec3 lengthwise{1, 0, 0}, crosswise{0, 1, 0};
   std::string pose_file;
+  double insert_time = 0;   // s
+  bool with_water = false;  // the water's mean velocity is added to `velocity`
   // bonds
   std::string properties = "published";  // published | given | beam
   double youngs_modulus = 1e9;           // beam, Pa
