@@ -46,7 +46,6 @@ class TurningMesh {
   SlidingInterface interface_;
   int zone_ = 0;
   double angle_ = 0;
-  Mat3 rotation_{};
   // of what turns, at angle 0
   struct Turning {
     std::vector<int> cell, face, boundary_face, node;  // boundary_face: f - n_interior
