@@ -22,17 +22,19 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // The run that crumples. Walls move at a hundredth of the speed of a wave along the bonds (55 m/s): the cloth gives way by bending.
-constexpr double closing_speed = 0.5;          // m/s, of the pipe's wall
-constexpr double air_rate = 30;                // 1/s
+constexpr double closing_speed = 1;            // m/s, of the pipe's wall
+constexpr double closing_rate = 50;            // of the air while the pipe closes, 1/s
+constexpr double falling_rate = 5;             // while the sheet falls, 1/s
+constexpr double rest_rate = 150;              // until it is at rest, 1/s
 constexpr double start_speed = 0.15;           // rms of the motion it begins with, m/s
-constexpr double fastest_impact = 2;           // that the step resolves, m/s
+constexpr double fastest_impact = 1;           // that the step resolves, m/s
 constexpr double gravity = 9.81;               // of the hopper, m/s2
 constexpr double wall_share = 0.25;            // stiffness of the wall over that of a bond
-constexpr double wall_damping_ratio = 0.5;     // of a particle on the wall's spring
+constexpr double wall_damping_ratio = 0.2;     // of a particle on the wall's spring
 constexpr double step_share = 0.7;             // of the stable step, which does not know the wall's spring
 constexpr double margin_over_radius = 0.3;     // by which the wall closes further, so that particles pressed into it are within
 constexpr double interval = 5e-3;              // between looks at the state, s
-constexpr double rest_share = 1e-3;            // kinetic energy at rest over the largest
+constexpr double rest_share = 1e-2;            // kinetic energy at rest over the largest
 constexpr double longest_rest = 2;             // s
 constexpr double longest_fall = 5;             // s
 constexpr double largest_volume_share = 0.35;  // of the pipe, filled by the spheres of a crumpled sheet
@@ -115,13 +117,14 @@ RagPiece flat_piece(const RagPiece& given) {
 
 PipeWall::Law wall_law(const Rag& rag) {
   const double stiffness = wall_share * std::max(bond_law(rag, 0).normal, bond_law(rag, 1).normal);
-  return {stiffness, 2 * wall_damping_ratio * std::sqrt(stiffness * rag.mass), air_rate};
+  return {stiffness, 2 * wall_damping_ratio * std::sqrt(stiffness * rag.mass), closing_rate};
 }
 
 ContactSettings contacts_of_run(const ContactSettings& given) {
   ContactSettings contacts = given;
   contacts.between_particles = true;
   contacts.impact_speed = fastest_impact;
+  contacts.skin_over_radius = 0.5;  // never a result, only speed
   return contacts;
 }
 
@@ -132,7 +135,7 @@ class Crumpling {
         rags_(MPI_COMM_SELF, DemSettings{{}, step_share}, {piece_}),
         wall_(pipe(), piece_.rag, wall_law(piece_.rag)) {
     rags_.set_contacts(std::make_unique<ContactSolver>(contacts_of_run(contacts), rags_.rags(), nullptr));
-    rags_.set_damping_rate(air_rate + wall_law(piece_.rag).damping / piece_.rag.mass);
+    rags_.set_damping_rate(rest_rate + wall_law(piece_.rag).damping / piece_.rag.mass);
     begin();
   }
   CrumpledPose run() {
@@ -208,6 +211,7 @@ void Crumpling::close() {
 }
 
 void Crumpling::rest() {
+  wall_.set_rate(rest_rate);
   for (double waited = 0; energy_ > rest_share * largest_energy_; waited += interval) {
     if (waited > longest_rest)
       refuse(piece_.plan, "the sheet does not come to rest in the pipe, kinetic energy " + words(energy_ / largest_energy_) +
@@ -217,6 +221,7 @@ void Crumpling::rest() {
 }
 
 void Crumpling::fall() {
+  wall_.set_rate(falling_rate);
   rags_.set_gravity(gravity * wall_.shape().axis);
   for (double depth = -infinity; depth < piece_.rag.radius;) {
     if (rags_.time() > longest_fall)

@@ -10,6 +10,8 @@ namespace snag {
 PipeContact pipe_contact(const PipeShape& shape, const Vec3& centre, double radius) {
   const double depth = dot(centre, shape.axis);  // below the mouth
   const Vec3 across = centre - depth * shape.axis;
+  const double room = shape.radius - radius;
+  if (room > 0 && norm_squared(across) < room * room) return {};  // most particles
   const double rho = norm(across);
   const Vec3 outward = rho > 0 ? across / rho : Vec3{};
   if (shape.hopper_angle <= 0) return {rho + radius - shape.radius, -outward, shape.closing_speed};
@@ -43,7 +45,6 @@ void PipeWall::add(std::size_t index, Tile& tile, double step) {
     for (const auto contact : {pipe_contact, end_contact}) {
       const PipeContact c = contact(shape_, x, rag_.radius);
       if (!(c.overlap > 0)) continue;
-      max_overlap_ = std::max(max_overlap_, c.overlap);
       force += std::max(0.0, law_.stiffness * c.overlap - law_.damping * (dot(v, c.normal) - c.wall_speed)) * c.normal;
     }
     tile.set_vector(Tile::fx, k, tile.vector(Tile::fx, k) + force);

@@ -46,16 +46,14 @@ class PipeWall : public TileForce {
 
   void add(std::size_t index, Tile& tile, double step) override;
   const PipeShape& shape() const { return shape_; }
-  /// Speeds at which it closes from now on; radius and half length are set to where it stands.
+  /// Where it stands and how it closes from now on.
   void set_shape(const PipeShape& shape) { shape_ = shape; }
-  double max_overlap() const { return max_overlap_; }  // m, since the last reset
-  void reset_overlap() { max_overlap_ = 0; }
+  void set_rate(double rate) { law_.rate = rate; }
 
  private:
   PipeShape shape_;
   Rag rag_;
   Law law_;
-  double max_overlap_ = 0;
 };
 
 }  // namespace snag
