@@ -114,6 +114,8 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
          << simulation.rags->step_limit().reason << ")\n";
   }
   log::info(text.str());
+  if (simulation.poses)
+    for (const std::string& line : simulation.poses->lines()) log::info(line);
   if (simulation.coupled && simulation.mesh) {
     for (const std::string& warning : kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh))
       log::warning(warning);
@@ -139,7 +141,7 @@ ExitCode run_case(const RunOptions& options) {
   std::unique_ptr<CheckpointReader> reader;
   if (options.resume) reader = std::make_unique<CheckpointReader>(world, folder / "checkpoint");
 
-  Simulation simulation(file, world, stored_partition(reader.get()));
+  Simulation simulation(file, world, stored_partition(reader.get()), reader ? folder / "rags" : std::filesystem::path());
   if (reader && reader->stamp().case_sha256 != file.sha256())
     throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
                                      reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +
@@ -147,7 +149,9 @@ ExitCode run_case(const RunOptions& options) {
   const std::string start = reader ? "" : simulation.start();
   if (!reader) check_start(simulation);
   together(world, [&] {
-    if (rank_of(world) == 0) prepare_output_folder(folder, !options.resume);
+    if (rank_of(world) != 0) return;
+    prepare_output_folder(folder, !options.resume);
+    if (simulation.poses) simulation.poses->write(folder / "rags");
   });
   log::open(folder / "log.txt", options.resume);
   log_heading(simulation, file);

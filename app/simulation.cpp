@@ -51,7 +51,8 @@ std::filesystem::path made_mesh(const MeshSettings& settings, const CaseFile& fi
 
 }  // namespace
 
-Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition) : comm_(comm) {
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition, std::filesystem::path stored_poses)
+    : comm_(comm), stored_poses_(std::move(stored_poses)) {
   const Table root = file.root();
   read(root, case_settings);
   read(root, time_settings);
@@ -122,6 +123,7 @@ void Simulation::build_rags(const CaseFile& file) {
   read(file.root(), settings);
   std::vector<RagPiece> pieces = read_pieces(file);
   if (pieces.empty()) return;
+  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_poses_);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
   passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, rags->rags().size());

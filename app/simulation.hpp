@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "app/passage.hpp"
+#include "app/rag_poses.hpp"
 #include "app/settings.hpp"
 #include "app/start_flow.hpp"
 #include "base/case_file.hpp"
@@ -18,8 +19,9 @@ namespace snag {
 
 class Simulation {
  public:
-  /// Reads the whole case, refuses unknown keys, and builds. `partition`: rank of every cell, of a checkpoint. Collective; throws Error.
-  Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition = {});
+  /// Reads the whole case, refuses unknown keys, and builds. `partition`: rank of every cell, of a checkpoint; `stored_poses`: folder with
+  /// the poses of the run that is resumed. Collective; throws Error.
+  Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition = {}, std::filesystem::path stored_poses = {});
   ~Simulation();
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
@@ -44,6 +46,7 @@ class Simulation {
   WallSet walls;
   std::unique_ptr<FlowSolver> water;
   std::optional<PumpSettings> pump;  // of a case with a rotating zone
+  std::unique_ptr<RagPoses> poses;
   std::unique_ptr<RagSystem> rags;
   std::unique_ptr<CoupledSolver> coupled;
   std::unique_ptr<Passage> passage;
@@ -66,7 +69,7 @@ class Simulation {
   MPI_Comm comm_;
   MeshSettings mesh_settings_;
   StartSettings start_settings_;
-  std::filesystem::path start_folder_;
+  std::filesystem::path start_folder_, stored_poses_;
   std::optional<PrescribedFlow> prescribed_;
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling

@@ -31,8 +31,10 @@ bool RagPiece::exists(int column, int row) const {
 }
 
 ParticlePose RagPiece::pose(int column, int row) const {
-  if (!poses.empty() && column >= 0 && row >= 0 && column < rag.n_columns && row < rag.n_rows)
-    return poses[static_cast<std::size_t>(row) * rag.n_columns + column];
+  if (!poses.empty() && column >= 0 && row >= 0 && column < rag.n_columns && row < rag.n_rows) {
+    const ParticlePose& placed = poses[static_cast<std::size_t>(row) * rag.n_columns + column];
+    return {centre + placed.position, placed.orientation};
+  }
   const Vec3 local{(2 * column - (rag.n_columns - 1)) * rag.radius, (2 * row - (rag.n_rows - 1)) * rag.radius, 0};
   return {centre + rotate(orientation, local), orientation};
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "dem/poses/pose_plan.hpp"
 #include "dem/rag.hpp"
 #include "dem/tile.hpp"
 
@@ -33,7 +34,8 @@ struct RagPiece {
   Vec3 velocity, spin;              // of the whole piece, about its centre; m/s, rad/s
   double insert_time = 0;           // before it the piece is not in the run, s
   bool with_water = false;          // begins with the mean velocity of the water at its particles, added to `velocity`
-  std::vector<ParticlePose> poses;  // [n_rows * n_columns] instead of centre and orientation, if not empty
+  PosePlan plan;                    // how `poses` are made (dem/poses/)
+  std::vector<ParticlePose> poses;  // [n_rows * n_columns] places about `centre`, instead of the flat lattice, if not empty
 
   bool exists(int column, int row) const;
   ParticlePose pose(int column, int row) const;

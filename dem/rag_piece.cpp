@@ -1,11 +1,11 @@
 // From settings to a piece: lattice, mass, hydrodynamic volume and bonds of its particles.
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "dem/poses/folded.hpp"
+#include "dem/poses/pose_file.hpp"
 #include "dem/rag_settings.hpp"
 
 namespace snag {
@@ -108,6 +108,22 @@ void set_bonds(const RagSettings& s, const std::string& where, Rag& rag) {
   }
 }
 
+/// Keys that belong to another kind of pose are refused: they would be without effect.
+void check_plan(const RagSettings& s, const std::string& where) {
+  const PosePlan& plan = s.plan;
+  const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, where + ": " + what); };
+  if (!s.pose_file.empty() && plan.kind != "flat")
+    refuse("pose = \"" + plan.kind + "\" and pose_file = \"" + s.pose_file + "\" both place the particles; keep one of them");
+  if (plan.kind != "folded" && plan.folds_lengthwise + plan.folds_crosswise > 0)
+    refuse("folds_lengthwise and folds_crosswise need pose = \"folded\", it is \"" + plan.kind + "\"; set pose, or remove them");
+  if (!plan.crumpled() && plan.confine_radius > 0)
+    refuse("confine_radius needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
+  if (plan.kind != "confined" && plan.confine_length > 0)
+    refuse("confine_length needs pose = \"confined\", it is \"" + plan.kind + "\"; set pose, or remove it");
+  if (plan.crumpled() && plan.confine_radius <= 0)
+    refuse("pose = \"" + plan.kind + "\" without confine_radius, the radius of the pipe; give it");
+}
+
 }  // namespace
 
 BondProperties published_bond(double radius, int direction) {
@@ -141,39 +157,11 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   } catch (const Error& error) {
     throw Error(error.code, where + ": " + error.what());
   }
+  piece.plan = s.plan, piece.plan.where = where;
+  check_plan(s, where);
   if (!s.pose_file.empty()) piece.poses = read_pose_file(folder / s.pose_file, piece.rag);
+  if (s.plan.kind == "folded") piece.poses = folded_poses(piece);
   return piece;
-}
-
-std::vector<ParticlePose> read_pose_file(const std::filesystem::path& file, const Rag& rag) {
-  std::ifstream in(file);
-  const auto fail = [&](int line, const std::string& what) {
-    throw Error(ExitCode::io, file.string() + ":" + std::to_string(line) + ": " + what);
-  };
-  if (!in) fail(0, "pose file cannot be opened; give a path relative to the case file");
-  const std::size_t n = static_cast<std::size_t>(rag.n_columns) * rag.n_rows;
-  std::vector<ParticlePose> poses(n);
-  std::vector<bool> given(n, false);
-  std::string line;
-  std::getline(in, line);
-  std::size_t count = 0;
-  for (int number = 2; std::getline(in, line); ++number) {
-    if (line.empty()) continue;
-    for (char& c : line) c = c == ',' ? ' ' : c;
-    std::istringstream fields(line);
-    std::int64_t id = -1;
-    Vec3 x;
-    Quaternion q;
-    if (!(fields >> id >> x.x >> x.y >> x.z >> q.w >> q.x >> q.y >> q.z)) fail(number, "eight numbers id,x,y,z,qw,qx,qy,qz are needed");
-    const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    if (id < 0 || static_cast<std::size_t>(id) >= n || given[id])
-      fail(number, "id " + std::to_string(id) + " is out of 0 .. " + std::to_string(n - 1) + " or given twice");
-    if (!(std::abs(length - 1) < 1e-3)) fail(number, "quaternion of length " + words(length) + ", a unit quaternion is needed");
-    poses[id] = {x, {q.w / length, q.x / length, q.y / length, q.z / length}};
-    given[id] = true, ++count;
-  }
-  if (count != n) fail(0, std::to_string(count) + " particles given, the lattice has " + std::to_string(n) + " places");
-  return poses;
 }
 
 }  // namespace snag

@@ -63,6 +63,36 @@ void add_mass(RagSettings& s, Records& r) {
               "Density of the spheres 538 (1 mm/r_p) kg/m3 instead of mass_per_area, as in the coupled simulations of Jensen (2018)."));
 }
 
+void add_plan(PosePlan& p, Records& r) {
+  r.push_back(
+      setting("pose", &p.kind,
+              "How the sheet lies. folded: like a fan. confined: crumpled by a smooth pipe that closes in around the flat sheet, in "
+              "a run of the particles alone. hopper: fallen through a smooth cone into the pipe (Jensen 2018, section 5.2.2).",
+              {"flat", "folded", "confined", "hopper"}));
+  const auto folds = [&](const char* key, int* target, const char* meaning) {
+    r.push_back({.key = key, .target = target, .minimum = 0, .maximum = 1e6, .meaning = meaning});
+  };
+  folds("folds_lengthwise", &p.folds_lengthwise, "folded: number of folds, which shorten the length; layers are 4 r_p apart.");
+  folds("folds_crosswise", &p.folds_crosswise, "folded: the same for the width; cloth is folded in one of the two directions.");
+  r.push_back(number("confine_radius", &p.confine_radius, "m", 0, Basis::assumed,
+                     "confined, hopper: radius of the pipe, whose axis goes through centre."));
+  r.push_back(number("confine_length", &p.confine_length, "m", 0, Basis::assumed,
+                     "confined: length of the pipe, between two ends that close in too; 0: without ends, and the mean of the particles "
+                     "along the axis is at centre."));
+  r.push_back(number("confine_axis", &p.confine_axis, "1", -infinity, Basis::assumed,
+                     "confined, hopper: direction of the pipe, any length; that of gravity for a hopper."));
+  r.push_back({.key = "hopper_angle",
+               .target = &p.hopper_angle,
+               .unit = "rad",
+               .minimum = 0.05,
+               .maximum = 1.5,
+               .meaning = "hopper: of the cone's side to its axis."});
+  r.push_back({.key = "seed",
+               .target = &p.seed,
+               .minimum = 0,
+               .meaning = "confined, hopper: of the slow waves that the sheet begins with; each seed gives another pose."});
+}
+
 void add_pose(RagSettings& s, Records& r) {
   const bool point = s.shape == Shape::particle;
   r.push_back(number(point ? "position" : "centre", &s.position, "m", -infinity, Basis::assumed,
@@ -78,10 +108,11 @@ void add_pose(RagSettings& s, Records& r) {
   if (s.shape != Shape::fibre)
     r.push_back(number("crosswise", &s.crosswise, "1", -infinity, Basis::assumed,
                        "Direction across the rows; its part along `lengthwise` is taken off."));
-  r.push_back(
-      file_setting("pose_file", &s.pose_file,
-                   "Places of all particles instead of centre and directions: CSV with a header and rows id,x,y,z,qw,qx,qy,qz in m; id "
-                   "= row * n_columns + column."));
+  if (s.shape != Shape::fibre) add_plan(s.plan, r);
+  r.push_back(file_setting(
+      "pose_file", &s.pose_file,
+      "Places of all particles about centre, instead of directions and pose, such as rags/pose_<n>.csv of another run: CSV with a "
+      "header and rows id,x,y,z,qw,qx,qy,qz in m; id = row * n_columns + column."));
 }
 
 void add_bond_direction(const std::string& direction, BondProperties& p, Records& r) {

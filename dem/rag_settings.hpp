@@ -8,6 +8,7 @@
 #include "base/case_file.hpp"
 #include "base/parameter.hpp"
 #include "dem/lattice.hpp"
+#include "dem/poses/pose_plan.hpp"
 
 namespace snag {
 
@@ -36,6 +37,7 @@ struct RagSettings {
   // pose
   Vec3 position, velocity, spin;  // centre, m; m/s; rad/s
   Vec3 lengthwise{1, 0, 0}, crosswise{0, 1, 0};
+  PosePlan plan;
   std::string pose_file;
   double insert_time = 0;   // s
   bool with_water = false;  // the water's mean velocity is added to `velocity`
@@ -52,15 +54,11 @@ struct RagSettings {
 };
 
 /// The piece that settings describe. `where` stands in messages ("case.toml: [[rag]] 1"), `folder` is that of the case file, for the pose
-/// file. Throws Error(usage, io).
+/// file. A pose that takes a run of its own is still to be made (make_poses, dem/poses/crumpled.hpp). Throws Error(usage, io).
 RagPiece make_piece(const RagSettings& settings, const std::string& where, const std::filesystem::path& folder = {});
 
 /// All pieces of a case: [[rag]], then [[disc]], [[fibre]], [[particle]], each in order of the file. Throws Error(usage, io).
 std::vector<RagPiece> read_pieces(const CaseFile& file);
-
-/// Rows id,x,y,z,qw,qx,qy,qz (m, unit quaternion, comma-separated, one header line), one for each place of the lattice in any order;
-/// id = row * n_columns + column. Throws Error(io).
-std::vector<ParticlePose> read_pose_file(const std::filesystem::path& file, const Rag& rag);
 
 struct DemSettings {
   std::optional<double> step;  // s

@@ -37,6 +37,8 @@ class Boundary {
   virtual bool is_wall() const { return false; }
   /// True where the pressure is as given, false where its level follows from the flow.
   virtual bool level_is_given() const { return fixes() == Fixes::pressure; }
+  /// True where what the water carries has left for good once it is beyond the patch.
+  virtual bool is_way_out() const { return fixes() == Fixes::pressure; }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
   virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
   /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
@@ -78,6 +80,7 @@ class BoundarySet {
   void restore(const BoundaryValues& values) { values_ = values; }
   Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
+  bool is_way_out(int patch) const { return conditions_[patch].boundary->is_way_out(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// True if some patch fixes the pressure.

@@ -1,6 +1,7 @@
 #include "dem/contacts/contact_solver.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "base/error.hpp"
@@ -8,6 +9,7 @@
 #include "dem/contacts/contact_list.hpp"
 #include "dem/contacts/pair_forces.hpp"
 #include "dem/contacts/wall_contacts.hpp"
+#include "dem/tile_particles.hpp"
 
 namespace snag {
 
@@ -63,6 +65,7 @@ struct ContactSolver::State {
   std::optional<WallContacts> walls;
   ContactMeasures measures;
   std::vector<WallLoad> no_loads;
+  std::vector<WallTouch> no_touches;
 
   // The touching pairs by their lower and by their higher id, made when the first tile is packed after a step.
   bool slips_sorted = false;
@@ -241,6 +244,34 @@ void ContactSolver::unpack(const Tile& tile, std::span<const double> values) {
 
 const ContactMeasures& ContactSolver::measures() const { return state_->measures; }
 const std::vector<WallLoad>& ContactSolver::wall_loads() const { return state_->walls ? state_->walls->loads : state_->no_loads; }
+const std::vector<WallTouch>& ContactSolver::wall_touches() const { return state_->walls ? state_->walls->touched : state_->no_touches; }
+
+void ContactSolver::mark_line(const MarkedLine& line) {
+  if (state_->walls) state_->walls->marked = line;
+}
+
+std::vector<Vec3> ContactSolver::forces(std::span<const Tile> tiles) const {
+  const State& s = *state_;
+  std::map<const Tile*, std::vector<Vec3>> at_place;
+  for (const Tile& tile : tiles) at_place[&tile].resize(tile.exists.size());
+  for (const ParticleRow& row : s.particles.rows) {
+    const auto found = at_place.find(row.tile);
+    if (s.list.pairs.empty() || !row.near || found == at_place.end()) continue;
+    for (int i = 0; i < row.count; ++i) {
+      const ParticleLoad& load = s.particles.load[row.first + i];
+      found->second[row.place + i] = {load.fx, load.fy, load.fz};
+    }
+  }
+  if (s.walls) {
+    for (const WallForce& wall : s.walls->forces) {
+      const auto found = at_place.find(s.particles.rows[s.particles.row_of[wall.particle]].tile);
+      if (found != at_place.end()) found->second[s.particles.place(wall.particle)] += wall.force;
+    }
+  }
+  std::vector<Vec3> all;
+  for (const Tile& tile : tiles) for_particles(tile, [&](int k, int, int) { all.push_back(at_place[&tile][k]); });
+  return all;
+}
 
 void ContactSolver::reset_measures() {
   State& s = *state_;
@@ -249,6 +280,7 @@ void ContactSolver::reset_measures() {
   if (!s.walls) return;
   std::fill(s.walls->max_overlap_over_radius.begin(), s.walls->max_overlap_over_radius.end(), 0.0);
   for (WallLoad& load : s.walls->loads) load.particle_time = load.normal_impulse = 0, load.impulse = {};
+  for (WallTouch& touch : s.walls->touched) touch.since_reset = 0;
 }
 
 }  // namespace snag

@@ -31,6 +31,22 @@ struct WallLoad {
   std::int64_t touching = 0;  // particles that touch now
 };
 
+/// Where a particle touches walls: a wall that moves, one at rest near the marked line, any other at rest.
+enum class WallPlace { moving, marked, other };
+inline constexpr int n_wall_places = 3;
+
+/// A line, and how near to it a contact is one at the line: the tongue of a volute.
+struct MarkedLine {
+  Vec3 point, direction;  // m; unit
+  double reach = 0;       // m, from the line to the contact point
+};
+
+/// Particles of one rag that touch walls of one place, on this rank; a particle counts once in each place where it touches.
+struct WallTouch {
+  std::int64_t now = 0;          // at the last add_forces
+  std::int64_t since_reset = 0;  // summed over all add_forces since the last reset
+};
+
 /// Counts and maxima of this rank. "Now" is the last call of add_forces; maxima are since the last reset.
 struct ContactMeasures {
   std::int64_t n_contacts = 0;         // pairs that touch now, counted where the lower id is owned: the sum over ranks counts each once
@@ -79,6 +95,13 @@ class ContactSolver {
   const ContactMeasures& measures() const;
   /// [n_rags][parts of the WallSet], row by row.
   const std::vector<WallLoad>& wall_loads() const;
+  /// Contacts with walls at rest near this line are told apart from now on.
+  void mark_line(const MarkedLine& line);
+  /// [n_rags][n_wall_places], row by row; empty without walls.
+  const std::vector<WallTouch>& wall_touches() const;
+  /// Sum of its contacts' forces on each particle of these owned tiles at the last add_forces, N; tile by tile in the order of
+  /// for_particles. Zero for tiles that were not there then.
+  std::vector<Vec3> forces(std::span<const Tile> tiles) const;
   /// Start maxima, times and impulses anew.
   void reset_measures();
 

@@ -7,6 +7,7 @@
 #include "dem/contacts/wall_contacts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace snag {
@@ -29,6 +30,7 @@ WallContacts::WallContacts(const std::vector<Rag>& rags, const ContactSettings& 
   poses_.resize(walls.bodies().size());
   max_overlap_over_radius.assign(rags.size(), 0);
   loads.assign(rags.size() * walls.parts().size(), {});
+  touched.assign(rags.size() * n_wall_places, {});
 }
 
 WallContacts::Reach WallContacts::reach(const WallBody& body) const {
@@ -84,6 +86,8 @@ void WallContacts::add(const ContactParticles& particles, double time, double st
   step_ = step, n_contacts = 0;
   for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
   for (WallLoad& load : loads) load.touching = 0;
+  for (WallTouch& touch : touched) touch.now = 0;
+  forces.clear();
   old_slips_.swap(slips), slips.clear();
   old_beyond_.swap(beyond), beyond.clear();
   old_end_ = 0;
@@ -103,6 +107,7 @@ void WallContacts::add(const ContactParticles& particles, double time, double st
     select_touches();
     Tile& tile = *particles.rows[particles.row_of[p.number]].owned;
     for (const Touch& touch : acting_) add_force(p, touch, tile, particles.place(p.number));
+    count_touches(p);
   }
   keep_beyond(particles, std::numeric_limits<std::int64_t>::max(), next_beyond);
 }
@@ -196,6 +201,7 @@ void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, 
   tile.set_vector(Tile::tx, place, tile.vector(Tile::tx, place) + torque);
 
   slips.push_back({p.id, touch.body, direction, result.slip});
+  forces.push_back({p.number, F});
   ++n_contacts;
   max_overlap_over_radius[p.rag] = std::max(max_overlap_over_radius[p.rag], (radius - s) / radius);
   WallLoad& load = loads[p.rag * walls_->parts().size() + touch.part];
@@ -203,6 +209,23 @@ void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, 
   load.impulse -= step_ * F;
   load.normal_impulse += step_ * std::abs(result.normal);
   ++load.touching;
+}
+
+WallPlace WallContacts::place_of(const Touch& touch, const Vec3& centre) const {
+  if (walls_->bodies()[touch.body].motion.moves()) return WallPlace::moving;
+  if (!marked) return WallPlace::other;
+  const Vec3 away = centre - touch.distance * touch.direction - marked->point;
+  return norm(away - dot(away, marked->direction) * marked->direction) <= marked->reach ? WallPlace::marked : WallPlace::other;
+}
+
+void WallContacts::count_touches(const Particle& p) {
+  std::array<bool, n_wall_places> here{};
+  for (const Touch& touch : acting_) here[static_cast<int>(place_of(touch, p.x))] = true;
+  for (int place = 0; place < n_wall_places; ++place) {
+    if (!here[place]) continue;
+    WallTouch& touch = touched[p.rag * n_wall_places + place];
+    ++touch.now, ++touch.since_reset;
+  }
 }
 
 /// Particles found beyond a wall earlier and out of reach of it now are beyond it still; those with a smaller id than the one at work come

@@ -10,6 +10,7 @@
 //     front of them, so the back of a thin plate does nothing. Overlap: r - distance (up to 2 r, where the centre is r beyond).
 // The slip of a contact belongs to the particle, the wall and the direction (frame of the wall): it slides over from triangle to triangle.
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct WallSlip {
   int body = 0;
   Vec3 normal, slip;  // direction into the fluid and slip (m), frame of the wall
   bool operator==(const WallSlip&) const = default;
+};
+
+/// Force of one contact with a wall on a particle.
+struct WallForce {
+  int particle = 0;  // number in ContactParticles
+  Vec3 force;        // N
 };
 
 class WallContacts {
@@ -52,6 +59,9 @@ class WallContacts {
   std::int64_t n_contacts = 0;                  // now
   std::vector<double> max_overlap_over_radius;  // [n_rags] since reset
   std::vector<WallLoad> loads;                  // [n_rags][n_parts] since reset
+  std::vector<WallTouch> touched;               // [n_rags][n_wall_places]
+  std::vector<WallForce> forces;                // now
+  std::optional<MarkedLine> marked;
 
   std::vector<ContactPair> pairs;  // [n_rags]
 
@@ -83,6 +93,8 @@ class WallContacts {
   void select_touches();
   bool repeats(const Touch& touch, std::size_t before) const;
   void add_force(const Particle& p, const Touch& touch, Tile& tile, int place);
+  WallPlace place_of(const Touch& touch, const Vec3& centre) const;
+  void count_touches(const Particle& p);
   Vec3 old_slip(int body, const Vec3& direction);
   void note_beyond(const Particle& p, std::size_t& next_old);
   void keep_beyond(const ContactParticles& particles, std::int64_t before, std::size_t& next_old);

@@ -41,6 +41,7 @@ struct PressureInlet final : Boundary {
     return section;
   }
   Fixes fixes() const override { return Fixes::pressure; }
+  bool is_way_out() const override { return false; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "dem/poses/pose_file.hpp"
 #include "dem/rag_system.hpp"
 
 namespace snag {

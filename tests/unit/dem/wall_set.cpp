@@ -181,6 +181,41 @@ TEST(WallContacts, LoadsOnParts) {
   EXPECT_EQ(contacts.measures().max_wall_overlap_over_radius[0], 0);
 }
 
+// A particle counts once in each place where it touches: a wall that moves, one at rest near the marked line, any other at rest. Forces of
+// all contacts are told particle by particle.
+TEST(WallContacts, PlacesOfTouchAndForces) {
+  const double r = 1e-3;
+  WallSet walls;
+  walls.add_plane("floor", {}, {0, 0, 1}), walls.add_plane("side", {}, {1, 0, 0});
+  walls.add_plane("belt", {0, 1, 0}, {0, -1, 0}, WallMotion{.axis = {0, 1, 0}, .origin = {}, .speed = 3, .velocity = {}});
+  Pieces pieces;
+  pieces.add_sphere(Pieces::sphere(r, 540), {0.9 * r, 0.5, 0.9 * r});        // in the corner, twice near the line
+  pieces.add_sphere(Pieces::sphere(r, 540), {0.5, 0.5, 0.9 * r});            // on the floor, far from the line
+  pieces.add_sphere(Pieces::sphere(r, 540), {4 * r, 1 - 0.9 * r, 0.9 * r});  // on belt and floor, near the line
+  pieces.add_sphere(Pieces::sphere(r, 540), {0.5, 0.5, 0.5});                // nowhere
+  ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
+  contacts.mark_line({.point = {0, 0.3, 0}, .direction = {0, 1, 0}, .reach = 5 * r});
+  for (int k = 0; k < 2; ++k) {
+    pieces.clear_forces();
+    contacts.add_forces(pieces.owned(), {}, 1e-6);
+  }
+  const std::vector<std::vector<int>> expected{{0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 0, 0}};  // moving, marked, other
+  ASSERT_EQ(contacts.wall_touches().size(), expected.size() * n_wall_places);
+  for (std::size_t rag = 0; rag < expected.size(); ++rag) {
+    for (std::size_t place = 0; place < n_wall_places; ++place) {
+      const WallTouch& touch = contacts.wall_touches()[rag * n_wall_places + place];
+      EXPECT_EQ(touch.now, expected[rag][place]) << rag << " " << place;
+      EXPECT_EQ(touch.since_reset, 2 * expected[rag][place]) << rag << " " << place;
+    }
+    const std::vector<Vec3> force = contacts.forces({pieces.tiles[rag].get(), 1});
+    ASSERT_EQ(force.size(), 1U);
+    EXPECT_EQ(force[0], pieces.get(static_cast<int>(rag), Tile::fx)) << "nothing but contacts acts here";
+    EXPECT_EQ(norm(force[0]) > 0, rag < 3);
+  }
+  contacts.reset_measures();
+  EXPECT_EQ(contacts.wall_touches()[0].since_reset, 0);
+}
+
 // A fast wall that comes upon resting particles is noticed in time: the list is made anew before it can have arrived.
 TEST(WallContacts, FastWallArrives) {
   const double r = 1e-3, speed = 300;

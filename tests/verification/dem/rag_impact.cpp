@@ -45,7 +45,7 @@ TEST(RagMeasures, KnowAFlatSheet) {
   RagPiece piece = make_piece(settings, "test");
   for (int row = 0; row < 20; ++row)
     for (int column = 0; column < 40; ++column)
-      piece.poses.push_back({Vec3{1, 2, 3} + Vec3{2.02e-3 * (column - 19.5), 2e-3 * (row - 9.5), 0}, {}});
+      piece.poses.push_back({{2.02e-3 * (column - 19.5), 2e-3 * (row - 9.5), 0}, {}});
   RagSystem rags(MPI_COMM_SELF, {}, {piece});
   const RagState s = rag_states(rags)[0];
   EXPECT_LT(norm(s.centre - Vec3{1, 2, 3}), 1e-14);

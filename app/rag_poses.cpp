@@ -1,0 +1,85 @@
+#include "app/rag_poses.hpp"
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "base/log.hpp"
+#include "dem/poses/crumpled.hpp"
+#include "dem/poses/pose_file.hpp"
+#include "observe/silhouette.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+std::filesystem::path pose_file(const std::filesystem::path& folder, std::size_t number) {
+  return folder / ("pose_" + std::to_string(number) + ".csv");
+}
+
+bool exists_on_first(MPI_Comm comm, const std::filesystem::path& file) {
+  int found = rank_of(comm) == 0 && std::filesystem::exists(file);
+  MPI_Bcast(&found, 1, MPI_INT, 0, comm);
+  return found != 0;
+}
+
+/// Direction along which the rag is to travel: of the pipe, or along the folds.
+Vec3 direction_of_travel(const RagPiece& piece) {
+  if (piece.plan.crumpled()) return unit(piece.plan.confine_axis);
+  return rotate(piece.orientation, piece.plan.folds_lengthwise > 0 ? Vec3{0, 1, 0} : Vec3{1, 0, 0});
+}
+
+Silhouette seen_along(const RagPiece& piece, const Vec3& up, const Vec3& right) {
+  const Rag& rag = piece.rag;
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  for (int row = 0; row < rag.n_rows; ++row)
+    for (int column = 0; column < rag.n_columns; ++column) {
+      points.push_back(piece.pose(column, row).position);
+      if (!piece.exists(column, row) || !piece.exists(column + 1, row) || !piece.exists(column, row + 1) ||
+          !piece.exists(column + 1, row + 1))
+        continue;
+      const int a = row * rag.n_columns + column, b = a + rag.n_columns;
+      triangles.push_back({a, a + 1, b + 1}), triangles.push_back({a, b + 1, b});
+    }
+  return silhouette(points, triangles, {right, up}, 0.5 * rag.radius);
+}
+
+/// The views of two cameras at right angles.
+std::string seen_from_the_side(const RagPiece& piece) {
+  const Vec3 up = direction_of_travel(piece);
+  const Vec3 right = unit(cross(std::abs(up.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up));
+  const Silhouette one = seen_along(piece, up, right), other = seen_along(piece, up, cross(up, right));
+  constexpr double per_cm2 = 1e4;
+  std::ostringstream text;
+  text.precision(3);
+  text << "pose of " << piece.rag.name << ": " << piece.plan.kind << ", from two sides an area of " << per_cm2 * one.area << " and "
+       << per_cm2 * other.area << " cm2, elongation ratio " << one.elongation_ratio << " and " << other.elongation_ratio
+       << " (published: 6.9 in the simulation, 3.1 measured in a pipe of 200 mm)";
+  return text.str();
+}
+
+}  // namespace
+
+RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, const std::filesystem::path& stored) {
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    if (!pieces[n].plan.crumpled()) continue;
+    if (!stored.empty() && exists_on_first(comm, pose_file(stored, n)))
+      together(comm, [&] { pieces[n].poses = read_pose_file(pose_file(stored, n), pieces[n].rag); });
+    else
+      log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind);
+  }
+  lines_ = make_poses(comm, pieces, contacts);
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    if (pieces[n].plan.kind == "flat") continue;
+    lines_.push_back(seen_from_the_side(pieces[n]));
+    pieces_.push_back(pieces[n]), numbers_.push_back(n);
+  }
+}
+
+void RagPoses::write(const std::filesystem::path& folder) const {
+  for (std::size_t n = 0; n < pieces_.size(); ++n) write_pose_file(pose_file(folder, numbers_[n]), pieces_[n]);
+}
+
+}  // namespace snag
