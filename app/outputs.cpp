@@ -22,29 +22,6 @@ constexpr int default_n_fields = 20, default_n_rag_pictures = 100;
 const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
                                     "checkpoint",         "pictures"};
 
-std::vector<std::string> rag_columns() {
-  return {"time [s]",
-          "rag [1]",
-          "x [m]",
-          "y [m]",
-          "z [m]",
-          "vx [m/s]",
-          "vy [m/s]",
-          "vz [m/s]",
-          "x_min [m]",
-          "y_min [m]",
-          "z_min [m]",
-          "x_max [m]",
-          "y_max [m]",
-          "z_max [m]",
-          "kinetic_energy [J]",
-          "bond_energy [J]",
-          "bond_strain_max [1]",
-          "bond_tension_max [N]",
-          "broken_bonds [1]",
-          "particles_out [1]"};
-}
-
 std::vector<std::string> residual_columns() {
   return {"time [s]",
           "time_step [1]",
@@ -107,10 +84,6 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   const double from = simulation.time(), end = simulation.time_settings.end;
   fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
   rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
-  if (simulation.rags) {
-    wall_contact_.resize(simulation.rags->rags().size());
-    max_wall_overlap_.resize(wall_contact_.size());
-  }
   if (simulation.water) walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   together(MPI_COMM_WORLD, [&] {
@@ -130,13 +103,9 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
       patches_ = open("patches", columns);
       if (!walls_with_y_plus_.empty()) wall_ = open("wall", wall_columns(*simulation.mesh, walls_with_y_plus_));
     }
-    if (simulation.rags) {
-      rags_ = open("rags", rag_columns());
-      contacts_ =
-          open("contacts", {"time [s]", "contacts [1]", "wall_contacts [1]", "overlap_over_radius_max [1]", "particles_beyond_walls [1]"});
+    if (simulation.rags)
       silhouettes_ =
           open("silhouettes", {"time [s]", "rag [1]", "area [m2]", "x [m]", "y [m]", "elongation_ratio [1]", "orientation [rad]"});
-    }
     if (simulation.coupled) coupling_ = open("coupling", CoupledSolver::columns());
   });
   if (simulation.water) {
@@ -148,7 +117,12 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     const Flow& flow = simulation.water->flow;
     pump_ = std::make_unique<PumpOutput>(folder_ / "monitors", flow, *simulation.pump, rotor_state(*flow.rotating_zone, 0), resume, from);
   }
-  if (simulation.rags) rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
+  if (simulation.rags) {
+    rag_monitors_ =
+        std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
+    rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
+    forces_ = rag_forces(*simulation.rags, nullptr, 0);
+  }
 }
 
 void Outputs::initial() {
@@ -178,7 +152,7 @@ void Outputs::after_step() {
 }
 
 void Outputs::write_rags() {
-  rag_output_->write(*simulation_.rags, simulation_.time_step(), simulation_.time());
+  rag_output_->write(*simulation_.rags, forces_, simulation_.time_step(), simulation_.time());
   if (rank_of(MPI_COMM_WORLD) != 0) return;
   for (std::size_t rag = 0; rag < rag_output_->silhouettes().size(); ++rag) {
     const Silhouette& seen = rag_output_->silhouettes()[rag];
@@ -192,7 +166,10 @@ void Outputs::write_monitors() {
   if (simulation_.water) write_water_monitors();
   if (simulation_.water && simulation_.water->flow.rotating_zone) write_rotor_monitors();
   if (!walls_with_y_plus_.empty()) write_wall_monitors();
-  if (simulation_.rags) write_rag_monitors();
+  if (simulation_.rags) {
+    forces_ = rag_forces(*simulation_.rags, simulation_.coupled.get(), simulation_.time_settings.step);
+    rag_monitors_->after_step(*simulation_.rags, *simulation_.passage, forces_, time);
+  }
   if (simulation_.coupled) {
     largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
     if (root) coupling_.add(simulation_.coupled->record());
@@ -237,70 +214,9 @@ void Outputs::write_rotor_monitors() {
   if (pump_) pump_->after_step(flow, rotor_state(*flow.rotating_zone, flow.time));
 }
 
-void Outputs::write_rag_monitors() {
-  const RagSystem& rags = *simulation_.rags;
-  const std::vector<RagState> states = rag_states(rags);
-  const std::vector<BondCount> bonds = rags.check();
-  measure_contacts();
-  if (rank_of(MPI_COMM_WORLD) != 0) return;
-  for (std::size_t r = 0; r < states.size(); ++r) {
-    const RagState& s = states[r];
-    rags_.add({simulation_.time(),
-               static_cast<double>(r),
-               s.centre.x,
-               s.centre.y,
-               s.centre.z,
-               s.velocity.x,
-               s.velocity.y,
-               s.velocity.z,
-               s.lower.x,
-               s.lower.y,
-               s.lower.z,
-               s.upper.x,
-               s.upper.y,
-               s.upper.z,
-               s.kinetic_energy,
-               s.bond_energy,
-               s.max_bond_strain,
-               s.max_bond_tension,
-               static_cast<double>(bonds[r].broken),
-               static_cast<double>(simulation_.passage->n_out()[r])});
-  }
-  contacts_.add({simulation_.time(), n_contacts_, n_wall_contacts_, max_overlap_now_, beyond_walls_now_});
-}
-
-void Outputs::measure_contacts() {
-  ContactSolver& contacts = *simulation_.rags->contacts();
-  const ContactMeasures& m = contacts.measures();
-  const std::size_t n_rags = wall_contact_.size(), n_parts = contacts.wall_loads().size() / std::max<std::size_t>(1, n_rags);
-  std::vector<double> extremes{m.max_overlap_over_radius};
-  std::vector<std::int64_t> counts{m.n_contacts, m.n_wall_contacts};
-  for (std::size_t r = 0; r < n_rags; ++r) {
-    extremes.push_back(r < m.max_wall_overlap_over_radius.size() ? m.max_wall_overlap_over_radius[r] : 0);
-    double touched = 0;
-    for (std::size_t p = 0; p < n_parts; ++p) touched = std::max(touched, contacts.wall_loads()[r * n_parts + p].particle_time);
-    extremes.push_back(touched);
-    counts.push_back(r < m.beyond_walls.size() ? m.beyond_walls[r] : 0);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
-  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
-  contacts.reset_measures();
-  max_overlap_now_ = extremes[0], max_overlap_ = std::max(max_overlap_, extremes[0]);
-  n_contacts_ = static_cast<double>(counts[0]), n_wall_contacts_ = static_cast<double>(counts[1]);
-  beyond_walls_now_ = 0;
-  for (std::size_t r = 0; r < n_rags; ++r) {
-    max_wall_overlap_[r] = std::max(max_wall_overlap_[r], extremes[1 + 2 * r]);
-    if (extremes[2 + 2 * r] > 0) wall_contact_[r] += simulation_.time_settings.step;
-    beyond_walls_now_ += static_cast<double>(counts[2 + r]);
-  }
-  most_beyond_walls_ = std::max(most_beyond_walls_, beyond_walls_now_);
-}
-
 void Outputs::save(CheckpointWriter& writer) const {
-  std::vector<double> kept{largest_exchange_, largest_imbalance_, max_overlap_, most_beyond_walls_, largest_closure_};
-  kept.insert(kept.end(), wall_contact_.begin(), wall_contact_.end());
-  kept.insert(kept.end(), max_wall_overlap_.begin(), max_wall_overlap_.end());
-  writer.shared("outputs", std::span<const double>(kept));
+  writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_});
+  if (rag_monitors_) writer.shared("rag_monitors", rag_monitors_->state());
   if (!pump_) return;
   pump_->save(writer);
   write_phase();
@@ -308,10 +224,8 @@ void Outputs::save(CheckpointWriter& writer) const {
 
 void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
-  largest_exchange_ = kept[0], largest_imbalance_ = kept[1], max_overlap_ = kept[2], most_beyond_walls_ = kept[3];
-  largest_closure_ = kept[4];
-  for (std::size_t r = 0; r < wall_contact_.size(); ++r)
-    wall_contact_[r] = kept[5 + r], max_wall_overlap_[r] = kept[5 + wall_contact_.size() + r];
+  largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2];
+  if (rag_monitors_) rag_monitors_->restore(reader.shared("rag_monitors"));
   if (pump_) pump_->load(reader);
 }
 
@@ -325,16 +239,14 @@ void Outputs::summarise_rags(Summary& summary) const {
     RagSummary one;
     one.id = static_cast<int>(r), one.name = rag.name;
     one.particles = left.particles[r], one.bonds = left.bonds[r].whole, one.broken_bonds = left.bonds[r].broken;
-    one.outcome = simulation_.passage->outcome(r), one.events = simulation_.passage->events(r);
-    one.wall_contact = wall_contact_[r];
+    one.verdict = simulation_.passage->verdict(r);
     one.elongation_ratio = states[r].elongation_ratio;
     if (!rag_output_->silhouettes().empty()) {
       one.projected_area = rag_output_->silhouettes()[r].area;
       if (one.projected_area > 0) one.elongation_ratio = rag_output_->silhouettes()[r].elongation_ratio;
     }
-    one.max_wall_overlap_over_radius = max_wall_overlap_[r], one.max_overlap_over_radius = max_overlap_;
+    one.max_wall_overlap_over_radius = rag_monitors_->max_wall_overlap(r), one.max_overlap_over_radius = rag_monitors_->max_overlap();
     one.bond_strain_p99 = bond_strain_quantile(rags, static_cast<int>(r), 0.99);
-    one.max_bond_tension = states[r].max_bond_tension;
     summary.rags.push_back(one);
     summary.conservation.particles_lost += rag.n_particles - one.particles;
     summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
@@ -371,10 +283,11 @@ void Outputs::finish(ExitCode exit, double wall_seconds) {
     s.pump = pump_->summary();
     write_phase();
   }
-  s.conservation.particles_beyond_walls = static_cast<std::int64_t>(most_beyond_walls_);
+  if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
   together(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
   });
+  if (const std::string results = results_in_words(s); !results.empty()) log::info(results);
 }
 
 }  // namespace snag

@@ -6,6 +6,7 @@
 
 #include "app/field_output.hpp"
 #include "app/pump_output.hpp"
+#include "app/rag_monitors.hpp"
 #include "app/rag_output.hpp"
 #include "app/simulation.hpp"
 #include "app/summary.hpp"
@@ -43,29 +44,27 @@ class Outputs {
   void write_rotor_monitors();
   void write_phase() const;
   void write_wall_monitors();
-  void write_rag_monitors();
   void write_rags();
-  void measure_contacts();
   void summarise_rags(Summary& summary) const;
   bool due(double interval) const;
 
   std::filesystem::path folder_;
   const CaseFile& file_;
   Simulation& simulation_;
-  Series residuals_, patches_, wall_, rags_, contacts_, silhouettes_, coupling_, timing_;  // open on rank 0
+  Series residuals_, patches_, wall_, silhouettes_, coupling_, timing_;  // open on rank 0
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<WallOutput> walls_;
+  std::unique_ptr<RagMonitors> rag_monitors_;
   std::unique_ptr<RagOutput> rag_output_;
+  RagForces forces_;  // of the last step
   std::unique_ptr<PumpOutput> pump_;
   double fields_interval_ = 0, rags_interval_ = 0;  // s
   double seconds_ = 0;                              // spent here
   std::int64_t first_step_ = 0;                     // of this process
   std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
 
-  double n_contacts_ = 0, n_wall_contacts_ = 0, max_overlap_now_ = 0, beyond_walls_now_ = 0;
   // over the whole run, kept by checkpoints
-  double largest_exchange_ = 0, largest_imbalance_ = 0, max_overlap_ = 0, most_beyond_walls_ = 0, largest_closure_ = 0;
-  std::vector<double> wall_contact_, max_wall_overlap_;  // [n_rags] s, 1
+  double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0;
 };
 
 }  // namespace snag

@@ -1,90 +1,121 @@
 #include "app/passage.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
-#include "parallel/sum.hpp"
+#include "dem/tile_particles.hpp"
 
 namespace snag {
 
 namespace {
 
-constexpr double reach = 1.5;  // of an opening's radius: a rag on its way out may hang over the rim
-constexpr int n_kinds = 2;
-const char* const kinds[n_kinds] = {"reached the outlet", "exited"};
+/// What is counted of the particles of one rag; contacts follow.
+enum Count {
+  upstream,
+  out,
+  left_mesh,
+  discharge,
+  outside_impeller,
+  past_inside,
+  past_outside,
+  touching,
+  touched = touching + n_wall_places,
+  n_counts = touched + n_wall_places
+};
 
-bool is_out(const Vec3& x, const std::vector<Opening>& openings) {
-  return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
-    const Vec3 away = x - opening.centre;
-    const double beyond = dot(away, opening.normal);
-    return beyond > 0 && norm(away - beyond * opening.normal) < reach * opening.radius;
-  });
+bool is_beyond(const Vec3& x, const std::vector<Opening>& openings, bool is_way_out) {
+  return std::any_of(openings.begin(), openings.end(),
+                     [&](const Opening& opening) { return opening.is_way_out == is_way_out && opening.beyond(x) > 0; });
+}
+
+void count_contacts(const ContactSolver& contacts, std::vector<std::int64_t>& counts) {
+  const std::vector<WallTouch>& touches = contacts.wall_touches();
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    const std::size_t rag = i / n_wall_places, place = i % n_wall_places;
+    counts[rag * n_counts + touching + place] = touches[i].now;
+    counts[rag * n_counts + touched + place] = touches[i].since_reset;
+  }
+}
+
+RagSighting sighting(const std::int64_t* counts, const RagState& state, const std::optional<PassageGeometry>& geometry) {
+  RagSighting seen;
+  seen.n = state.n_particles, seen.n_upstream = counts[upstream], seen.n_out = counts[out];
+  seen.n_in_discharge = counts[discharge], seen.n_outside_impeller = counts[outside_impeller];
+  seen.n_past_inside = counts[past_inside], seen.n_past_outside = counts[past_outside];
+  for (int place = 0; place < n_wall_places; ++place)
+    seen.touching[place] = counts[touching + place], seen.touched[place] = counts[touched + place] > 0;
+  seen.tension = state.max_bond_tension, seen.tension_place = state.max_bond_tension_place;
+  if (!geometry) return seen;
+  seen.angle = geometry->angle(state.centre), seen.radius = geometry->radius(state.centre), seen.height = geometry->height(state.centre);
+  seen.tension_angle = geometry->angle(state.max_bond_tension_place);
+  return seen;
 }
 
 }  // namespace
 
-std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary) {
-  std::vector<Opening> found;
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    const Patch& patch = mesh.patches[p];
-    if (boundary.fixes(static_cast<int>(p)) != Fixes::pressure) continue;
-    std::vector<Vec3> vectors, moments;
-    std::vector<double> areas;
-    for (int f = patch.first; f < patch.end(); ++f) {
-      const double area = norm(mesh.face_vector[f]);
-      vectors.push_back(mesh.face_vector[f]), moments.push_back(area * mesh.face_centre[f]), areas.push_back(area);
-    }
-    Opening opening{patch.name, sum(mesh.comm, moments) / sum(mesh.comm, areas), unit(sum(mesh.comm, vectors)), 0};
-    double radius = 0;
-    for (int f = patch.first; f < patch.end(); ++f) radius = std::max(radius, norm(mesh.face_centre[f] - opening.centre));
-    opening.radius = maximum(mesh.comm, radius);
-    found.push_back(opening);
+Passage::Passage(MPI_Comm comm, std::vector<Opening> openings, std::optional<PassageGeometry> geometry, std::size_t n_rags)
+    : comm_(comm),
+      openings_(std::move(openings)),
+      geometry_(std::move(geometry)),
+      journeys_(n_rags, RagJourney(geometry_ ? geometry_->sense() : 0)),
+      sightings_(n_rags),
+      states_(n_rags),
+      n_out_(n_rags) {}
+
+void Passage::look_at(const Vec3& x, std::int64_t* counts) const {
+  const bool has_left = is_beyond(x, openings_, true);
+  if (has_left) ++counts[left_mesh];
+  if (!geometry_) {
+    if (has_left) ++counts[out];
+    if (is_beyond(x, openings_, false)) ++counts[upstream];
+    return;
   }
-  return found;
+  if (geometry_->is_upstream(x)) ++counts[upstream];
+  if (geometry_->is_out(x)) ++counts[out];
+  if (geometry_->radius(x) > geometry_->impeller_radius()) ++counts[outside_impeller];
+  const bool is_in_discharge = geometry_->is_in_discharge(x);
+  if (is_in_discharge) ++counts[discharge];
+  const double past = geometry_->sense() * geometry_->angle(x);
+  if (past > 0 && past < std::numbers::pi / 2) ++counts[is_in_discharge ? past_outside : past_inside];
 }
 
-Passage::Passage(MPI_Comm comm, std::vector<Opening> openings, std::size_t n_rags)
-    : comm_(comm), openings_(std::move(openings)), events_(n_rags), event_times_(n_rags * n_kinds, -1), n_out_(n_rags) {}
-
-void Passage::observe(const RagSystem& rags, double time) {
-  if (openings_.empty()) return;
-  std::fill(n_out_.begin(), n_out_.end(), 0);
-  for (const Tile& tile : rags.tiles()) {
-    for (int j = 0; j < tile.ny; ++j) {
-      for (int i = 0; i < tile.nx; ++i) {
-        const int k = tile.index(i, j);
-        if (tile.exists[k] != 0 && is_out(tile.vector(Tile::x, k), openings_)) ++n_out_[tile.rag];
-      }
-    }
+void Passage::observe(RagSystem& rags, double time, double step) {
+  std::vector<std::int64_t> counts(journeys_.size() * n_counts);
+  for (const Tile& tile : rags.tiles())
+    for_particles(tile, [&](int k, int, int) { look_at(tile.vector(Tile::x, k), &counts[tile.rag * n_counts]); });
+  if (rags.contacts()) count_contacts(*rags.contacts(), counts);
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, comm_);
+  states_ = rag_states(rags);
+  for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
+    n_out_[rag] = counts[rag * n_counts + left_mesh];
+    sightings_[rag] = sighting(&counts[rag * n_counts], states_[rag], geometry_);
+    journeys_[rag].add(sightings_[rag], time, step);
   }
-  MPI_Allreduce(MPI_IN_PLACE, n_out_.data(), static_cast<int>(n_out_.size()), MPI_INT64_T, MPI_SUM, comm_);
-  for (std::size_t rag = 0; rag < n_out_.size(); ++rag) {
-    if (n_out_[rag] > 0) set_event(rag, 0, time);
-    if (n_out_[rag] == rags.rags()[rag].n_particles) set_event(rag, 1, time);
-  }
-}
-
-void Passage::set_event(std::size_t rag, int which, double time) {
-  double& when = event_times_[rag * n_kinds + which];
-  if (when >= 0) return;
-  when = time;
-  events_[rag].push_back({time, kinds[which]});
 }
 
 bool Passage::all_exited() const {
-  bool all = !events_.empty();
-  for (std::size_t rag = 0; rag < events_.size(); ++rag) all = all && event_times_[rag * n_kinds + 1] >= 0;
+  return !journeys_.empty() && std::all_of(journeys_.begin(), journeys_.end(), [](const RagJourney& rag) { return rag.has_exited(); });
+}
+
+/// [rag by rag: particles beyond an outlet, length of the journey's state, that state]
+std::vector<double> Passage::state() const {
+  std::vector<double> all;
+  for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
+    const std::vector<double> journey = journeys_[rag].state();
+    all.insert(all.end(), {static_cast<double>(n_out_[rag]), static_cast<double>(journey.size())});
+    all.insert(all.end(), journey.begin(), journey.end());
+  }
   return all;
 }
 
-std::string Passage::outcome(std::size_t rag) const { return event_times_[rag * n_kinds + 1] >= 0 ? "exited" : "upstream"; }
-
-std::vector<double> Passage::state() const { return event_times_; }
-
 void Passage::restore(const std::vector<double>& state) {
-  for (std::size_t rag = 0; rag < events_.size(); ++rag) {
-    for (int which = 0; which < n_kinds; ++which) {
-      if (state[rag * n_kinds + which] >= 0) set_event(rag, which, state[rag * n_kinds + which]);
-    }
+  auto next = state.begin();
+  for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
+    n_out_[rag] = static_cast<std::int64_t>(*next++);
+    const auto length = static_cast<std::ptrdiff_t>(*next++);
+    journeys_[rag].restore({next, next + length});
+    next += length;
   }
 }
 

@@ -1,50 +1,52 @@
 #pragma once
-// How a rag passes through the domain: which part of it has gone out through an opening, and what happened when.
+// Where the rags are and what they touch, step by step: what is seen of each (app/rag_journey.hpp tells its story) and which particles have
+// left the mesh.
 //
-// An opening is a patch on which pressure is given, seen as a disc: its mean plane and the radius that holds it. A particle is out when it
-// is beyond the plane and within 1.5 radii of the axis.
-#include <string>
+// With [passage] a rag's way is told by the flanges and the tongue of the pump (app/passage_geometry.hpp); without it a particle is out
+// beyond a pressure outlet, and upstream beyond a pressure inlet.
+#include <optional>
 #include <vector>
 
-#include "app/summary.hpp"
+#include "app/opening.hpp"
+#include "app/passage_geometry.hpp"
+#include "app/rag_journey.hpp"
+#include "dem/rag_measures.hpp"
 #include "dem/rag_system.hpp"
-#include "mesh/mesh.hpp"
-#include "solver/boundary.hpp"
 
 namespace snag {
 
-struct Opening {
-  std::string name;
-  Vec3 centre, normal;  // m; unit, out of the domain
-  double radius = 0;    // m
-};
-
-/// Patches of the mesh on which pressure is given. Collective.
-std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary);
-
 class Passage {
  public:
-  Passage(MPI_Comm comm, std::vector<Opening> openings, std::size_t n_rags);
-  /// Look where the particles are now; new events get this time. Collective.
-  void observe(const RagSystem& rags, double time);
+  Passage(MPI_Comm comm, std::vector<Opening> openings, std::optional<PassageGeometry> geometry, std::size_t n_rags);
+  /// Looks where the particles are at the end of a step of length `step` that led to `time`, s; contacts are those since their measures
+  /// were last reset. Collective.
+  void observe(RagSystem& rags, double time, double step);
+
   /// True once every rag is wholly out (false without rags).
   bool all_exited() const;
-  /// exited, or upstream for one that has not left.
-  std::string outcome(std::size_t rag) const;
-  const std::vector<RagSummary::Event>& events(std::size_t rag) const { return events_[rag]; }
-  /// Particles of each rag that are out.
+  RagVerdict verdict(std::size_t rag) const { return journeys_[rag].verdict(); }
+  const std::optional<PassageGeometry>& geometry() const { return geometry_; }
+
+  // Of the last look; the same on every rank.
+  const RagJourney& journey(std::size_t rag) const { return journeys_[rag]; }
+  const std::vector<RagSighting>& sightings() const { return sightings_; }
+  const std::vector<RagState>& states() const { return states_; }
+  /// Particles of each rag that are beyond a pressure outlet of the mesh.
   const std::vector<std::int64_t>& n_out() const { return n_out_; }
 
-  /// The same after a resume: the times at which events happened, [n_rags][2], -1 where one did not.
+  /// What the next look needs of the past: numbers, for one resume.
   std::vector<double> state() const;
   void restore(const std::vector<double>& state);
 
  private:
-  void set_event(std::size_t rag, int which, double time);
+  void look_at(const Vec3& x, std::int64_t* counts) const;
+
   MPI_Comm comm_;
   std::vector<Opening> openings_;
-  std::vector<std::vector<RagSummary::Event>> events_;
-  std::vector<double> event_times_;  // [n_rags][2]: first particle out, whole rag out; s, -1: not yet
+  std::optional<PassageGeometry> geometry_;
+  std::vector<RagJourney> journeys_;
+  std::vector<RagSighting> sightings_;
+  std::vector<RagState> states_;
   std::vector<std::int64_t> n_out_;
 };
 

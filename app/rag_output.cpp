@@ -16,7 +16,9 @@ std::vector<VtkArray> point_arrays(const RagSheet& sheet, const std::vector<Rag>
           vtk_array("velocity [m/s]", sheet.velocity),
           vtk_array("tension [N]", sheet.tension),
           vtk_array("strain [1]", sheet.strain),
-          vtk_array("radius [m]", radius)};
+          vtk_array("radius [m]", radius),
+          vtk_array("fluid_force [N]", sheet.more[0]),
+          vtk_array("contact_force [N]", sheet.more[1])};
 }
 
 }  // namespace
@@ -26,8 +28,8 @@ RagOutput::RagOutput(std::filesystem::path folder, bool resume, double from_time
       sheets_(folder_ / "rags.pvd", resume, from_time),
       particles_(folder_ / "particles.pvd", resume, from_time) {}
 
-void RagOutput::write(const RagSystem& rags, std::int64_t time_step, double time) {
-  const RagSheet sheet = gather_sheet(rags);
+void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time) {
+  const RagSheet sheet = gather_sheet(rags, {&forces.fluid, &forces.contact});
   together(rags.comm(), [&] {
     if (rank_of(rags.comm()) != 0) return;
     VtkPiece piece;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/rag_forces.hpp"
 #include "base/vtk_file.hpp"
 #include "dem/rag_measures.hpp"
 #include "observe/silhouette.hpp"
@@ -15,7 +16,7 @@ class RagOutput {
   /// Keeps the entries of a resumed run up to from_time. Rank 0 writes.
   RagOutput(std::filesystem::path folder, bool resume, double from_time);
   /// Collective; throws Error(io).
-  void write(const RagSystem& rags, std::int64_t time_step, double time);
+  void write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time);
   /// Silhouettes of the rags as they were last written, seen against z (x to the right, y up); on rank 0.
   const std::vector<Silhouette>& silhouettes() const { return silhouettes_; }
 

@@ -1,5 +1,6 @@
 #include "app/sections.hpp"
 
+#include "app/passage_geometry.hpp"
 #include "app/settings.hpp"
 #include "app/start_flow.hpp"
 #include "coupling/coupling_settings.hpp"
@@ -24,6 +25,7 @@ struct AllSections::Settings {
   RotatingZoneSettings rotating_zone;
   StartSettings start;
   PumpSettings pump;
+  PassageSettings passage;
   PrescribedFlow prescribed;
   RagSettings rag{RagSettings::Shape::rag}, disc{RagSettings::Shape::disc}, fibre{RagSettings::Shape::fibre},
       particle{RagSettings::Shape::particle};
@@ -44,8 +46,8 @@ std::vector<Section> AllSections::list() {
   append(boundary_sections());
   append({s.rotating_zone.section()});
   append(turbulence_sections());
-  append({s.start.section(), s.pump.section(), s.prescribed.section(), s.rag.section(), s.disc.section(), s.fibre.section(),
-          s.particle.section(), s.dem.section()});
+  append({s.start.section(), s.pump.section(), s.passage.section(), s.prescribed.section(), s.rag.section(), s.disc.section(),
+          s.fibre.section(), s.particle.section(), s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});

@@ -122,11 +122,14 @@ void Simulation::build_rags(const CaseFile& file) {
   DemSettings settings;
   read(file.root(), settings);
   std::vector<RagPiece> pieces = read_pieces(file);
+  std::optional<PassageGeometry> way = read_passage(file.root(), water ? water->flow.rotating_zone : nullptr);
   if (pieces.empty()) return;
   poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_poses_);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
-  passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, rags->rags().size());
+  if (way) rags->contacts()->mark_line({way->tongue(), way->direction(), way->tongue_reach()});
+  passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, std::move(way),
+                                      rags->rags().size());
 }
 
 void Simulation::couple(const CaseFile& file) {
@@ -156,7 +159,7 @@ void Simulation::step() {
   if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
   check_inside();
   ++time_step_;
-  if (passage) passage->observe(*rags, time());
+  if (passage) passage->observe(*rags, time(), time_settings.step);
 }
 
 /// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.
@@ -201,7 +204,6 @@ void Simulation::load(CheckpointReader& reader) {
   if (rags) {
     rags->load(reader);
     passage->restore(reader.shared("passage"));
-    passage->observe(*rags, time());
   }
   if (coupled) coupled->load(reader);
 }

@@ -9,6 +9,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
+#include "base/words.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -17,29 +18,57 @@ namespace {
 
 double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
 
-nlohmann::ordered_json rag_json(const RagSummary& rag) {
+/// Null where there is no value.
+template <class T>
+nlohmann::ordered_json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json events_json(const RagVerdict& rag) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
-  for (const auto& event : rag.events) events.push_back({{"t_s", event.time}, {"what", event.what}});
+  for (const auto& event : rag.events) events.push_back({{"t_s", event.time}, {"angle_deg", or_null(event.angle)}, {"what", event.what}});
+  return events;
+}
+
+nlohmann::ordered_json volute_json(const RagVerdict& rag) {
+  nlohmann::ordered_json bins = nlohmann::ordered_json::array();
+  for (const auto& bin : rag.volute)
+    bins.push_back({{"angle_deg", bin.angle}, {"time_s", bin.time}, {"mean_radius_m", or_null(bin.mean_radius)}});
+  return bins;
+}
+
+nlohmann::ordered_json tension_json(const RagVerdict& rag) {
+  if (!rag.max_tension_time) return {};
+  const Vec3& x = rag.max_tension_place;
+  return {{"t_s", *rag.max_tension_time}, {"x_m", {x.x, x.y, x.z}}, {"angle_deg", or_null(rag.max_tension_angle)}};
+}
+
+nlohmann::ordered_json rag_json(const RagSummary& rag) {
+  const RagVerdict& verdict = rag.verdict;
   return {{"id", rag.id},
           {"name", rag.name},
           {"particles", rag.particles},
           {"bonds", rag.bonds},
           {"broken_bonds", rag.broken_bonds},
-          {"outcome", rag.outcome},
-          {"retention_time_s", nullptr},  // of a pump; null where there is none
-          {"time_to_enter_s", nullptr},
-          {"recirculations", nullptr},
-          {"stuck_on_tongue_s", nullptr},
-          {"stuck_on_impeller_s", nullptr},
-          {"wall_contact_s", rag.wall_contact},
+          {"outcome", verdict.outcome},
+          {"retention_time_s", or_null(verdict.retention_time)},
+          {"time_to_enter_s", or_null(verdict.time_to_enter)},
+          {"recirculations", or_null(verdict.recirculations)},
+          {"stuck_on_tongue_s", or_null(verdict.stuck_on_tongue)},
+          {"stuck_on_impeller_s", or_null(verdict.stuck_on_impeller)},
+          {"wall_contact_s", verdict.wall_contact},
+          {"wall_contact_by_zone_s",
+           {{"impeller", verdict.impeller_contact}, {"tongue", or_null(verdict.tongue_contact)}, {"other", verdict.other_contact}}},
           {"elongation_ratio", rag.elongation_ratio},
           {"projected_area_m2", rag.projected_area},
           {"max_wall_overlap_over_radius", rag.max_wall_overlap_over_radius},
           {"max_overlap_over_radius", rag.max_overlap_over_radius},
           {"bond_strain_p99", rag.bond_strain_p99},
-          {"max_bond_tension_N", rag.max_bond_tension},
+          {"max_bond_tension_N", verdict.max_tension},
+          {"max_bond_tension_at", tension_json(verdict)},
           {"corrected_positions", rag.corrected_positions},
-          {"events", events}};
+          {"volute", volute_json(verdict)},
+          {"events", events_json(verdict)}};
 }
 
 nlohmann::ordered_json pump_json(const PumpSummary& pump) {
@@ -93,6 +122,24 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
                                    {"particles_beyond_walls", s.conservation.particles_beyond_walls}}}};
   if (!s.pump) json.erase("pump");
   write_atomically(file, json.dump(2) + "\n");
+}
+
+std::string results_in_words(const Summary& summary) {
+  const auto seconds = [](const std::optional<double>& time) { return time ? words(*time) + " s" : std::string("-"); };
+  std::string text;
+  for (const RagSummary& rag : summary.rags) {
+    const RagVerdict& verdict = rag.verdict;
+    text += (text.empty() ? "" : "\n") + rag.name + ": " + verdict.outcome;
+    if (verdict.recirculations)
+      text += ", retention time " + seconds(verdict.retention_time) + ", time to enter " + seconds(verdict.time_to_enter) +
+              ", recirculations " + std::to_string(*verdict.recirculations);
+    text += ", wall contact " + seconds(verdict.wall_contact);
+    if (verdict.recirculations)
+      text += " (impeller " + seconds(verdict.impeller_contact) + ", tongue " + seconds(verdict.tongue_contact) + ")";
+  }
+  if (summary.pump)
+    text += (text.empty() ? "" : "\n") + ("pump: head " + words(summary.pump->head) + " m at " + words(1e3 * summary.pump->flow) + " L/s");
+  return text;
 }
 
 std::int64_t peak_memory() {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/pump_output.hpp"
-#include "base/vec3.hpp"
+#include "app/rag_journey.hpp"
 
 namespace snag {
 
@@ -15,15 +15,9 @@ struct RagSummary {
   int id = 0;
   std::string name;
   std::int64_t particles = 0, bonds = 0, broken_bonds = 0;
-  std::string outcome;  // exited | recirculating | stuck_on_tongue | stuck_on_impeller | upstream | in_domain
-  double wall_contact = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0, max_overlap_over_radius = 0,
-         bond_strain_p99 = 0, max_bond_tension = 0;
+  RagVerdict verdict;
+  double elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0, max_overlap_over_radius = 0, bond_strain_p99 = 0;
   std::int64_t corrected_positions = 0;
-  struct Event {
-    double time = 0;
-    std::string what;
-  };
-  std::vector<Event> events;
 };
 
 struct Summary {
@@ -51,6 +45,9 @@ struct Summary {
 
 /// Throws Error(io).
 void write_summary(const std::filesystem::path& file, const Summary& summary);
+
+/// What most want to know, a line a rag and one for the pump; empty without both.
+std::string results_in_words(const Summary& summary);
 
 /// Peak resident memory of all ranks, bytes. Collective.
 std::int64_t peak_memory();

@@ -55,18 +55,17 @@ void CoupledSolver::mesh_moved() {
 
 void CoupledSolver::give(double dt) {
   report_ = {};
+  impulses_ = load_->impulses(rags_.tiles());
   if (!flow_) return;
   const ParticleList& particles = kernel_field_->particles();
   std::vector<double> volume(particles.size()), sensitivity(particles.size());
-  std::vector<Vec3> impulse(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b) {
     const int t = particles.tile(b), k = particles.place(b);
     volume[b] = rags_.rags()[rags_.tiles()[t].rag].hydrodynamic_volume;
-    impulse[b] = load_->impulse(t, k);
     sensitivity[b] = load_->sensitivity(t, k);
   }
   report_.max_solid_fraction = exchange_->give_volumes(volume);
-  if (coupling_.settings.two_way()) exchange_->give(impulse, sensitivity, dt);
+  if (coupling_.settings.two_way()) exchange_->give(impulses_, sensitivity, dt);
 }
 
 void CoupledSolver::settle(double dt) {
@@ -78,6 +77,7 @@ void CoupledSolver::settle(double dt) {
   for (std::size_t b = 0; b < particles.size(); ++b) {
     Tile& tile = rags_.tiles()[particles.tile(b)];
     const int k = particles.place(b);
+    impulses_[b] += settled[b];
     if (tile.free[k] > 0) tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + settled[b] / rags_.rags()[tile.rag].mass);
   }
   const ExchangeBalance balance = exchange_->balance();

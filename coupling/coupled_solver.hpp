@@ -46,6 +46,9 @@ class CoupledSolver {
   const Coupling& coupling() const { return coupling_; }
   const CouplingReport& report() const { return report_; }
   const CouplingSeconds& seconds() const { return seconds_; }
+  /// What the water gave each particle of this rank in the last step, N s, in the order of ParticleList; without forces that do not react
+  /// on the water (weight and buoyancy). Empty before the first step.
+  const std::vector<Vec3>& impulses() const { return impulses_; }
 
   /// Columns of monitors/coupling.csv, and the record of the last step.
   static std::vector<std::string> columns();
@@ -70,6 +73,7 @@ class CoupledSolver {
   std::unique_ptr<PrescribedField> prescribed_field_;
   std::unique_ptr<FluidLoad> load_;
   std::unique_ptr<Exchange> exchange_;
+  std::vector<Vec3> impulses_;
   CouplingReport report_;
   CouplingSeconds seconds_;
 };

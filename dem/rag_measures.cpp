@@ -48,8 +48,16 @@ struct Terms {
   std::vector<double> kinetic, bond;
   std::array<std::vector<double>, 6> moment;  // xx yy zz xy yz zx about the origin of the tile sums
   double tension = -infinity, strain = -infinity;
+  std::int64_t tight_bond = 0;  // the bond under this tension: twice the id of its first end, 1 more between rows
+  Vec3 tight_place;             // its middle, m
   Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity}, first, last;
   double has_first = 0, has_last = 0;
+
+  /// Of bonds under the same tension the one with the lowest number: the same on any number of ranks.
+  void add_tension(double of_bond, std::int64_t number, const Vec3& place) {
+    if (!(of_bond > tension || (of_bond == tension && number < tight_bond))) return;
+    tension = of_bond, tight_bond = number, tight_place = place;
+  }
 };
 
 void add_particles(const Tile& tile, const Rag& rag, Terms& terms) {
@@ -80,7 +88,9 @@ double elongation(const std::array<double, 6>& moment, const Vec3& centre) {
 
 RagState state_of(MPI_Comm comm, const Rag& rag, const Terms& t) {
   RagState s;
-  const double n = static_cast<double>(rag.n_particles);
+  s.n_particles = sum(comm, static_cast<std::int64_t>(t.position.size()));
+  if (s.n_particles == 0) return s;
+  const double n = static_cast<double>(s.n_particles);
   s.centre = sum(comm, std::span<const Vec3>(t.position)) / n;
   s.momentum = sum(comm, std::span<const Vec3>(t.momentum));
   s.velocity = s.momentum / (n * rag.mass);
@@ -91,7 +101,13 @@ RagState state_of(MPI_Comm comm, const Rag& rag, const Terms& t) {
   s.elongation_ratio = elongation(moment, s.centre);
   for (int c = 0; c < 3; ++c) s.lower[c] = minimum(comm, t.lower[c]), s.upper[c] = maximum(comm, t.upper[c]);
   const bool has_bonds = maximum(comm, t.strain) > -infinity;
-  s.max_bond_tension = has_bonds ? maximum(comm, t.tension) : 0, s.max_bond_strain = has_bonds ? maximum(comm, t.strain) : 0;
+  if (has_bonds) {
+    s.max_bond_tension = maximum(comm, t.tension), s.max_bond_strain = maximum(comm, t.strain);
+    const double mine = t.tension == s.max_bond_tension ? static_cast<double>(t.tight_bond) : infinity;
+    const double lowest = minimum(comm, mine);
+    const bool is_mine = mine < infinity && lowest == mine;
+    s.max_bond_tension_place = sum(comm, std::span<const Vec3>(&t.tight_place, is_mine ? 1 : 0));
+  }
   const bool has_ends = sum(comm, t.has_first) == 1 && sum(comm, t.has_last) == 1;
   const Vec3 ends = sum(comm, std::span<const Vec3>(std::array<Vec3, 2>{t.last, -t.first}));
   s.end_to_end = has_ends ? norm(ends) : std::numeric_limits<double>::quiet_NaN();
@@ -106,9 +122,11 @@ std::vector<RagState> rag_states(const RagSystem& rags) {
     const Rag& rag = rags.rags()[tile.rag];
     Terms& t = terms[tile.rag];
     add_particles(tile, rag, t);
-    for_bonds(tile, bond_laws(rag), false, [&](int, int, const BondForce& bond) {
+    for_bonds(tile, bond_laws(rag), false, [&](int a, int b, const BondForce& bond) {
       t.bond.push_back(bond.energy_parts[0] + bond.energy_parts[1] + bond.energy_parts[2] + bond.energy_parts[3]);
-      t.tension = std::max(t.tension, bond.tension), t.strain = std::max(t.strain, bond.length / (2 * rag.radius) - 1);
+      t.strain = std::max(t.strain, bond.length / (2 * rag.radius) - 1);
+      const std::int64_t first = particle_id(rag, tile, a % tile.stride - 1, a / tile.stride - 1);
+      t.add_tension(bond.tension, 2 * first + (b != a + 1), 0.5 * (tile.vector(Tile::x, a) + tile.vector(Tile::x, b)));
     });
   }
   std::vector<RagState> states;
@@ -148,8 +166,9 @@ namespace {
 /// What one particle sends to rank 0, as doubles.
 enum Column { c_id, c_rag, c_state, c_tension = c_state + 10, c_strain, c_bond_x, c_bond_y, n_sheet_columns };
 
-std::vector<double> sheet_rows(const RagSystem& rags) {
+std::vector<double> sheet_rows(const RagSystem& rags, const std::vector<const std::vector<Vec3>*>& more) {
   std::vector<double> rows;
+  std::size_t n = 0;
   for (const Tile& tile : rags.tiles()) {
     const Rag& rag = rags.rags()[tile.rag];
     std::vector<double> tension(tile.exists.size(), -infinity), strain(tile.exists.size(), -infinity);
@@ -163,6 +182,9 @@ std::vector<double> sheet_rows(const RagSystem& rags) {
       const bool bonded = tension[k] > -infinity;
       rows.push_back(bonded ? tension[k] : 0), rows.push_back(bonded ? strain[k] : 0);
       rows.push_back(tile.bond_x[k]), rows.push_back(tile.bond_y[k]);
+      for (const std::vector<Vec3>* vectors : more)
+        for (int c = 0; c < 3; ++c) rows.push_back((*vectors)[n][c]);
+      ++n;
     });
   }
   return rows;
@@ -183,13 +205,18 @@ void add_triangles(const std::vector<Rag>& rags, const std::vector<const double*
 
 }  // namespace
 
-RagSheet gather_sheet(const RagSystem& rags) {
-  const std::vector<double> all = gathered_on_first(rags.comm(), sheet_rows(rags));
+RagSheet gather_sheet(const RagSystem& rags, const std::vector<const std::vector<Vec3>*>& more) {
+  const std::vector<double> all = gathered_on_first(rags.comm(), sheet_rows(rags, more));
   std::vector<const double*> rows;
-  for (std::size_t k = 0; k < all.size(); k += n_sheet_columns) rows.push_back(&all[k]);
+  for (std::size_t k = 0; k < all.size(); k += n_sheet_columns + 3 * more.size()) rows.push_back(&all[k]);
   std::sort(rows.begin(), rows.end(), [](const double* a, const double* b) { return a[c_id] < b[c_id]; });
   RagSheet sheet;
+  sheet.more.resize(more.size());
   for (const double* row : rows) {
+    for (std::size_t m = 0; m < more.size(); ++m) {
+      const double* v = row + n_sheet_columns + 3 * m;
+      sheet.more[m].push_back({v[0], v[1], v[2]});
+    }
     sheet.id.push_back(static_cast<std::int64_t>(row[c_id])), sheet.rag.push_back(static_cast<int>(row[c_rag]));
     const double* s = row + c_state;
     sheet.position.push_back({s[Tile::x], s[Tile::y], s[Tile::z]}), sheet.velocity.push_back({s[Tile::vx], s[Tile::vy], s[Tile::vz]});

@@ -10,8 +10,9 @@
 
 namespace snag {
 
-/// State of one rag as a whole, the same on every rank.
+/// State of one rag as a whole, the same on every rank; all zero while it has no particles.
 struct RagState {
+  std::int64_t n_particles = 0;     // that exist now
   Vec3 centre, velocity;            // of mass; m, m/s
   Vec3 lower, upper;                // corners of its bounding box, m
   Vec3 momentum, angular_momentum;  // kg m/s; kg m2/s about the origin, spins included
@@ -20,6 +21,7 @@ struct RagState {
   double end_to_end = 0;            // distance of the first and the last particle of the middle row, m; nan if one does not exist
   double elongation_ratio = 0;      // largest over second axis of the ellipsoid with the same second moments; 1 for a point, inf for a line
   double max_bond_tension = 0;      // N, elastic
+  Vec3 max_bond_tension_place;      // middle of that bond, m
   double max_bond_strain = 0;       // (l - l0)/l0
 };
 /// State of each rag. Collective.
@@ -38,8 +40,10 @@ struct RagSheet {
   std::vector<double> tension;  // largest elastic tension of the particle's bonds, N (negative: all are compressed); 0 without bonds
   std::vector<double> strain;   // largest strain of the particle's bonds
   std::vector<std::array<int, 3>> triangles;  // places in the arrays; two for each lattice cell with four whole bonds
+  std::vector<std::vector<Vec3>> more;        // as given
 };
-RagSheet gather_sheet(const RagSystem& rags);
+/// `more`: vectors of this rank's particles in the order of tiles and for_particles, gathered as well. Collective.
+RagSheet gather_sheet(const RagSystem& rags, const std::vector<const std::vector<Vec3>*>& more = {});
 
 /// Sum of the bond, contact and outside forces of the last sub-step on the clamped particles of a rag, N: what the clamp holds. Collective.
 Vec3 force_on_clamped(const RagSystem& rags, int rag);

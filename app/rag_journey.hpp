@@ -1,0 +1,125 @@
+#pragma once
+// What becomes of one rag in a pump, told from what is seen of it at the end of each step: events, times, outcome. No particles, no ranks.
+//
+//   entered            the first particle is past the plane of the inlet flange
+//   wholly in the casing   no particle is upstream any more; what is out already counts as inside
+//   tongue passed      more than half of its particles are in the discharge: told again only after it recirculated
+//   recirculated       its centroid passes the tongue's angle in the sense of rotation on the shaft's side of the tongue (of the particles
+//                      within a quarter turn past that angle most are not in the discharge) while more than half of its particles are
+//                      outside the impeller: back into the volute. A pass counts once the centroid was more than a quarter turn away from
+//                      the tongue since the last one, and not if it went back through that angle in between: so hanging on the tongue is
+//                      no recirculation, nor is turning in the eye of the impeller
+//   stuck on ...       it touches the tongue, or the impeller, for more than 1 s without a gap longer than 50 ms; told once each time
+//   reached the outlet the first particle is out;      exited   all of them are
+//
+// Without a pump only the last two are told. Times are ends of steps; a rag touches a wall for the whole of a step in which it touches it
+// at all.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec3.hpp"
+#include "dem/contacts/contact_solver.hpp"
+
+namespace snag {
+
+/// One rag at the end of a step, the same on every rank. Particles are counted; without a pump only n, n_upstream, n_out, contact and
+/// tension are known.
+struct RagSighting {
+  std::int64_t n = 0;  // that exist; none: it is not in the run yet
+  std::int64_t n_upstream = 0, n_out = 0;
+  std::int64_t n_in_discharge = 0, n_outside_impeller = 0;
+  std::int64_t n_past_inside = 0, n_past_outside = 0;  // within a quarter turn past the tongue's angle: not in the discharge, in it
+  std::array<std::int64_t, n_wall_places> touching{};  // at the end of the step, by WallPlace
+  std::array<bool, n_wall_places> touched{};           // in the step
+  double angle = 0, radius = 0, height = 0;            // of the centroid; rad in (-pi, pi], m, m
+  double tension = 0, tension_angle = 0;               // largest of a bond, N; rad
+  Vec3 tension_place;                                  // m
+
+  std::int64_t n_in_casing() const { return n - n_upstream - n_out; }
+};
+
+/// What is told of a rag at the end. Absent: it did not happen, or there is no pump.
+struct RagVerdict {
+  std::string outcome;  // exited | recirculating | stuck_on_tongue | stuck_on_impeller | upstream | in_domain
+  std::optional<double> retention_time, time_to_enter;  // s: wholly in the casing to exited; entered to wholly in
+  std::optional<std::int64_t> recirculations;
+  std::optional<double> stuck_on_tongue, stuck_on_impeller;          // s, of all episodes of more than 1 s
+  double wall_contact = 0, impeller_contact = 0, other_contact = 0;  // s
+  std::optional<double> tongue_contact;                              // s
+  struct VoluteBin {
+    double angle = 0, time = 0;  // middle, deg; s
+    std::optional<double> mean_radius;
+  };
+  std::vector<VoluteBin> volute;  // of the centroid from wholly in the casing until it has passed the tongue outwards
+  double max_tension = 0;
+  std::optional<double> max_tension_time, max_tension_angle;  // s, deg
+  Vec3 max_tension_place;                                     // m
+  struct Event {
+    double time = 0;              // s
+    std::optional<double> angle;  // of the centroid, unwrapped, deg
+    std::string what;
+  };
+  std::vector<Event> events;
+};
+
+class RagJourney {
+ public:
+  /// `sense` of the impeller: +1 towards larger angles, -1 towards smaller; 0: no pump.
+  explicit RagJourney(int sense) : sense_(sense), is_upstream_(sense != 0) {}
+
+  /// The step of length `step` (s) that ended at `time`.
+  void add(const RagSighting& seen, double time, double step);
+  bool has_exited() const { return exited_ >= 0; }
+  /// Of the centroid, unwrapped from where it was first seen, rad.
+  double angle() const { return angle_; }
+  RagVerdict verdict() const;
+
+  /// All that the next step needs: of any length.
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);
+
+ private:
+  enum Event { entered, wholly_in, tongue_passed, recirculated, stuck_on_tongue, stuck_on_impeller, reached_outlet, exited };
+  struct Entry {
+    double time = 0, angle = 0;
+    int what = 0;
+  };
+  /// Contact with walls of one place, in episodes.
+  struct Contact {
+    double begin = -1, last = -1;   // of the episode, s; -1: none yet
+    bool is_stuck = false;          // it has lasted for more than 1 s
+    double stuck = 0, contact = 0;  // s: ended episodes of more than 1 s; all steps with contact
+    /// True if the episode has just become one of being stuck.
+    bool add(bool touched, double time, double step);
+    double stuck_time() const { return stuck + (is_stuck ? last - begin : 0); }
+    bool is_stuck_at(double time) const;
+  };
+  static constexpr int n_bins = 18;
+  enum { impeller, tongue, other };  // as WallPlace
+
+  void note(Event what, double time) { log_.push_back({time, angle_, what}); }
+  void enter(const RagSighting& seen, double time);
+  void pass_tongue(const RagSighting& seen, double before, double time);
+  void leave(const RagSighting& seen, double time);
+  std::string outcome() const;
+  template <class Self, class Visit>
+  static void for_numbers(Self& self, const Visit& visit);
+
+  int sense_;
+  std::vector<Entry> log_;
+  double time_ = 0;
+  double angle_ = 0;  // unwrapped, rad
+  bool is_seen_ = false, is_armed_ = false, is_past_tongue_ = false, is_upstream_;
+  std::int64_t n_recirculations_ = 0;
+  double entered_ = -1, wholly_in_ = -1, reached_outlet_ = -1, exited_ = -1;  // s, -1: not yet
+  std::array<Contact, n_wall_places> contact_;
+  double wall_contact_ = 0;                               // s
+  std::array<double, n_bins> bin_time_{}, bin_radius_{};  // s, m s
+  double max_tension_ = 0, max_tension_time_ = -1, max_tension_angle_ = 0;
+  Vec3 max_tension_place_;
+};
+
+}  // namespace snag

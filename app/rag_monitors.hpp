@@ -1,0 +1,40 @@
+#pragma once
+// Monitors of the rags, a row a step and rag: rags.csv (the piece as a whole), passage.csv (where in the pump it is, with [passage]),
+// rag_forces.csv (forces over its particles), and contacts.csv, a row a step. A rag that is not in the run yet has no row.
+#include <filesystem>
+#include <vector>
+
+#include "app/passage.hpp"
+#include "app/rag_forces.hpp"
+#include "base/series.hpp"
+#include "dem/rag_system.hpp"
+
+namespace snag {
+
+class RagMonitors {
+ public:
+  /// A resumed run keeps rows up to from_time. Rank 0 writes; collective; throws Error(io).
+  RagMonitors(const std::filesystem::path& folder, const RagSystem& rags, bool with_passage, bool resume, double from_time);
+  /// The step just done; starts the measures of the contacts anew. Collective; throws Error(io).
+  void after_step(RagSystem& rags, const Passage& passage, const RagForces& forces, double time);
+
+  // over the whole run, kept by checkpoints
+  double max_overlap() const { return max_overlap_; }
+  double max_wall_overlap(std::size_t rag) const { return max_wall_overlap_[rag]; }
+  std::int64_t most_beyond_walls() const { return static_cast<std::int64_t>(most_beyond_walls_); }
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);
+
+ private:
+  void measure_contacts(RagSystem& rags, double time);
+  void add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double time);
+  void add_passage(std::size_t rag, const Passage& passage, double time);
+  void add_forces(std::size_t rag, const RagForceSpread& spread, double time);
+
+  Series rags_, contacts_, passage_, forces_;  // open on rank 0
+  bool with_passage_;
+  double max_overlap_ = 0, most_beyond_walls_ = 0;
+  std::vector<double> max_wall_overlap_;  // [n_rags]
+};
+
+}  // namespace snag
