@@ -104,7 +104,8 @@ void Simulation::build_water(const CaseFile& file) {
   }
   FlowSettings settings;
   read(file.root(), settings);
-  auto zone = read_rotating_zone(file.root(), *mesh);
+  const auto gap_picture = std::filesystem::path(file.file()).replace_extension(".interface_gap.vtp");
+  auto zone = read_rotating_zone(file.root(), *mesh, gap_picture);
   water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()), read_turbulence(file.root()), std::move(zone));
 }
 

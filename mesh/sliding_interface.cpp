@@ -5,25 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
-#include "base/words.hpp"
 #include "mesh/sliding_bins.hpp"
+#include "mesh/sliding_gap.hpp"
 #include "mesh/sliding_geometry.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
 namespace {
 
-constexpr double round_off_share = 1e-13;    // of the smaller face: a smaller piece is round-off
-constexpr double coverage_tolerance = 1e-9;  // of a face's area: meshes that touch tile to 1e-13
+constexpr double round_off_share = 1e-13;  // of the smaller face: a smaller piece is round-off
 
 double reduced(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
-
-Vec3 middle_of(const RevolvedSide& side, const RevolvedFace& face, Angle turn) {
-  Vec3 mean;
-  for (int i = 0; i < face.n_nodes; ++i) mean += side.node[face.node[static_cast<std::size_t>(i)]].position(turn) / face.n_nodes;
-  return mean;
-}
 
 /// One angle's facets.
 class FacetCutter {
@@ -33,8 +25,7 @@ class FacetCutter {
         bins_(bins),
         rank_(rank),
         turn_(turn),
-        rotor_covered_(surface.rotor.face.size(), 0),
-        stator_covered_(surface.stator.face.size(), 0) {
+        cover_{std::vector<double>(surface.rotor.face.size()), std::vector<double>(surface.stator.face.size())} {
     for (const RevolvedNode& node : surface.rotor.node) rotor_plane_.push_back(node.plane_position(turn));
   }
 
@@ -43,11 +34,7 @@ class FacetCutter {
     return std::move(facets_);
   }
 
-  /// Throws if a face of this rank is not covered.
-  void require_cover() const {
-    require_cover(surface_.rotor, rotor_covered_, turn_, "turning");
-    require_cover(surface_.stator, stator_covered_, 0, "standing");
-  }
+  const FacetCover& cover() const { return cover_; }
 
  private:
   bool is_mine(const RevolvedFace& face) const { return face.rank == rank_; }
@@ -77,8 +64,8 @@ class FacetCutter {
   }
 
   void add(const RevolvedFace& rotor, const RevolvedFace& stator, const PatchGeometry& patch) {
-    rotor_covered_[static_cast<std::size_t>(&rotor - surface_.rotor.face.data())] += patch.area;
-    stator_covered_[static_cast<std::size_t>(&stator - surface_.stator.face.data())] += patch.area;
+    cover_.rotor[static_cast<std::size_t>(&rotor - surface_.rotor.face.data())] += patch.area;
+    cover_.stator[static_cast<std::size_t>(&stator - surface_.stator.face.data())] += patch.area;
     const auto side = [&](const RevolvedFace& face) {
       return FacetSide{face.cell_id, face.rank, face.cell, face.face, patch.area / face.area};
     };
@@ -102,33 +89,12 @@ class FacetCutter {
     return {low, high};
   }
 
-  void require_cover(const RevolvedSide& side, const std::vector<double>& covered, Angle turn, const std::string& name) const {
-    std::size_t worst = side.face.size();
-    int n_open = 0;
-    double worst_gap = coverage_tolerance;
-    for (std::size_t f = 0; f < side.face.size(); ++f) {
-      if (!is_mine(side.face[f])) continue;
-      const double gap = std::abs(1 - covered[f] / side.face[f].area);
-      if (gap <= coverage_tolerance) continue;
-      ++n_open;
-      if (gap > worst_gap) worst = f, worst_gap = gap;
-    }
-    if (n_open == 0) return;
-    const RevolvedFace& face = side.face[worst];
-    const Vec3 at = surface_.frame.point_from(middle_of(side, face, turn));
-    throw Error(ExitCode::mesh, "sliding interface: the face of the " + name + " side at " + place(at) + " (" + words(face.area) +
-                                    " m2, cell " + std::to_string(face.cell_id) + ") is covered by the other side to " +
-                                    words(100 * covered[worst] / face.area) + " %, and so are " + std::to_string(n_open - 1) +
-                                    " more faces of this rank; both sides must be the same surface of revolution and touch everywhere: "
-                                    "compare radius, ends and axis of the two patches there");
-  }
-
   const RevolvedSurface& surface_;
   const SlidingBins& bins_;
   int rank_;
   Angle turn_;
   std::vector<Point2> rotor_plane_;  // of the nodes, in the axis frame, at this angle
-  std::vector<double> rotor_covered_, stator_covered_;
+  FacetCover cover_;
   std::vector<int> candidates_;
   std::vector<Facet> facets_;
 };
@@ -144,9 +110,10 @@ SlidingInterface::~SlidingInterface() = default;
 SlidingInterface::SlidingInterface(SlidingInterface&&) noexcept = default;
 
 std::vector<Facet> SlidingInterface::facets(double angle) const {
-  FacetCutter cutter(*surface_, *bins_, rank_of(comm_), angle_of(reduced(angle)));
+  const Angle turn = angle_of(reduced(angle));
+  FacetCutter cutter(*surface_, *bins_, rank_of(comm_), turn);
   std::vector<Facet> result = cutter.cut();
-  together(comm_, [&] { cutter.require_cover(); });
+  require_cover(*surface_, comm_, turn, cutter.cover(), description_.gap_picture);
   return result;
 }
 

@@ -43,8 +43,8 @@ class SlidingInterface {
   SlidingInterface(SlidingInterface&&) noexcept;
 
   /// Facets of which this rank owns a cell, with the rotor turned by `angle` (rad, right-handed about the axis) from where the mesh file
-  /// has it; in the same order, and to the bit the same numbers, on both ranks of a facet. Collective; throws Error(mesh) that names the
-  /// place where a face is not covered by the other side.
+  /// has it; in the same order, and to the bit the same numbers, on both ranks of a facet. Collective; throws Error(mesh) where a
+  /// face is not covered by the other side, as require_cover() does.
   std::vector<Facet> facets(double angle) const;
 
   /// Matrix that turns vectors of the rotor by `angle`, consistent with facets() to round-off at any number of turns.

@@ -8,6 +8,7 @@
 // so that both sides cover exactly the same surface.
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -25,6 +26,7 @@ struct SlidingDescription {
   std::string rotor_zone = "rotor";             // turns; every other zone stands
   std::string rotor_patch = "interface_rotor";  // faces of rotor cells
   std::string stator_patch = "interface_stator";
+  std::filesystem::path gap_picture{};  // a .vtp for the faces of both sides that do not cover each other, should there be any; "": none
 };
 
 /// An angle in units of 2^-64 turns: sums and differences wrap around by themselves and are exact.

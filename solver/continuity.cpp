@@ -89,7 +89,9 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
 
 /// Of the water at a wall: that of the wall where it does not slip. With a wall function it slips, and is carried round a turning wall with
 /// its own velocity u along that of the wall, v: (u.v/v.v)^2 of the wall's acceleration, exact where the wall is a surface of revolution.
-/// What the curvature of a standing wall asks for is not known here and taken as zero: first order.
+/// At most all of it: water that runs ahead of a rotor at its start would ask for a multiple of the wall's acceleration, and runs away.
+/// None where the water runs against the wall. What the curvature of a standing wall asks for is not known here and taken as zero: first
+/// order.
 Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b) {
   if (flow.wall_function.empty() || !flow.wall_function[b]) return values.acceleration[b];
   const Vec3& v = values.velocity[b];
@@ -140,7 +142,7 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const double w = mesh_.weight[f];
     const Vec3& S = mesh_.face_vector[f];
-    double flux = dot(blend(w, u[P], u[N]) + blend(w, gradient[P], gradient[N]) * skewness(mesh_, f), S);
+    double flux = interpolated_flux(mesh_, f, blend(w, u[P], u[N]), gradient);
     if (with_pressure) {
       const Vec3& d = mesh_.delta[f];
       const double c = conductance(S, d), m = face_mobility_[f];
@@ -164,7 +166,7 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
         flow.flux[f] = flow.mesh_flux[f];
       } else {
         const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
-        flow.flux[f] = dot(flow.velocity[P] + gradient[P] * along_face(d, unit(S)), S);
+        flow.flux[f] = leaving_flux(mesh_, f, flow.velocity[P], gradient[P]);
         const double c = conductance(S, d);
         // S.g - [c (p_b - p_P) + T.g] = c (d.g - (p_b - p_P))
         if (with_pressure)

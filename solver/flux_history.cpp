@@ -32,14 +32,11 @@ void FluxHistory::end_step(const Flow& flow, const std::vector<Mat3>& gradient) 
   const auto& u = flow.velocity;
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double w = mesh_.weight[f];
-    const Vec3 u_f = blend(w, u[P], u[N]) + blend(w, gradient[P], gradient[N]) * skewness(mesh_, f);
-    psi[f] = flow.flux[f] - dot(u_f, mesh_.face_vector[f]);
+    psi[f] = flow.flux[f] - interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[P], u[N]), gradient);
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     const int P = mesh_.owner[f];
-    const Vec3& S = mesh_.face_vector[f];
-    psi[f] = flow.flux[f] - dot(u[P] + gradient[P] * along_face(mesh_.delta[f], unit(S)), S);
+    psi[f] = flow.flux[f] - leaving_flux(mesh_, f, u[P], gradient[P]);
   }
 }
 

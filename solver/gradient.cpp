@@ -50,10 +50,7 @@ void LeastSquares::update() {
 template <class Act>
 void LeastSquares::for_each_difference(const Act& act) const {
   for (int f = 0; f < mesh_.first_facet; ++f) act(f, 1.0, 1.0);
-  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) {
-    const auto& share = mesh_.facet_share[static_cast<std::size_t>(f - mesh_.first_facet)];
-    act(f, share[0], share[1]);
-  }
+  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) act(f, share_of_face(mesh_, f, true), share_of_face(mesh_, f, false));
 }
 
 void LeastSquares::sum_moments() {
@@ -155,7 +152,7 @@ void LeastSquares::fill_open(std::vector<Gradient>& g) const {
       const int f = mesh_.cell_face[k];
       if (f >= mesh_.n_interior) continue;
       const bool owns = mesh_.owner[f] == cell.cell;
-      const double share = f < mesh_.first_facet ? 1 : mesh_.facet_share[static_cast<std::size_t>(f - mesh_.first_facet)][owns ? 0 : 1];
+      const double share = share_of_face(mesh_, f, owns);
       add(mean, scaled(share, g[owns ? mesh_.neighbour[f] : mesh_.owner[f]]));
       weight += share;
     }

@@ -13,6 +13,7 @@
 #include <algorithm>
 
 #include "parallel/sum.hpp"
+#include "solver/face.hpp"
 
 namespace snag {
 
@@ -45,9 +46,7 @@ Vec3 factors(const Vec3& a, const Vec3& above, const Vec3& below, double e2) {
 inline Vec3 least(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 
 /// What a facet has to say in cell c: all from a quarter of the cell's face on, nothing when it is a sliver that comes or goes.
-double say(const Mesh& mesh, int f, int c) {
-  return std::min(1.0, 4 * mesh.facet_share[static_cast<std::size_t>(f - mesh.first_facet)][mesh.owner[f] == c ? 0 : 1]);
-}
+double say(const Mesh& mesh, int f, int c) { return std::min(1.0, 4 * share_of_face(mesh, f, mesh.owner[f] == c)); }
 
 template <double (*law)(double, double, double)>
 void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double threshold, std::vector<Vec3>& psi) {

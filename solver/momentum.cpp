@@ -3,7 +3,7 @@
 //   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess
 //     linear_upwind    u_f^high = u_C + psi G_C (x_f - x_C)                psi: limiter of each component
 //     central          u_f^high = w u_P + (1 - w) u_N + G_f s
-//     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C),  r = 2 (G_C d)/(u_D - u_C) - 1, each component for itself
+//     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C), each component for itself (solver/face.hpp)
 //   diffusion    mu (c (u_N - u_P) + G_f T [+ G_f^T S where mu varies])     first part implicit
 //
 // Explicit parts from u extrapolated fully in time are unstable at large steps (von Neumann analysis of BDF2 with Fromm's scheme:
@@ -38,12 +38,6 @@ inline double extrapolation_share(double courant, double diffusion) {
   return std::min(std::clamp(1.25 - 0.5 * courant, 0.5, 1.0), std::clamp(1.25 - 0.5 * diffusion, 0.0, 1.0));
 }
 
-inline double limited(double downwind_change, double upwind_slope_change, double weight) {
-  if (downwind_change == 0) return 0;
-  const double r = 2 * upwind_slope_change / downwind_change - 1;
-  return std::clamp(2 * r, 0.0, 1.0) * weight * downwind_change;
-}
-
 /// u_f^high - u_C of one face with flux F from P to N.
 template <Convection scheme>
 inline Vec3 high_order_part(const Mesh& mesh, int f, double F, std::span<const Vec3> u, std::span<const Mat3> G,
@@ -62,7 +56,8 @@ inline Vec3 high_order_part(const Mesh& mesh, int f, double F, std::span<const V
     const int C = F > 0 ? P : N, D = F > 0 ? N : P;
     const Vec3 change = u[D] - u[C], slope = (F > 0 ? 1.0 : -1.0) * (G[C] * mesh.delta[f]);
     const double weight = F > 0 ? 1 - mesh.weight[f] : mesh.weight[f];
-    return {limited(change.x, slope.x, weight), limited(change.y, slope.y, weight), limited(change.z, slope.z, weight)};
+    return {limited_linear(change.x, slope.x, weight), limited_linear(change.y, slope.y, weight),
+            limited_linear(change.z, slope.z, weight)};
   }
 }
 
@@ -100,8 +95,7 @@ void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double s
   const auto of_cells = [&](int f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const double w = mesh_.weight[f];
-    const Vec3 u_f = (1 + share) * blend(w, u[P], u[N]) - share * blend(w, before[P], before[N]);
-    return dot(u_f + blend(w, G[P], G[N]) * skewness(mesh_, f), mesh_.face_vector[f]);
+    return interpolated_flux(mesh_, f, (1 + share) * blend(w, u[P], u[N]) - share * blend(w, before[P], before[N]), G);
   };
   // flow.flux holds flux^(n-1) until it is corrected
   const auto extrapolated = [&](int f) { return flow.flux_old[f] + share * (flow.flux_old[f] - flow.flux[f]); };

@@ -44,7 +44,8 @@ SlidingDescription description(const Mesh& mesh, const RotatingZoneSettings& set
           .axis = settings.axis,
           .rotor_zone = settings.zone,
           .rotor_patch = settings.rotor_patch,
-          .stator_patch = settings.stator_patch};
+          .stator_patch = settings.stator_patch,
+          .gap_picture = settings.gap_picture};
 }
 
 }  // namespace
@@ -65,9 +66,10 @@ double RotatingZone::angle(double time) const {
   return start_angle_ + speed_ * (time < ramp_ ? 0.5 * time * time / ramp_ : time - 0.5 * ramp_);
 }
 
-std::unique_ptr<RotatingZone> read_rotating_zone(const Table& root, Mesh& mesh) {
+std::unique_ptr<RotatingZone> read_rotating_zone(const Table& root, Mesh& mesh, const std::filesystem::path& gap_picture) {
   if (!root.has("rotating_zone")) return nullptr;
   RotatingZoneSettings settings;
+  settings.gap_picture = gap_picture;
   root.table("rotating_zone").read(settings.section().parameters);
   return std::make_unique<RotatingZone>(mesh, settings);
 }

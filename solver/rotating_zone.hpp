@@ -7,6 +7,7 @@
 //
 // u is the absolute velocity in both. F_mesh, the flux swept by the faces of the zone, is the same at every angle. A frame gives the steady
 // flow for one position of the rotor, a start for the sliding run.
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -22,6 +23,7 @@ struct RotatingZoneSettings {
   std::string rotor_patch = "interface_rotor", stator_patch = "interface_stator";
   Vec3 origin{}, axis{0, 0, 1};
   double speed = 0, ramp = 0, start_angle = 0;  // rad/s, s, rad
+  std::filesystem::path gap_picture;            // for an error, see SlidingDescription
 
   /// The table [rotating_zone]; its records point into this object.
   Section section();
@@ -58,7 +60,7 @@ class RotatingZone {
   bool slides_;
 };
 
-/// The table [rotating_zone], null if the case has none.
-std::unique_ptr<RotatingZone> read_rotating_zone(const Table& root, Mesh& mesh);
+/// The table [rotating_zone], null if the case has none. `gap_picture`: where an error draws faces that do not meet.
+std::unique_ptr<RotatingZone> read_rotating_zone(const Table& root, Mesh& mesh, const std::filesystem::path& gap_picture);
 
 }  // namespace snag

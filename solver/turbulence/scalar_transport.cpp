@@ -1,7 +1,6 @@
 // Assembly and solution of one equation; the scheme stands in the header.
 //
-//   limited linear   phi_f - phi_C = clamp(2 r, 0, 1) (1 - w_C) (phi_D - phi_C),   r = 2 (grad phi_C . d)/(phi_D - phi_C) - 1
-//   C: upwind, D: downwind cell. Second order where phi is smooth (r near 1), total variation diminishing in one dimension.
+// Second order where phi is smooth, by the limited linear scheme (solver/face.hpp).
 //
 // Rows are divided by a_PP phi*_P, so that residuals are relative changes: epsilon differs by many powers of ten between wall and core.
 #include "solver/turbulence/scalar_transport.hpp"
@@ -22,12 +21,6 @@ std::vector<Side> sides(const Mesh& mesh, const BoundarySet& boundary, Side at_w
     sides.push_back(boundary.is_wall(p) ? at_walls : inlet ? Side::value : Side::slope);
   }
   return sides;
-}
-
-inline double limited(double downwind_change, double upwind_slope_change, double weight) {
-  if (downwind_change == 0) return 0;
-  const double r = 2 * upwind_slope_change / downwind_change - 1;
-  return std::clamp(2 * r, 0.0, 1.0) * weight * downwind_change;
 }
 
 }  // namespace
@@ -52,7 +45,6 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
 void ScalarTransport::mesh_turned() {
   squares_.update();
   matrix_.update(mesh_);
-  flux_.resize(static_cast<std::size_t>(mesh_.n_faces));
 }
 
 void ScalarTransport::begin(const Flow& flow, const TimeScheme& time) {
@@ -112,8 +104,8 @@ void ScalarTransport::add_interior(std::span<const double> guess, std::span<cons
 
     const double F = std::abs(flux_[f]);
     const bool from_owner = flux_[f] > 0;
-    const double high =
-        from_owner ? limited(change, dot(gradient_[P], d), 1 - w) / guess[P] : limited(-change, -dot(gradient_[N], d), w) / guess[N];
+    const double high = from_owner ? limited_linear(change, dot(gradient_[P], d), 1 - w) / guess[P]
+                                   : limited_linear(-change, -dot(gradient_[N], d), w) / guess[N];
     const double beta = 1 + std::min(high, 1.0);
     const double upwind = D + F * (beta - 1), downwind = D + F, carried = D + F * beta;
     matrix_.value[matrix_.place_of_owner[f]] = -(from_owner ? D : carried);

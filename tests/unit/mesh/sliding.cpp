@@ -1,4 +1,7 @@
 // ranks: 1 2 3 5
+#include <cstdio>
+#include <cstdlib>
+
 #include "base/error.hpp"
 #include "check.hpp"
 #include "mesh/import.hpp"
@@ -197,6 +200,71 @@ TEST(Sliding, NamesThePlaceWhereZonesDoNotTouch) {
   const std::string message = failure([&] { interface.facets(0); });
   EXPECT_NE(message.find("covered by the other side to 0 %"), std::string::npos) << message;
   EXPECT_NE(message.find("side at ("), std::string::npos) << message;
+  EXPECT_EQ(message.find("drawn"), std::string::npos) << message;
+}
+
+// Zones that are shifted against each other along the axis are told and drawn where they do not meet: the faces of all ranks, no other.
+TEST(Sliding, DrawsWhereZonesDoNotMeet) {
+  const Shells shells{.tetrahedra = false, .has_lid = false};  // rows of 10 mm on 14 faces, of 8 mm on 17 faces
+  test::Sample sample = test::sample_of(shells);
+  for (int n = shells.rotor[0] * (shells.rotor[1] + 1) * (shells.rotor[2] + 1); n < static_cast<int>(sample.node.size()); ++n)
+    sample.node[static_cast<std::size_t>(n)].z += 0.004;
+  const test::TemporaryFile file(sample, test::Format::ascii22);
+  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  SlidingDescription description = shells.description();
+  description.gap_picture = file.path().string() + ".gap.vtp";
+  const SlidingInterface interface(mesh, description);
+  const std::string message = failure([&] { interface.facets(0.3); });
+  for (const char* expected : {"14 faces of the turning side (all round the axis, radius 0.05 m, 0 m to 0.01 m along the axis)",
+                               "17 faces of the standing side (all round the axis, radius 0.05 m, 0.036 m to 0.044 m",
+                               "is covered by the other side to 50 %", description.gap_picture.c_str()})
+    EXPECT_NE(message.find(expected), std::string::npos) << expected << "\n" << message;
+  if (rank_of(mesh.comm) == 0) {
+    const std::string read_back = R"(/usr/bin/python3 - << END
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(')" + description.gap_picture.string() +
+                                  R"(')
+reader.Update()
+picture = reader.GetOutput()
+covered, turning = (vtk_to_numpy(picture.GetCellData().GetArray(name)) for name in ("covered [1]", "turning [1]"))
+assert picture.GetNumberOfPolys() == 31 and sum(turning == 1) == 14 and sum(turning == 0) == 17
+assert abs(covered[turning == 1] - 0.6).max() < 1e-6 and abs(covered[turning == 0] - 0.5).max() < 1e-6
+for i in range(31):
+    box = picture.GetCell(i).GetBounds()
+    assert abs(box[4] - (0 if turning[i] else 0.036)) < 1e-7 and abs(box[5] - (0.01 if turning[i] else 0.044)) < 1e-7
+END
+)";
+    EXPECT_EQ(std::system(read_back.c_str()), 0);
+    std::filesystem::remove(description.gap_picture);
+  }
+}
+
+// Where one side is folded the place is told by its angle too: where it is, not where the mesh file has it.
+TEST(Sliding, TellsTheAnglesOfAFold) {
+  const Shells shells{.has_lid = false};
+  test::Sample sample = test::sample_of(shells);
+  const auto node = [&](int around, int along) {
+    const int first = shells.rotor[0] * (shells.rotor[1] + 1) * (shells.rotor[2] + 1);
+    return static_cast<std::size_t>(first + around + shells.stator[0] * (shells.stator[1] + 1) * along);
+  };
+  const Vec3 a = sample.node[node(4, 2)], b = sample.node[node(5, 2)];
+  sample.node[node(3, 2)] = shells.radius / norm(Vec3{a.x + b.x, a.y + b.y, 0}) * Vec3{a.x + b.x, a.y + b.y, 0} + Vec3{0, 0, a.z};
+  const test::TemporaryFile file(sample, test::Format::ascii22);
+  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const SlidingInterface interface(mesh, shells.description());
+  for (const double angle : {0.0, 0.3}) {
+    const std::string message = failure([&] { interface.facets(angle); });
+    const auto at = message.find(" of the standing side (");
+    ASSERT_NE(at, std::string::npos) << message;
+    int lowest = 0, highest = 0;
+    ASSERT_EQ(std::sscanf(message.c_str() + at, " of the standing side (%d deg to %d deg about the axis", &lowest, &highest), 2) << message;
+    // The faces about the node were between nodes 2 and 4, and reach to 4.5; angle 0 of the shells is at -y.
+    EXPECT_GE(lowest, std::floor((shells.stator_start + 2 * 2 * pi / 17) * 180 / pi - 90)) << message;
+    EXPECT_LE(highest, std::ceil((shells.stator_start + 4.5 * 2 * pi / 17) * 180 / pi - 90)) << message;
+    EXPECT_GT(highest - lowest, 20) << message;
+  }
 }
 
 // A wrong axis, and patches exchanged, are errors.
