@@ -17,7 +17,7 @@ name = "rag-in-pump"
 file = "{mesh}"
 [rotating_zone]
 zone = "rotor"
-speed_rpm = 1200
+speed_rpm = 600     # an impact at full speed multiplies round-off of the water by some thousand
 [time]
 end_ms = 5
 step_ms = 0.1
@@ -59,10 +59,10 @@ velocity_m_s = [0, 0, -6]
 length_mm = 40
 width_mm = 16
 radius_mm = 2
-centre_m = [-0.118, 0, 0.04]
+centre_m = [0.0038, 0.1079, 0.04]
 lengthwise = [0, 0, 1]
-crosswise = [1, 0.1, 0]
-velocity_m_s = [6, 0, 0]
+crosswise = [0.03, 1, 0]
+velocity_m_s = [0, -5, 0]
 # Beside the tongue, later.
 [[rag]]
 length_mm = 24
@@ -112,8 +112,8 @@ class RagInPump(harness.CaseTest):
         self.assertGreater(centre[number == 0][0, 2], 0.09)
         self.assertLess(centre[number == 0][-1, 2], 0.08, "the first rag must come through the disc at z = 86 mm")
         radius = numpy.hypot(centre[number == 1][:, 0], centre[number == 1][:, 1])
-        self.assertGreater(radius[0], 0.112)
-        self.assertLess(radius.min(), 0.1, "the second rag must come through the cylinder of 104.5 mm")
+        self.assertGreater(radius[0], 0.1045)
+        self.assertLess(radius.min(), 0.1045, "the second rag must come through the cylinder of 104.5 mm")
         self.assertEqual((number == 2).sum(), N_STEPS - 20, "the third rag is there from 2 ms on")
         last = rags.values[(number == 2)][0]
         self.assertGreater(abs(last[rags.columns.index("vx [m/s]")]), 0.01, "it starts with the water")
