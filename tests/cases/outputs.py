@@ -9,21 +9,10 @@ import xml.etree.ElementTree
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
 
 import harness
+from harness import arrays, read_vtk
 from small_cases import CHANNEL, CHANNEL_MESH
-
-
-def read_vtk(file):
-    reader = vtkXMLPUnstructuredGridReader() if file.suffix == ".pvtu" else vtkXMLPolyDataReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
-
-
-def arrays(attributes):
-    return {attributes.GetArrayName(i): vtk_to_numpy(attributes.GetArray(i)) for i in range(attributes.GetNumberOfArrays())}
 
 
 def collection(file):
