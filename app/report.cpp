@@ -6,6 +6,7 @@
 #include "app/report/html.hpp"
 #include "app/report/monitor_plots.hpp"
 #include "app/report/page.hpp"
+#include "app/report/passage_section.hpp"
 #include "app/report/pictures.hpp"
 #include "app/report/pump_section.hpp"
 #include "app/report/results.hpp"
@@ -22,31 +23,41 @@ constexpr std::size_t log_tail = 6000;  // bytes
 
 std::string problem(const std::string& text) { return "<p class=\"problem\">" + escaped(text) + "</p>\n"; }
 
-std::string picture_section(const Pictures& pictures) {
-  std::string instants, slices, unreadable;
+struct PictureParts {
+  std::string instants, others, unreadable;  // of the rags; of the water and the walls
+};
+
+PictureParts picture_parts(const Pictures& pictures) {
+  PictureParts parts;
+  std::string small, scale, path;
+  bool is_pump = false;
   for (const auto& picture : pictures.made) {
+    is_pump = is_pump || picture.group == "pump";
     try {
       const auto caption = escaped(picture.caption);
       const auto image = "<img src=\"" + html::embedded_png(picture.file) + "\" alt=\"" + caption + "\">";
-      if (picture.group == "rag")  // the time stands in the picture
-        instants += "<figure>" + image + "</figure>\n";
+      const auto wide = "<figure class=\"wide\">" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+      if (picture.group == "rag" || picture.group == "pump")  // time and events stand in the picture
+        small += "<figure>" + image + "</figure>\n";
+      else if (picture.group == "scale")
+        scale += "<figure class=\"scale\">" + image + "</figure>\n";
+      else if (picture.group == "path")
+        path += "<figure class=\"path\">" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
       else
-        slices += "<figure class=\"wide\">" + image + "<figcaption>" + caption + "</figcaption></figure>\n";
+        parts.others += wide;
     } catch (const Error& error) {
-      unreadable += problem(error.what());
+      parts.unreadable += problem(error.what());
     }
   }
-  std::string content;
-  if (!instants.empty())
-    content +=
-        "<p>The rag on its way, drawn over walls and water so that nothing hides it; its colour is the tension of its bonds. Walls are "
-        "transparent, and a plane through the middle of the domain shows the speed of the water. All instants share one view and one "
-        "scale.</p>\n<div class=\"pictures\">\n" +
-        instants + "</div>\n";
-  content += slices + unreadable;
-  if (!pictures.problem.empty())
-    content += problem((pictures.made.empty() ? "There are no pictures: " : "Some pictures are missing: ") + pictures.problem);
-  return content;
+  if (!small.empty())
+    parts.instants =
+        "<p>The rag on its way, drawn over walls and water so that nothing hides it; its colour is the tension of its bonds. " +
+        std::string(is_pump ? "The pump is seen from its inlet, through its walls, with the impeller at its angle."
+                            : "Walls are transparent, and a plane through the middle of the domain shows the speed of the water.") +
+        " All instants share one view and one scale; an event stands in the first picture after it.</p>\n"
+        "<div class=\"pictures\">\n" +
+        small + "</div>\n" + scale + path;
+  return parts;
 }
 
 std::string plot_section(const MonitorPlots& monitors) {
@@ -94,11 +105,34 @@ std::string today() {
   return text;
 }
 
-std::string heading(const nlohmann::json& summary, const std::string& title) {
+std::string missing(const Pictures& pictures) {
+  if (pictures.problem.empty()) return "";
+  return problem((pictures.made.empty() ? "There are no pictures: " : "Some pictures are missing: ") + pictures.problem);
+}
+
+/// Rags in a pump: what is known of their passage.
+struct Passages {
+  std::string verdict, section;
+  ColumnsByMonitor shown;  // of the monitors
+};
+
+Passages passages_of(const nlohmann::json& summary, const std::filesystem::path& dir) {
+  try {
+    const auto passages = rag_passages(summary, dir / "monitors");
+    if (passages.empty()) return {};
+    const PumpRecord pump(dir / "monitors");
+    return {passage_verdict(passages, pump), passage_section(passages, pump, file_text(dir / "case.resolved.toml").value_or("")),
+            passage_columns()};
+  } catch (const Error& error) {
+    return {"", problem("The passage of the rags could not be drawn: " + std::string(error.what())), {}};
+  }
+}
+
+std::string heading(const nlohmann::json& summary, const std::string& title, const std::string& verdict) {
   std::string content = "<h1>" + escaped(title) + "</h1>\n<p class=\"origin\">Report of a Snag run, made " + today() + " by version " +
                         version_number + " (" + version_git + ")</p>\n";
   if (summary.is_object())
-    return content + "<p class=\"outcome" + (ended_well(summary) ? "" : " bad") + "\">" + outcome_sentence(summary) + "</p>\n";
+    return content + "<p class=\"outcome" + (ended_well(summary) ? "" : " bad") + "\">" + outcome_sentence(summary, verdict) + "</p>\n";
   return content +
          "<p class=\"outcome bad\">The run left no readable summary.json: it is still going on, or it was killed. What follows is what it "
          "has "
@@ -120,13 +154,18 @@ void write_report(const std::filesystem::path& dir) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: " +
       escaped(title) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n";
-  page += heading(summary, title);
+  const Passages passages = passages_of(summary, dir);
+  const Pictures pictures = draw_pictures(dir);
+  const PictureParts drawn = picture_parts(pictures);
+  const bool is_passage = !passages.section.empty();
+  page += heading(summary, title, passages.verdict);
   page += section("What was run", run_table(summary));
+  if (is_passage) page += section("The rag's way through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
   page += section("Rags", rag_tables(summary));
-  page += section("What must be conserved", conservation_table(summary));
-  page += section("Pictures", picture_section(draw_pictures(dir)));
-  page += section("Over time", plot_section(monitor_plots(dir / "monitors")));
+  page += section("What must hold", conservation_table(summary));
+  page += section("Pictures", (is_passage ? "" : drawn.instants) + drawn.others + drawn.unreadable + missing(pictures));
+  page += section("Over time", plot_section(monitor_plots(dir / "monitors", passages.shown)));
   page += section("What it cost", cost_table(summary));
   page += section("A closer look with ParaView", paraview_section(dir));
   page += section("The case and the log",
@@ -134,6 +173,11 @@ void write_report(const std::filesystem::path& dir) {
                       folded("The end of the log (log.txt)", tail(file_text(dir / "log.txt").value_or(""))));
   page += "</body>\n</html>\n";
   write_atomically(dir / "report.html", page);
+}
+
+Film make_film(const std::filesystem::path& dir) {
+  const Pictures pictures = draw_film(dir);
+  return {pictures.made.size(), pictures.problem};
 }
 
 }  // namespace snag

@@ -5,17 +5,38 @@
 #include "app/command.hpp"
 #include "app/report.hpp"
 #include "base/log.hpp"
+#include "base/words.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
 
+namespace {
+
+constexpr int pictures_per_second = 24;  // of a film
+
+void tell(const Film& film, const std::string& folder) {
+  if (film.n_pictures > 0)
+    log::info("film: " + std::to_string(film.n_pictures) + " pictures, " + folder + "/pictures/film_0001.png and on; " +
+              words(static_cast<double>(film.n_pictures) / pictures_per_second) + " s at " + std::to_string(pictures_per_second) +
+              " pictures a second. A video of them: ffmpeg -framerate " + std::to_string(pictures_per_second) + " -i " + folder +
+              "/pictures/film_%04d.png -pix_fmt yuv420p " + folder + "/film.mp4");
+  if (!film.problem.empty()) log::warning("film: pictures are missing: " + film.problem);
+}
+
+}  // namespace
+
 Action add_report(CLI::App& app) {
   const auto folder = std::make_shared<std::string>();
+  const auto with_film = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("report", "Write DIR/report.html, one self-contained file, from the outputs of a run");
   command->add_option("DIR", *folder, "Output folder of a run")->required();
-  return [folder] {
+  command->add_flag("--film", *with_film,
+                    "Also draw DIR/pictures/film_0001.png and so on, one for each time at which the rags were written");
+  return [folder, with_film] {
     together(MPI_COMM_WORLD, [&] {
-      if (rank_of(MPI_COMM_WORLD) == 0) write_report(*folder);
+      if (rank_of(MPI_COMM_WORLD) != 0) return;
+      write_report(*folder);
+      if (*with_film) tell(make_film(*folder), *folder);
     });
     log::info("report: " + *folder + "/report.html");
     return ExitCode::ok;

@@ -6,7 +6,6 @@
 #include "app/outputs.hpp"
 #include "app/report.hpp"
 #include "app/simulation.hpp"
-#include "app/start_check.hpp"
 #include "app/stop_request.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
@@ -147,7 +146,7 @@ ExitCode run_case(const RunOptions& options) {
                                      reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +
                                      "); resume with the same case and --set values");
   const std::string start = reader ? "" : simulation.start();
-  if (!reader) check_start(simulation);
+  if (!reader) simulation.insert_rags();
   together(world, [&] {
     if (rank_of(world) != 0) return;
     prepare_output_folder(folder, !options.resume);
@@ -189,7 +188,7 @@ ExitCode check_case(const RunOptions& options) {
   const CaseFile file = CaseFile::read(options.case_file, options.overrides);
   Simulation simulation(file, world);
   const std::string start = simulation.start();
-  check_start(simulation);
+  simulation.insert_rags();
   log_heading(simulation, file);
   if (!start.empty()) log::info(start);
   if (simulation.mesh) {

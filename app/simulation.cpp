@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "app/mesh_generator.hpp"
+#include "app/start_check.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
@@ -12,6 +13,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 
@@ -116,7 +118,10 @@ void Simulation::read_pump(const Table& root) {
 }
 
 void Simulation::build_rags(const CaseFile& file) {
-  walls = read_walls(file, mesh.get());
+  const RotatingZone* zone = water ? water->flow.rotating_zone : nullptr;
+  std::optional<WallMotion> rotor;
+  if (zone) rotor = {.axis = zone->axis(), .origin = zone->origin(), .speed = zone->full_speed(), .velocity = {}, .ramp = zone->ramp()};
+  walls = read_walls(file, mesh.get(), rotor ? &*rotor : nullptr);
   ContactSettings contacts;
   file.root().table("contact").read(contacts.parameters());
   DemSettings settings;
@@ -124,6 +129,9 @@ void Simulation::build_rags(const CaseFile& file) {
   std::vector<RagPiece> pieces = read_pieces(file);
   std::optional<PassageGeometry> way = read_passage(file.root(), water ? water->flow.rotating_zone : nullptr);
   if (pieces.empty()) return;
+  if (zone && !zone->slides())
+    throw Error(ExitCode::usage,
+                "[rotating_zone] motion = \"frame\" with rags: the mesh would stand while the walls turn; use \"sliding\"");
   poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_poses_);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
@@ -148,6 +156,7 @@ void Simulation::couple(const CaseFile& file) {
 
 void Simulation::step() {
   const double begun = MPI_Wtime();
+  if (time_step_ > 0) insert_rags();
   if (coupled) {
     coupled->step(time_settings.step);
   } else if (water) {
@@ -160,6 +169,32 @@ void Simulation::step() {
   check_inside();
   ++time_step_;
   if (passage) passage->observe(*rags, time(), time_settings.step);
+}
+
+void Simulation::insert_rags() {
+  if (!rags) return;
+  std::vector<int> fresh;
+  for (int r = 0; r < static_cast<int>(rags->rags().size()); ++r) {
+    const RagPiece& piece = rags->pieces()[static_cast<std::size_t>(r)];
+    if (rags->inserted(r)) {
+      if (time_step_ == 0) fresh.push_back(r);
+      continue;
+    }
+    if (piece.insert_time > time() + 1e-6 * time_settings.step) continue;
+    rags->insert(r);
+    fresh.push_back(r);
+    if (piece.with_water) push_with_water(r);
+    if (time_step_ > 0) log::info(piece.rag.name + ": put in at " + words(time()) + " s");
+  }
+  check_start(*this, fresh);
+}
+
+void Simulation::push_with_water(int rag) {
+  const std::optional<Vec3> velocity = coupled ? coupled->water_velocity(rag) : std::nullopt;
+  if (!velocity)
+    throw Error(ExitCode::usage, rags->rags()[static_cast<std::size_t>(rag)].name +
+                                     ": with_water = true, but this case computes no water; give velocity, or [mesh] and [flow]");
+  rags->push(rag, *velocity);
 }
 
 /// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.

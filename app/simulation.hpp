@@ -32,6 +32,9 @@ class Simulation {
   /// Initial fields of the water from another run, if [start] names one; returns a line for the log, empty without. Collective; throws
   /// Error.
   std::string start() const;
+  /// Puts in the rags whose time has come, and checks them; to be called once before the first step, later ones do it themselves.
+  /// Collective; throws Error(usage).
+  void insert_rags();
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
 
@@ -64,6 +67,7 @@ class Simulation {
   void read_pump(const Table& root);
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
+  void push_with_water(int rag);
   void check_inside();
 
   MPI_Comm comm_;

@@ -25,12 +25,12 @@ Error refused(const Rag& rag, const std::string& found, const std::string& rule)
   return {ExitCode::usage, "start of the run: " + rag.name + ": " + found + ", " + rule};
 }
 
-void check_in_water(const RagSystem& rags, const Mesh& mesh) {
+void check_in_water(const RagSystem& rags, const std::vector<int>& which, const Mesh& mesh) {
   const auto shape = kernel_shapes().make("cell", "start of the run");
   Kernel cells(*shape, 1, mesh);
-  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
-    const Rag& rag = rags.rags()[r];
-    cells.locate(centres_of_particles(rags, static_cast<int>(r)));
+  for (const int r : which) {
+    const Rag& rag = rags.rags()[static_cast<std::size_t>(r)];
+    cells.locate(centres_of_particles(rags, r));
     if (cells.n_outside() > 0)
       throw refused(rag, std::to_string(cells.n_outside()) + " of " + std::to_string(rag.n_particles) + " particles are outside the mesh",
                     "all must start in the water; correct its place or size, or [mesh] scale");
@@ -43,11 +43,12 @@ void check_overlap(const Rag& rag, double overlap_over_radius, const char* with)
                 "must not exceed " + words(largest_overlap_over_radius) + "; give the pieces other places");
 }
 
-void check_contacts(RagSystem& rags) {
+void check_contacts(RagSystem& rags, const std::vector<int>& which) {
   rags.evaluate_contacts();
   const ContactMeasures& here = rags.contacts()->measures();
   const double between = maximum(rags.comm(), here.max_overlap_over_radius);
-  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
+  for (const int index : which) {
+    const auto r = static_cast<std::size_t>(index);
     const Rag& rag = rags.rags()[r];
     const std::int64_t beyond = sum(rags.comm(), r < here.beyond_walls.size() ? here.beyond_walls[r] : std::int64_t{0});
     if (beyond > 0)
@@ -56,16 +57,16 @@ void check_contacts(RagSystem& rags) {
     check_overlap(rag, maximum(rags.comm(), r < here.max_wall_overlap_over_radius.size() ? here.max_wall_overlap_over_radius[r] : 0.0),
                   "a wall");
   }
-  check_overlap(rags.rags().front(), between, "itself or another piece");
+  check_overlap(rags.rags()[static_cast<std::size_t>(which.front())], between, "itself or another piece");
   rags.contacts()->reset_measures();
 }
 
 }  // namespace
 
-void check_start(const Simulation& simulation) {
-  if (!simulation.rags) return;
-  if (simulation.mesh) check_in_water(*simulation.rags, *simulation.mesh);
-  check_contacts(*simulation.rags);
+void check_start(const Simulation& simulation, const std::vector<int>& which) {
+  if (which.empty()) return;
+  if (simulation.mesh) check_in_water(*simulation.rags, which, *simulation.mesh);
+  check_contacts(*simulation.rags, which);
 }
 
 }  // namespace snag

@@ -5,7 +5,7 @@
 namespace snag {
 
 /// Throws Error(usage) that names the piece if a particle's centre is outside the mesh or beyond a wall, or if particles overlap each other
-/// or a wall by more than half a radius. Of a simulation before its first step; moves nothing. Collective.
-void check_start(const Simulation& simulation);
+/// or a wall by more than half a radius. Of these rags, which have been put in and not moved yet; moves nothing. Collective.
+void check_start(const Simulation& simulation, const std::vector<int>& which);
 
 }  // namespace snag

@@ -1,5 +1,6 @@
 #include "coupling/coupled_solver.hpp"
 
+#include "dem/tile_particles.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -28,6 +29,7 @@ void CoupledSolver::step(double dt) {
   timed(seconds_.coupling, [&] { give(dt); });                    // particles -> fluid, conservative: solid fraction, reaction, drag
   timed(seconds_.flow, [&] { advance_flow_(dt); });
   timed(seconds_.coupling, [&] {
+    if (flow_ && flow_->mesh.turning.zone >= 0) mesh_moved();
     settle(dt);  // the implicit part of the drag back to the particles; momentum is checked
     write_report(dt);
   });
@@ -51,6 +53,16 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, const Prescribe
 void CoupledSolver::mesh_moved() {
   if (owner_) owner_->mesh_moved();
   if (kernel_) kernel_->mesh_moved();
+}
+
+std::optional<Vec3> CoupledSolver::water_velocity(int rag) {
+  if (!flow_) return {};
+  std::vector<Vec3> points;
+  for (const Tile& tile : rags_.tiles())
+    if (tile.rag == rag) for_particles(tile, [&](int k, int, int) { points.push_back(tile.vector(Tile::x, k)); });
+  kernel_->locate(points);
+  const std::vector<Vec3> velocity = kernel_->average(std::span<const Vec3>(flow_->velocity));
+  return sum(rags_.comm(), std::span<const Vec3>(velocity)) / static_cast<double>(rags_.rags()[rag].n_particles);
 }
 
 void CoupledSolver::give(double dt) {

@@ -1,6 +1,7 @@
 #pragma once
 // Water and rags together: the coupled time step.
 #include <functional>
+#include <optional>
 
 #include "coupling/cell_owner.hpp"
 #include "coupling/coupling_settings.hpp"
@@ -39,8 +40,8 @@ class CoupledSolver {
   /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit on both sides. Collective.
   /// Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost.
   void step(double dt);
-  /// To be called when the cells have moved.
-  void mesh_moved();
+  /// Mean velocity of the water at the particles of a rag, m/s; none in a prescribed flow. Collective.
+  std::optional<Vec3> water_velocity(int rag);
 
   double time() const { return rags_.time(); }
   const Coupling& coupling() const { return coupling_; }
@@ -59,6 +60,7 @@ class CoupledSolver {
   void load(CheckpointReader& reader);
 
  private:
+  void mesh_moved();
   void give(double dt);
   void settle(double dt);
   void write_report(double dt);

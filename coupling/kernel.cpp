@@ -30,13 +30,12 @@ struct Kernel::Answer {
 };
 
 Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
-    : shape_(shape), width_(width), mesh_(mesh), around_(mesh.comm), nearest_(mesh.comm) {
+    : shape_(shape), width_(width), mesh_(mesh), locator_(mesh), around_(mesh.comm), nearest_(mesh.comm) {
   mesh_moved();
 }
 
 void Kernel::mesh_moved() {
-  locator_ = std::make_unique<CellLocator>(mesh_);
-  const Vec3 &lower = locator_->lower(), &upper = locator_->upper();
+  const auto [lower, upper] = locator_.bounds();
   const std::array<double, 6> box{lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
   boxes_.resize(size_of(mesh_.comm));
   MPI_Allgather(box.data(), 6, MPI_DOUBLE, boxes_.data(), 6, MPI_DOUBLE, mesh_.comm);
@@ -93,7 +92,7 @@ std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
   const std::size_t n = router.n_received();
   std::vector<Vec3> heard(n);
   for (std::size_t i = 0; i < n; ++i) heard[i] = {received[4 * i], received[4 * i + 1], received[4 * i + 2]};
-  CellsAround cells_around(mesh_, *locator_, support);
+  CellsAround cells_around(mesh_, locator_, support);
   std::vector<double> answers(4 * n), volume;
   received_holder_.resize(n);
   auto& [unused, start, cell, weight] = around_;
@@ -101,7 +100,7 @@ std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
   cell.clear(), weight.clear();
   for (std::size_t i = 0; i < n; ++i) {
     Answer answer;
-    const int holder = received_holder_[i] = locator_->find(heard[i], static_cast<int>(received[4 * i + 3]));
+    const int holder = received_holder_[i] = locator_.find(heard[i], static_cast<int>(received[4 * i + 3]));
     if (holder >= 0) answer.holder_id = static_cast<double>(mesh_.cell_id[holder]), answer.holder_cell = holder;
     const std::size_t first = cell.size();
     if (support > 0) {
@@ -195,7 +194,7 @@ void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<
   std::vector<int> cell(n);
   std::vector<double> offers(2 * n), all_offers(2 * static_cast<std::size_t>(n) * ranks);  // squared distance, cell_id
   for (int i = 0; i < n; ++i) {
-    cell[i] = locator_->nearest(all[i]);
+    cell[i] = locator_.nearest(all[i]);
     offers[2 * i] = cell[i] < 0 ? infinity : norm_squared(mesh_.cell_centre[cell[i]] - all[i]);
     offers[2 * i + 1] = cell[i] < 0 ? infinity : static_cast<double>(mesh_.cell_id[cell[i]]);
   }

@@ -32,7 +32,7 @@ class Kernel {
   /// `shape` and `mesh` must outlive the kernel. `width`: delta, m; any positive number for the cell kernel.
   Kernel(const KernelShape& shape, double width, const Mesh& mesh);
 
-  /// Cells have moved (a turning zone): rebuild the search structures.
+  /// Cells have moved (a turning zone). Collective.
   void mesh_moved();
   /// Weights of the particles of this rank at these places. Collective.
   void locate(std::span<const Vec3> points);
@@ -75,7 +75,7 @@ class Kernel {
   const KernelShape& shape_;
   double width_;
   const Mesh& mesh_;
-  std::unique_ptr<CellLocator> locator_;
+  CellLocator locator_;
   std::vector<std::array<double, 6>> boxes_;  // of the cells of every rank: lower, upper corner
 
   int n_particles_ = 0;

@@ -71,7 +71,7 @@ std::vector<BondCount> RagSystem::check() const {
                                         " has a position or velocity that is no number at t = " + words(time_) +
                                         " s; use a shorter step ([dem] step or safety) or a softer force");
   for (std::size_t t = 0; t < owner_.size(); ++t) {
-    if (count[n_counts * n_rags + t] == 1) continue;
+    if (count[n_counts * n_rags + t] == (owner_[t] >= 0 ? 1 : 0)) continue;
     const Tile tile = tile_at_birth(static_cast<int>(t));
     const Rag& rag = rags_[tile.rag];
     throw Error(ExitCode::invariant, "rags: " + std::to_string(count[n_counts * n_rags + t]) + " ranks own the particles " +
@@ -80,6 +80,7 @@ std::vector<BondCount> RagSystem::check() const {
   }
   std::vector<BondCount> bonds(n_rags);
   for (std::size_t r = 0; r < n_rags; ++r) {
+    if (!inserted_[r]) continue;
     const Rag& rag = rags_[r];
     const std::int64_t* c = &count[n_counts * r];
     bonds[r] = {c[whole], c[broken]};

@@ -72,6 +72,8 @@ void RagSystem::load(CheckpointReader& reader) {
   for (const int number : numbers_) owner_.at(number) = rank_of(comm_);
   MPI_Allreduce(MPI_IN_PLACE, owner_.data(), static_cast<int>(owner_.size()), MPI_INT, MPI_MAX, comm_);
 
+  for (std::size_t r = 0; r < rags_.size(); ++r) inserted_[r] = owner_[grids_[r].first_tile] >= 0;
+
   std::vector<std::int64_t> ids;
   for_all_particles(tiles_, rags_, [&](const Tile&, int, std::int64_t id) { ids.push_back(id); });
   for (Tile& tile : tiles_) for_ring_bonds(tile, rags_[tile.rag], [&](auto&, int, std::int64_t id) { ids.push_back(id); });

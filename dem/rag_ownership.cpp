@@ -106,7 +106,7 @@ std::map<int, RagSystem::TileLists> RagSystem::exchange_lists() {
   std::map<int, TileLists> lists;
   for (const int mine : numbers_)
     for (int other = 0; other < n_all_tiles(); ++other)
-      if (owner_[other] != rank && near(mine, other, boxes)) {
+      if (owner_[other] >= 0 && owner_[other] != rank && near(mine, other, boxes)) {
         lists[owner_[other]].send.push_back(mine);
         lists[owner_[other]].receive.push_back(other);
       }
@@ -169,7 +169,7 @@ void RagSystem::migrate(const OwnerOf& owner_of) {
   }
   MPI_Allreduce(MPI_IN_PLACE, owner.data(), static_cast<int>(owner.size()), MPI_INT, MPI_MAX, comm_);
   for (std::size_t t = 0; t < owner.size(); ++t)
-    if (owner[t] < 0 || owner[t] >= size_of(comm_))
+    if (owner_[t] >= 0 && (owner[t] < 0 || owner[t] >= size_of(comm_)))
       throw Error(ExitCode::invariant, "rags: tile " + std::to_string(t) + " was given to rank " + std::to_string(owner[t]) +
                                            ", must be 0 to " + std::to_string(size_of(comm_) - 1) + "; is a rag outside the mesh?");
   if (owner != owner_) move_tiles(owner);

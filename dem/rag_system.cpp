@@ -8,6 +8,7 @@
 #include "base/words.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/tile_halo.hpp"
+#include "dem/tile_particles.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -34,16 +35,44 @@ RagSystem::RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<Rag
     n_tiles += grids_.back().n_tiles();
   }
   broken_.assign(rags_.size(), 0);
-  owner_.resize(n_tiles);
-  for (int t = 0; t < n_tiles; ++t) owner_[t] = static_cast<int>(static_cast<std::int64_t>(t) * size_of(comm_) / n_tiles);
-  for (int t = 0; t < n_tiles; ++t)
-    if (owner_[t] == rank_of(comm_)) numbers_.push_back(t), tiles_.push_back(tile_at_birth(t));
+  owner_.assign(n_tiles, -1);
+  inserted_.assign(rags_.size(), 0);
+  for (std::size_t r = 0; r < pieces_.size(); ++r)
+    if (pieces_[r].insert_time <= 0 && !pieces_[r].with_water) add_tiles(static_cast<int>(r));
   set_limit();
   set_pointers();
   find_ghosts();
 }
 
 RagSystem::~RagSystem() = default;
+
+/// Makes the tiles of a rag, in equal blocks of all tiles over the ranks.
+void RagSystem::add_tiles(int rag) {
+  const int first = grids_[rag].first_tile, end = first + grids_[rag].n_tiles();
+  const auto place = std::lower_bound(numbers_.begin(), numbers_.end(), first) - numbers_.begin();
+  std::vector<int> numbers;
+  std::vector<Tile> tiles;
+  for (int t = first; t < end; ++t) {
+    owner_[t] = static_cast<int>(static_cast<std::int64_t>(t) * size_of(comm_) / n_all_tiles());
+    if (owner_[t] == rank_of(comm_)) numbers.push_back(t), tiles.push_back(tile_at_birth(t));
+  }
+  numbers_.insert(numbers_.begin() + place, numbers.begin(), numbers.end());
+  tiles_.insert(tiles_.begin() + place, std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
+  inserted_[rag] = 1;
+}
+
+void RagSystem::insert(int rag) {
+  add_tiles(rag);
+  set_pointers();
+  find_ghosts();
+  halo_->exchange();
+}
+
+void RagSystem::push(int rag, const Vec3& velocity) {
+  for (Tile& tile : tiles_)
+    if (tile.rag == rag) for_particles(tile, [&](int k, int, int) { tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + velocity); });
+  halo_->exchange();
+}
 
 void RagSystem::set_contacts(std::unique_ptr<ContactSolver> contacts) {
   contacts_ = std::move(contacts);

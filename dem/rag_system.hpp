@@ -56,7 +56,8 @@ struct RagCounts {
 
 class RagSystem {
  public:
-  /// Places the pieces; tiles are spread in equal blocks over the ranks until the first migrate(). Collective; throws Error(usage).
+  /// Places the pieces, but those that have an insert_time or begin with the water wait for insert(). Tiles are spread in equal blocks over
+  /// the ranks until the first migrate(). Collective; throws Error(usage).
   RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<RagPiece> pieces);
   ~RagSystem();
   RagSystem(const RagSystem&) = delete;
@@ -79,6 +80,13 @@ class RagSystem {
   /// Owned tiles in order of their number; the reference stays, its content changes with migrate() and load().
   std::vector<Tile>& tiles() { return tiles_; }
   const std::vector<Tile>& tiles() const { return tiles_; }
+  const std::vector<RagPiece>& pieces() const { return pieces_; }
+  /// True once the rag is in the run.
+  bool inserted(int rag) const { return inserted_[rag]; }
+  /// Puts a waiting rag where its piece says. Collective.
+  void insert(int rag);
+  /// Adds a velocity to all particles of a rag, m/s.
+  void push(int rag, const Vec3& velocity);
   double time() const { return time_; }
   std::int64_t n_sub_steps() const { return n_sub_steps_; }
   /// Particle-steps done by this rank, for performance figures.
@@ -128,6 +136,7 @@ class RagSystem {
   std::vector<double> pack(const Tile& tile) const;
   Tile unpack(int number, std::span<const double> values);
   Tile tile_at_birth(int number) const;
+  void add_tiles(int rag);
   int rag_of_tile(int number) const;
   int n_all_tiles() const { return static_cast<int>(owner_.size()); }
 
@@ -142,9 +151,10 @@ class RagSystem {
   StepLimit limit_;
   double time_ = 0;
   std::int64_t n_sub_steps_ = 0, n_particle_steps_ = 0;
+  std::vector<char> inserted_;        // [n_rags]
   std::vector<std::int64_t> broken_;  // [n_rags] bonds that broke on this rank
 
-  std::vector<int> owner_;    // [n_tiles] rank of each tile
+  std::vector<int> owner_;    // [n_tiles] rank of each tile; -1: its rag waits
   std::vector<int> numbers_;  // of the owned tiles, ascending
   std::vector<Tile> tiles_;
   std::vector<int> ghost_numbers_;

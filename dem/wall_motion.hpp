@@ -9,6 +9,7 @@ struct WallMotion {
   Vec3 origin;         // a point of the axis at time 0, m
   double speed = 0;    // Omega, rad/s, right-handed about axis
   Vec3 velocity;       // V, m/s
+  double ramp = 0;     // T, s: the angular speed grows from zero, Omega min(t/T, 1)
 
   bool moves() const { return speed != 0 || norm_squared(velocity) > 0; }
 };

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "parallel/sum.hpp"
 
 namespace snag {
 
@@ -18,7 +19,8 @@ std::vector<Parameter> WallSettings::parameters() {
       Parameter{.key = "normal", .target = &normal, .meaning = "plane: normal into the fluid, of any length."},
       length("lower", &lower, "box: lowest corner; the fluid is inside."),
       length("upper", &upper, "box: highest corner."),
-      setting("patches", &patches, "patches: names of patches of the mesh."),
+      setting("patches", &patches, "patches: names of patches of the mesh; those of the rotating zone turn with it."),
+      setting("fixed", &fixed, "patches: stands although its zone turns, as a ring around the axis may."),
       file_setting("file", &file, "stl: the file, beside the case file."),
       Parameter{.key = "scale", .target = &scale, .minimum = 1e-9, .maximum = 1e9, .meaning = "stl: metres per unit of the file."},
       setting("normals_into_fluid", &normals_into_fluid,
@@ -26,6 +28,7 @@ std::vector<Parameter> WallSettings::parameters() {
       Parameter{.key = "axis", .target = &axis, .meaning = "Axis of turning, of any length."},
       length("origin", &origin, "A point of the axis at time 0."),
       Parameter{.key = "speed", .target = &speed, .unit = "rad/s", .meaning = "Angular speed, right-handed about the axis."},
+      Parameter{.key = "ramp", .target = &ramp, .unit = "s", .minimum = 0, .meaning = "Time in which the angular speed grows from zero."},
       Parameter{.key = "velocity", .target = &velocity, .unit = "m/s", .meaning = "Velocity of translation."},
   };
 }
@@ -91,8 +94,33 @@ void turn_over(WallSurface& surface) {
   }
 }
 
-void add_wall(WallSet& walls, const WallSettings& wall, const CaseFile& file, const Mesh* mesh) {
-  const WallMotion motion{wall.axis, wall.origin, wall.speed, wall.velocity};
+/// Whether the faces of a patch belong to the turning zone. Collective; throws Error(usage) if some do and others do not.
+bool turns(const Mesh& mesh, const std::string& patch, const std::string& wall) {
+  const Patch& faces = mesh.patches[static_cast<std::size_t>(mesh.patch_index(patch))];
+  std::int64_t turning = 0;
+  for (int f = faces.first; f < faces.end(); ++f) turning += mesh.cell_zone[mesh.owner[f]] == mesh.turning.zone;
+  turning = sum(mesh.comm, turning);
+  if (turning != 0 && turning != faces.count_global)
+    throw Error(ExitCode::usage, "wall \"" + wall + "\": patch \"" + patch + "\" has " + std::to_string(turning) + " of its " +
+                                     std::to_string(faces.count_global) +
+                                     " faces in the rotating zone, must have all or none there; split it in the mesh");
+  return turning != 0;
+}
+
+/// Patches that turn and patches that stand are two bodies.
+void add_patches(WallSet& walls, const WallSettings& wall, const Mesh& mesh, const WallMotion& motion, const WallMotion* rotor) {
+  std::vector<std::string> turning, standing;
+  for (const std::string& patch : wall.patches)
+    (rotor && !wall.fixed && turns(mesh, patch, wall.name) ? turning : standing).push_back(patch);
+  if (!turning.empty() && motion.moves())
+    throw Error(ExitCode::usage, "wall \"" + wall.name + "\": a motion of its own for patch \"" + turning.front() +
+                                     "\", which turns with the rotating zone; remove speed and velocity, or set fixed = true");
+  if (!standing.empty()) walls.add_surface(wall.name, wall_surface(mesh, standing), motion);
+  if (!turning.empty()) walls.add_surface(wall.name, wall_surface(mesh, turning), *rotor);
+}
+
+void add_wall(WallSet& walls, const WallSettings& wall, const CaseFile& file, const Mesh* mesh, const WallMotion* rotor) {
+  const WallMotion motion{wall.axis, wall.origin, wall.speed, wall.velocity, wall.ramp};
   if (wall.kind == "plane") {
     walls.add_plane(wall.name, wall.point, wall.normal, motion);
   } else if (wall.kind == "box") {
@@ -105,13 +133,13 @@ void add_wall(WallSet& walls, const WallSettings& wall, const CaseFile& file, co
     if (!mesh)
       throw Error(ExitCode::usage,
                   "wall \"" + wall.name + "\": kind = \"patches\" without a mesh, patches are of a mesh; give [mesh] or another kind");
-    walls.add_surface(wall.name, wall_surface(*mesh, wall.patches), motion);
+    add_patches(walls, wall, *mesh, motion, rotor);
   }
 }
 
 }  // namespace
 
-WallSet read_walls(const CaseFile& file, const Mesh* mesh) {
+WallSet read_walls(const CaseFile& file, const Mesh* mesh, const WallMotion* rotor) {
   WallSet walls;
   int number = 0;
   for (const Table& table : file.root().tables("wall")) {
@@ -124,7 +152,7 @@ WallSet read_walls(const CaseFile& file, const Mesh* mesh) {
     demand("point", "plane"), demand("normal", "plane"), demand("lower", "box"), demand("upper", "box");
     demand("patches", "patches"), demand("file", "stl");
     if (wall.name.empty()) wall.name = wall.kind + "_" + std::to_string(number);
-    add_wall(walls, wall, file, mesh);
+    add_wall(walls, wall, file, mesh, rotor);
     ++number;
   }
   return walls;

@@ -3,8 +3,8 @@
 //
 // A wall is kept in its own frame, that of time 0. A point X of it is at time t at
 //   x = o + V t + R(n, Omega t) (X - o),      its velocity is  u = V + Omega n x (x - o - V t)
-// with R the rotation about the unit axis n by the angle Omega t, o a point of the axis, V the translation velocity: evaluated from t, so
-// no error accumulates.
+// with R the rotation about the unit axis n by the angle Omega t (less in a ramp: dem/wall_motion.cpp), o a point of the axis, V the
+// translation velocity: evaluated from t, so no error accumulates.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -30,7 +30,9 @@ struct WallSettings {
   bool normals_into_fluid = false;   // of the STL: true where its normals point out of a solid body that the fluid surrounds
   Vec3 axis{0, 0, 1}, origin;
   double speed = 0;  // rad/s, right-handed about axis
+  double ramp = 0;   // s
   Vec3 velocity;     // m/s
+  bool fixed = false;
 
   std::vector<Parameter> parameters();
 };
@@ -71,7 +73,8 @@ class WallSet {
   std::vector<std::string> parts_;
 };
 
-/// The walls of a case, [[wall]]; `mesh` may be null where no wall names patches. Collective; throws Error(usage, mesh, io).
-WallSet read_walls(const CaseFile& file, const Mesh* mesh);
+/// The walls of a case, [[wall]]; `mesh` may be null where no wall names patches. Patches of the mesh's turning zone move as `rotor`, if
+/// one is given. Collective; throws Error(usage, mesh, io).
+WallSet read_walls(const CaseFile& file, const Mesh* mesh, const WallMotion* rotor = nullptr);
 
 }  // namespace snag

@@ -35,6 +35,31 @@ struct PeriodicPair {
   Vec3 translation;
 };
 
+/// A cylinder or a disc of a sliding interface, as a line in the half-plane (r, z) about the axis.
+struct InterfacePart {
+  bool is_disc = false;
+  double level = 0;             // r of a cylinder, z of a disc, m
+  double lower = 0, upper = 0;  // ends: z of a cylinder, r of a disc, m
+  int sign = 1;                 // the turning zone lies below (1) or above (-1) the level
+};
+
+/// Where the turning zone of a mesh stands, and the surface of revolution at which it ends.
+struct TurningPose {
+  int zone = -1;                                               // index into zones; -1: nothing turns
+  Vec3 origin, axis;                                           // point of the axis, m; unit vector along it
+  Mat3 rotation{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // from where the mesh file has the zone
+  std::vector<InterfacePart> parts;
+
+  /// Where a point that turns with the zone is in the mesh file.
+  Vec3 turned_back(const Vec3& x) const {
+    const Vec3 v = x - origin;
+    return origin + v.x * rotation[0] + v.y * rotation[1] + v.z * rotation[2];
+  }
+  /// Distance from the interface, m, negative on the side of the turning zone; zero on the interface counts as standing. Exact in size
+  /// where the nearest point is not on a rim, right in sign everywhere near the interface.
+  double distance(const Vec3& x) const;
+};
+
 enum class CellShape : std::uint8_t { tetrahedron, pyramid, prism, hexahedron };
 
 struct Mesh {
@@ -60,6 +85,7 @@ struct Mesh {
   // of facets, [n_interior - first_facet]: their area over that of the face that they are a part of, on the owner's and the neighbour's
   // side
   std::vector<std::array<double, 2>> facet_share;
+  TurningPose turning;
 
   // cell -> faces of owned cells (compressed rows), all kinds of faces
   std::vector<int> cell_face_start, cell_face;

@@ -65,6 +65,25 @@ bool meets(const std::vector<Band>& united, const Band& band) {
                      [&](const Band& own) { return own.part == band.part && own.lower <= band.upper && band.lower <= own.upper; });
 }
 
+/// Cylinders and discs with what the rotor's faces cover of them.
+std::vector<InterfacePart> parts_of(const RevolvedSurface& surface) {
+  std::vector<InterfacePart> parts;
+  for (const bool is_disc : {false, true})
+    for (const double level : is_disc ? surface.levels : surface.radii) parts.push_back({is_disc, level, infinity, -infinity, 0});
+  for (const RevolvedFace& face : surface.rotor.face) {
+    InterfacePart& part = parts[static_cast<std::size_t>(face.part) + (face.is_disc ? surface.radii.size() : 0)];
+    part.sign = face.sign;
+    for (int i = 0; i < face.n_nodes; ++i) {
+      const RevolvedNode& node = surface.rotor.node[static_cast<std::size_t>(face.node[static_cast<std::size_t>(i)])];
+      const double along = face.is_disc ? node.r : node.z;
+      part.lower = std::min(part.lower, along), part.upper = std::max(part.upper, along);
+    }
+  }
+  // A level may belong to the rims of the other kind alone. A disc around the axis has a cell there, not always a node.
+  std::erase_if(parts, [](const InterfacePart& part) { return part.sign == 0; });
+  return parts;
+}
+
 /// Takes the rows [first, last) out of compressed rows.
 void erase_rows(std::vector<int>& start, std::vector<int>& entries, int first, int last) {
   const int removed = start[last] - start[first];
@@ -86,6 +105,7 @@ std::vector<T> taken(const std::vector<T>& all, const std::vector<int>& which, i
 TurningMesh::TurningMesh(Mesh& mesh, const SlidingDescription& description, double angle) : mesh_(mesh), interface_(mesh, description) {
   interface_.curve(mesh_);
   zone_ = static_cast<int>(std::find(mesh.zones.begin(), mesh.zones.end(), description.rotor_zone) - mesh.zones.begin());
+  mesh_.turning = {.zone = zone_, .origin = description.origin, .axis = unit(description.axis), .parts = parts_of(interface_.surface())};
   unit_mesh_flux_ = interface_.mesh_flux(mesh_, 1);
   release_interface();
   add_ghosts();
@@ -193,7 +213,7 @@ void TurningMesh::keep_reference() {
 
 void TurningMesh::turn(double angle) {
   angle_ = angle;
-  rotation_ = interface_.rotation(angle);
+  mesh_.turning.rotation = interface_.rotation(angle);
   join(interface_.facets(angle));
   turn_geometry();
   list_cell_faces(mesh_);
@@ -203,14 +223,15 @@ void TurningMesh::turn(double angle) {
 void TurningMesh::turn_geometry() {
   n_bounded_ = 0;
   const Turning& r = reference_;
-  for (std::size_t i = 0; i < r.cell.size(); ++i) mesh_.cell_centre[r.cell[i]] = interface_.turned_point(rotation_, r.cell_centre[i]);
-  for (std::size_t i = 0; i < r.node.size(); ++i) mesh_.node[r.node[i]] = interface_.turned_point(rotation_, r.node_position[i]);
+  const Mat3& rotation = mesh_.turning.rotation;
+  for (std::size_t i = 0; i < r.cell.size(); ++i) mesh_.cell_centre[r.cell[i]] = interface_.turned_point(rotation, r.cell_centre[i]);
+  for (std::size_t i = 0; i < r.node.size(); ++i) mesh_.node[r.node[i]] = interface_.turned_point(rotation, r.node_position[i]);
   const std::size_t n_interior = r.face.size();
   for (std::size_t i = 0; i < n_interior + r.boundary_face.size(); ++i) {
     const int f = i < n_interior ? r.face[i] : mesh_.n_interior + r.boundary_face[i - n_interior];
-    mesh_.face_vector[f] = rotation_ * r.face_vector[i];
-    mesh_.face_centre[f] = interface_.turned_point(rotation_, r.face_centre[i]);
-    mesh_.delta[f] = rotation_ * r.delta[i];
+    mesh_.face_vector[f] = rotation * r.face_vector[i];
+    mesh_.face_centre[f] = interface_.turned_point(rotation, r.face_centre[i]);
+    mesh_.delta[f] = rotation * r.delta[i];
   }
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) {
     const Vec3 &x_P = mesh_.cell_centre[mesh_.owner[f]], &x_N = mesh_.cell_centre[mesh_.neighbour[f]], &S = mesh_.face_vector[f];

@@ -50,7 +50,6 @@ class TurningMesh {
   int zone_ = 0;
   double angle_ = 0;
   std::int64_t n_bounded_ = 0;
-  Mat3 rotation_{};
   // of what turns, at angle 0
   struct Turning {
     std::vector<int> cell, face, boundary_face, node;  // boundary_face: f - n_interior

@@ -39,6 +39,9 @@ class RotatingZone {
   int zone() const { return mesh_.zone(); }
   /// rad/s, with its ramp from zero: omega min(t/T, 1).
   double speed(double time) const;
+  /// The same at the end of the ramp; and the ramp, s.
+  double full_speed() const { return speed_; }
+  double ramp() const { return ramp_; }
   /// omega as a vector, rad/s.
   Vec3 rotation_speed(double time) const { return speed(time) * axis_; }
   /// Angle of the rotor from where the mesh file has it, rad, not reduced; that of the start in a frame.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/report/html.hpp"
+#include "base/parameter.hpp"
 #include "base/words.hpp"
 
 namespace snag {
@@ -20,12 +21,25 @@ const char* const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69
 constexpr std::size_t n_colours = std::size(colours);
 
 const char* const faint_colour = "#9aa7b4";
+const char* const mark_colour = "#5b6673";
+const char* const span_colours[] = {"#f6ead0", "#dfeee6"};  // pale: lines and grid stay legible on them
+
+/// Of the k-th band.
+std::string opacity(std::size_t k) {
+  constexpr const char* steps[] = {"0.45", "0.25", "0.12"};
+  return steps[std::min(k, std::size(steps) - 1)];
+}
 
 /// Faint lines take no colour from the others.
 std::vector<std::string> colours_of(const LinePlot& plot) {
   std::vector<std::string> result;
   std::size_t n = 0;
-  for (const PlotLine& line : plot.lines) result.emplace_back(line.faint ? faint_colour : colours[n++ % n_colours]);
+  for (const PlotLine& line : plot.lines) {
+    if (line.continues && !result.empty())
+      result.push_back(result.back());
+    else
+      result.emplace_back(line.faint ? faint_colour : colours[n++ % n_colours]);
+  }
   return result;
 }
 
@@ -64,12 +78,13 @@ void set_ticks(Axis& axis, int wanted) {
   for (int i = 0; (first + i) * step <= axis.end + 1e-9 * span; ++i) axis.ticks.push_back((first + i) * step);
 }
 
-Axis axis_of(const LinePlot& plot, const std::vector<double> PlotLine::*values, bool logarithmic) {
+/// Axis that holds all values; `is_x`: they may reach the frame.
+Axis axis_of(const std::vector<const std::vector<double>*>& values, bool is_x, bool logarithmic) {
   Axis axis;
   axis.logarithmic = logarithmic;
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const auto& line : plot.lines)
-    for (const double value : line.*values) {
+  for (const auto* list : values)
+    for (const double value : *list) {
       const double at = axis.coordinate(value);
       if (std::isfinite(at)) low = std::min(low, at), high = std::max(high, at);
     }
@@ -81,10 +96,36 @@ Axis axis_of(const LinePlot& plot, const std::vector<double> PlotLine::*values, 
     const double band = logarithmic ? 0.5 : low == 0 && high == 0 ? 1 : 0.05 * std::max(std::abs(low), std::abs(high));
     low -= band, high += band;
   }
-  const double margin = logarithmic || values == &PlotLine::x ? 0 : 0.04 * (high - low);  // lines keep off the frame
+  const double margin = logarithmic || is_x ? 0 : 0.04 * (high - low);  // lines keep off the frame
   axis.begin = low - margin, axis.end = high + margin;
   const double size = std::max(std::abs(low), std::abs(high));
   if (!logarithmic && (size >= 1e5 || size < 1e-3)) axis.exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
+  return axis;
+}
+
+Axis x_axis(const LinePlot& plot) {
+  std::vector<const std::vector<double>*> values;
+  for (const PlotLine& line : plot.lines) values.push_back(&line.x);
+  for (const PlotBand& band : plot.bands) values.push_back(&band.x);
+  if (!plot.x_ticks.empty()) values.assign(1, &plot.x_ticks);
+  Axis axis = axis_of(values, true, false);
+  if (plot.x_ticks.empty())
+    set_ticks(axis, 6);
+  else
+    axis.ticks = plot.x_ticks;
+  return axis;
+}
+
+Axis y_axis(const LinePlot& plot) {
+  std::vector<const std::vector<double>*> values;
+  for (const PlotLine& line : plot.lines) values.push_back(&line.y);
+  for (const PlotBand& band : plot.bands) values.insert(values.end(), {&band.low, &band.high});
+  std::vector<double> levels;
+  for (const PlotMark& mark : plot.marks)
+    if (mark.level) levels.push_back(mark.at);
+  values.push_back(&levels);
+  Axis axis = axis_of(values, false, plot.logarithmic);
+  set_ticks(axis, 6);
   return axis;
 }
 
@@ -170,13 +211,93 @@ std::string frame(const LinePlot& plot, const Axis& x, const Axis& y) {
   return svg;
 }
 
+std::string spans_of(const LinePlot& plot, const Axis& x) {
+  std::string svg;
+  for (std::size_t k = 0; k < plot.spans.size(); ++k) {
+    const double begin = std::max(0.0, x.part(plot.spans[k].begin)), end = std::min(1.0, x.part(plot.spans[k].end));
+    if (!(begin < end)) continue;
+    svg += "<rect x=\"" + printed("%.1f", left + (width - left - right) * begin) + "\" y=\"" + printed("%.0f", top) + "\" width=\"" +
+           printed("%.1f", (width - left - right) * (end - begin)) + "\" height=\"" + printed("%.0f", height - top - bottom) +
+           "\" fill=\"" + span_colours[k % std::size(span_colours)] + "\"/>\n";
+  }
+  return svg;
+}
+
+/// The k-th band; what has no place on the axis reaches down to its end. Long bands are thinned to their outermost values.
+std::string band_of(const PlotBand& band, const Axis& x, const Axis& y, std::size_t k) {
+  constexpr std::size_t stretches = 400;
+  const std::size_t n = band.x.size(), length = std::max<std::size_t>(1, n / stretches);
+  const auto level = [&](double value) {
+    const double at = y.part(value);
+    return height - bottom - (height - top - bottom) * (std::isfinite(at) ? at : 0);
+  };
+  std::string there, back;
+  for (std::size_t begin = 0; begin < n; begin += length) {
+    const std::size_t end = std::min(n, begin + length);
+    const double low = *std::min_element(band.low.begin() + begin, band.low.begin() + end),
+                 high = *std::max_element(band.high.begin() + begin, band.high.begin() + end);
+    const std::string px = printed("%.1f ", pixel_x(x, band.x[begin]));
+    there += (begin == 0 ? "M" : "L") + px + printed("%.1f", level(high));
+    back.insert(0, "L" + px + printed("%.1f", level(low)));
+  }
+  return n == 0 ? "" : "<path d=\"" + there + back + "Z\" fill=\"" + colours[0] + "\" fill-opacity=\"" + opacity(k) + "\"/>\n";
+}
+
+/// Upright marks carry letters in their order, level ones their label.
+std::string marks_of(const LinePlot& plot, const Axis& x, const Axis& y) {
+  std::string svg;
+  std::size_t n = 0;
+  const auto line = [&](double x1, double y1, double x2, double y2) {
+    svg += "<line x1=\"" + printed("%.1f", x1) + "\" y1=\"" + printed("%.1f", y1) + "\" x2=\"" + printed("%.1f", x2) + "\" y2=\"" +
+           printed("%.1f", y2) + "\" stroke=\"" + mark_colour + "\" stroke-dasharray=\"4 3\"/>";
+  };
+  double last = -infinity, last_level = -infinity;  // places of the letter and of the level before, pixels
+  for (const PlotMark& mark : plot.marks) {
+    if (mark.level) {
+      const double at = pixel_y(y, mark.at);
+      line(left, at, width - right, at);
+      const bool is_crowded = std::abs(at - last_level) < 12;  // its label would cover the one before
+      svg += "<text x=\"" + printed("%.0f", is_crowded ? left + 4 : width - right - 4) + "\" y=\"" + printed("%.1f", at - 4) +
+             "\" text-anchor=\"" + (is_crowded ? "start" : "end") + "\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">" +
+             escaped(mark.label) + "</text>\n";
+      last_level = is_crowded ? -infinity : at;
+      continue;
+    }
+    const std::string name = mark_letter(n++);
+    const double part = x.part(mark.at), at = pixel_x(x, mark.at);
+    if (!(part >= 0 && part <= 1)) continue;
+    line(at, top, at, height - bottom);
+    last = std::max(at, last + 8);  // letters of events close together stand side by side
+    svg += "<text x=\"" + printed("%.1f", last) + "\" y=\"" + printed("%.0f", top - 4) + "\" text-anchor=\"middle\">" + name + "</text>\n";
+  }
+  return svg;
+}
+
 std::string legend(const LinePlot& plot) {
-  if (plot.lines.size() < 2 && (plot.lines.empty() || plot.lines[0].label.empty())) return "";
   const auto colour = colours_of(plot);
+  std::vector<std::string> entries;
+  const auto swatch = [](const std::string& style, const std::string& sign) { return "<b style=\"" + style + "\">" + sign + "</b> "; };
+  const bool is_alone = plot.lines.size() == 1 && plot.lines[0].label.empty();
+  for (std::size_t i = 0; i < plot.lines.size() && !is_alone; ++i)
+    if (!plot.lines[i].continues) entries.push_back(swatch("color:" + colour[i], "━") + escaped(plot.lines[i].label));
+  const std::size_t n_lines = entries.size();
+  if (n_lines > max_legend) {
+    entries.resize(max_legend);
+    entries.push_back("and " + std::to_string(n_lines - max_legend) + " more");
+  }
+  for (std::size_t k = 0; k < plot.bands.size(); ++k)
+    entries.push_back(swatch(std::string("color:") + colours[0] + ";opacity:" + opacity(k), "█") + escaped(plot.bands[k].label));
+  for (std::size_t k = 0; k < plot.spans.size(); ++k)
+    entries.push_back(swatch(std::string("color:") + span_colours[k % std::size(span_colours)], "█") + escaped(plot.spans[k].label));
+  std::size_t n = 0;
+  for (const PlotMark& mark : plot.marks) {
+    if (mark.level) continue;
+    const std::string name = mark_letter(n++);
+    if (!mark.label.empty()) entries.push_back("<b>" + name + "</b> " + escaped(mark.label));
+  }
+  if (entries.empty()) return "";
   std::string result = "<div class=\"legend\">";
-  for (std::size_t i = 0; i < std::min(plot.lines.size(), max_legend); ++i)
-    result += "<span><b style=\"color:" + colour[i] + "\">━</b> " + escaped(plot.lines[i].label) + "</span> ";
-  if (plot.lines.size() > max_legend) result += "<span>and " + std::to_string(plot.lines.size() - max_legend) + " more</span>";
+  for (const auto& entry : entries) result += "<span>" + entry + "</span> ";
   return result + "</div>";
 }
 
@@ -196,6 +317,8 @@ std::string gaps(const LinePlot& plot, const Axis& y) {
 
 }  // namespace
 
+std::string mark_letter(std::size_t i) { return std::string(1, static_cast<char>('a' + i % 26)); }
+
 double decades(const LinePlot& plot) {
   double low = std::numeric_limits<double>::max(), high = 0;
   for (const auto& line : plot.lines)
@@ -207,18 +330,18 @@ double decades(const LinePlot& plot) {
 }
 
 std::string figure(const LinePlot& plot) {
-  Axis x = axis_of(plot, &PlotLine::x, false), y = axis_of(plot, &PlotLine::y, plot.logarithmic);
-  set_ticks(x, 6);
-  set_ticks(y, 6);
-  std::string svg = "<svg viewBox=\"0 0 " + printed("%.0f ", width) + printed("%.0f", height) + "\" role=\"img\" aria-label=\"" +
-                    escaped(plot.title) + "\">\n" + frame(plot, x, y);
+  const Axis x = x_axis(plot), y = y_axis(plot);
   const auto colour = colours_of(plot);
+  std::string svg = "<svg viewBox=\"0 0 " + printed("%.0f ", width) + printed("%.0f", height) + "\" role=\"img\" aria-label=\"" +
+                    escaped(plot.title) + "\">\n" + spans_of(plot, x) + frame(plot, x, y);
+  for (std::size_t k = plot.bands.size(); k-- > 0;) svg += band_of(plot.bands[k], x, y, k);
   for (const bool faint : {true, false})
     for (std::size_t i = 0; i < plot.lines.size(); ++i)
       if (plot.lines[i].faint == faint)
         svg += path_of(plot.lines[i], x, y,
                        "stroke=\"" + colour[i] + "\" stroke-width=\"" + (faint ? "0.7" : "1.4") +
                            "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+  svg += marks_of(plot, x, y);
   return "<figure class=\"plot\"><figcaption>" + escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) + gaps(plot, y) +
          "</figure>\n";
 }

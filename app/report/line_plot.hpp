@@ -8,8 +8,29 @@ namespace snag {
 struct PlotLine {
   std::string label;
   std::vector<double> x, y;
-  bool faint = false;   // thin and grey, behind the others
-  bool dotted = false;  // a dot at each point
+  bool faint = false;      // thin and grey, behind the others
+  bool dotted = false;     // a dot at each point
+  bool continues = false;  // the line before after a gap: its colour, no entry in the legend
+};
+
+/// What lies between two curves, in the colour of the first line and fainter from band to band.
+struct PlotBand {
+  std::string label;
+  std::vector<double> x, low, high;
+};
+
+/// A dashed line across the whole plot: upright at an x with a letter, which the legend explains if there is a label, or level at a y with
+/// its label on it.
+struct PlotMark {
+  double at = 0;
+  std::string label;
+  bool level = false;
+};
+
+/// A stretch of x, shaded from top to bottom; its label stands in the legend.
+struct PlotSpan {
+  double begin = 0, end = 0;
+  std::string label;
 };
 
 struct LinePlot {
@@ -17,7 +38,14 @@ struct LinePlot {
   std::string x_label, y_label;  // with units
   std::vector<PlotLine> lines;
   bool logarithmic = false;  // of y
+  std::vector<PlotBand> bands = {};
+  std::vector<PlotMark> marks = {};
+  std::vector<PlotSpan> spans = {};
+  std::vector<double> x_ticks = {};  // rising; they span the axis; empty: round numbers that suit the values
 };
+
+/// Letter of the i-th upright mark.
+std::string mark_letter(std::size_t i);
 
 /// Decades between the smallest and the largest positive value; negative if a value is below zero or none is above.
 double decades(const LinePlot& plot);

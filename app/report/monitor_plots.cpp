@@ -1,13 +1,10 @@
 #include "app/report/monitor_plots.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <set>
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
-#include "base/series.hpp"
 
 namespace snag {
 
@@ -40,6 +37,7 @@ const std::vector<KnownPlot>& known_plots() {
       {"rags", "Largest tension of a bond", {"bond_tension_max"}},
       {"rags", "Broken bonds", {"broken_bonds"}},
       {"rags", "Particles that have left the domain", {"particles_out"}},
+      {"passage", "Where the largest tension of a bond is", {"max_tension_x", "max_tension_y", "max_tension_z"}},
       {"contacts", "Contacts: all, and those with walls", {"contacts", "wall_contacts"}},
       {"contacts", "Deepest overlap of a contact, in particle radii", {"overlap_over_radius_max"}},
       {"silhouettes", "Elongation ratio of the silhouette", {"elongation_ratio"}},
@@ -138,6 +136,10 @@ class Monitor {
     return groups;
   }
   const std::string& name() const { return name_; }
+  /// These columns are shown elsewhere.
+  void leave_out(const std::set<std::string>& columns) {
+    std::erase_if(left_, [&](const std::string& header) { return columns.contains(column_of(header).name); });
+  }
 
  private:
   std::string name_;
@@ -205,9 +207,17 @@ std::vector<Monitor> monitors_of(const std::filesystem::path& folder, std::vecto
 
 }  // namespace
 
-MonitorPlots monitor_plots(const std::filesystem::path& folder) {
+SeriesTable recorded(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
+  SeriesTable table = read_series(file);
+  return table.values.empty() || table.values[0].empty() ? SeriesTable{} : table;
+}
+
+MonitorPlots monitor_plots(const std::filesystem::path& folder, const ColumnsByMonitor& elsewhere) {
   MonitorPlots result;
   auto monitors = monitors_of(folder, result.problems);
+  for (auto& monitor : monitors)
+    if (const auto found = elsewhere.find(monitor.name()); found != elsewhere.end()) monitor.leave_out(found->second);
   const auto keep = [&](const LinePlot& plot) {
     const auto value = constant_value(plot);
     if (value)

@@ -1,10 +1,13 @@
 #pragma once
 // The plots of a report: known monitors under plain titles, and every other column that is there.
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "app/report/line_plot.hpp"
+#include "base/series.hpp"
 
 namespace snag {
 
@@ -14,7 +17,14 @@ struct MonitorPlots {
   std::vector<std::string> problems;                      // files that could not be read, and why
 };
 
+/// Columns, without units, by the name of their monitor without .csv.
+using ColumnsByMonitor = std::map<std::string, std::set<std::string>>;
+
 /// Plots of all *.csv files of a folder (none if it is absent). Columns of a vector (_x, _y, _z) share a plot, rags are lines of it.
-MonitorPlots monitor_plots(const std::filesystem::path& folder);
+/// `elsewhere`: columns that another section of the page shows.
+MonitorPlots monitor_plots(const std::filesystem::path& folder, const ColumnsByMonitor& elsewhere = {});
+
+/// A monitor, empty if it is not there or holds no record. Throws Error(io) if it cannot be read.
+SeriesTable recorded(const std::filesystem::path& file);
 
 }  // namespace snag

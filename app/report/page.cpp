@@ -21,6 +21,8 @@ td { font-variant-numeric: tabular-nums; } td:first-child { width: 60%; } sup { 
 figure { margin: 0; break-inside: avoid; }
 figure img { width: 100%; border: 1px solid #dde3ea; display: block; }
 figure.wide { margin: 14px 0; }
+figure.scale { margin: 10px auto; max-width: 760px; } figure.scale img { border: 0; }
+figure.path { margin: 14px auto; max-width: 560px; }
 figcaption { font-size: 0.88rem; color: #3a4656; padding: 3px 0; }
 .plot figcaption { font-weight: 600; color: #1c2430; }
 svg { width: 100%; height: auto; display: block; font: 11px system-ui, "DejaVu Sans", Arial, sans-serif; fill: #3a4656; }

@@ -8,7 +8,8 @@ namespace snag {
 
 struct Picture {
   std::filesystem::path file;
-  std::string group;  // "rag": instants of the rags; "speed": slices of the water
+  std::string group;  // instants of the rags, "rag": from the side, "pump": from the inlet of a pump; "scale": their colour bars; "path":
+                      // of the rags' centroids; "speed": water and walls
   std::string caption;
 };
 
@@ -19,5 +20,9 @@ struct Pictures {
 
 /// Draws what fields, rags and walls of the run's folder hold into DIR/pictures; the script stays there for views of one's own.
 Pictures draw_pictures(const std::filesystem::path& dir);
+
+/// Draws DIR/pictures/film_0001.png and so on, one for each instant at which the rags were written; those of an earlier film are removed.
+/// Only `made` and `problem` are set.
+Pictures draw_film(const std::filesystem::path& dir);
 
 }  // namespace snag

@@ -5,6 +5,7 @@
 
 #include "app/report/html.hpp"
 #include "app/report/line_plot.hpp"
+#include "app/report/monitor_plots.hpp"
 #include "app/report/results.hpp"
 #include "base/error.hpp"
 #include "base/series.hpp"
@@ -14,13 +15,6 @@ namespace snag {
 namespace {
 
 constexpr int n_shown = 5;  // revolutions in a plot over the angle
-
-/// Monitor of a name, empty if it is not there or holds no record.
-SeriesTable monitor(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return {};
-  SeriesTable table = read_series(file);
-  return table.values.empty() || table.values[0].empty() ? SeriesTable{} : table;
-}
 
 /// What a column of revolutions.csv is in words, with the places of its number: "mean of the head [m]".
 struct Row {
@@ -124,8 +118,8 @@ std::string over_revolutions(const SeriesTable& revolutions, const std::string& 
 std::string pump_section(const nlohmann::json& summary, const std::filesystem::path& monitors) {
   std::string content = pump_table(summary);
   try {
-    const SeriesTable instants = monitor(monitors / "pump.csv"), revolutions = monitor(monitors / "revolutions.csv"),
-                      phase = monitor(monitors / "phase.csv");
+    const SeriesTable instants = recorded(monitors / "pump.csv"), revolutions = recorded(monitors / "revolutions.csv"),
+                      phase = recorded(monitors / "phase.csv");
     if (instants.columns.empty()) return content;
     if (!revolutions.columns.empty()) content += settled(revolutions) + revolution_table(revolutions) + harmonics_table(revolutions);
     std::string plots = over_angle(instants, "Head over the angle", "head", "head [m]") +

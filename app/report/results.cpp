@@ -63,6 +63,15 @@ void add_rows(Rows& rows, const json& table, const std::vector<Named>& names, bo
 
 std::string table_of(const std::vector<std::string>& header, const Rows& rows) { return rows.empty() ? "" : html::table(header, rows); }
 
+/// The largest number that the entries of a list have under a key, or null.
+json largest(const json& list, const char* key) {
+  json result;
+  if (!list.is_array()) return result;
+  for (const json& entry : list)
+    if (const json& value = member(entry, key); value.is_number() && (result.is_null() || value > result)) result = value;
+  return result;
+}
+
 const char* exit_words(int code) {
   switch (code) {
     case 0:
@@ -129,13 +138,13 @@ std::string rags_sentence(const json& rags) {
 
 bool ended_well(const json& summary) { return real(summary, "exit") == 0; }
 
-std::string outcome_sentence(const json& summary) {
+std::string outcome_sentence(const json& summary, const std::string& verdict) {
   const double code = real(summary, "exit"), simulated = real(summary, "simulated_s"), steps = real(summary, "time_steps");
   std::string text = std::isnan(code) ? "The run left no exit code." : exit_words(static_cast<int>(code));
   if (std::isfinite(simulated)) text += " It covers " + html::number(simulated) + " s of operation";
   if (std::isfinite(simulated) && std::isfinite(steps)) text += " in " + html::count(std::llround(steps)) + " time steps";
   if (std::isfinite(simulated)) text += ".";
-  return text + rags_sentence(member(summary, "rags"));
+  return text + (verdict.empty() ? rags_sentence(member(summary, "rags")) : " " + verdict);
 }
 
 std::string run_table(const json& summary) {
@@ -201,6 +210,10 @@ std::string rag_tables(const json& summary) {
               {"bond_strain_p99", "Strain that 99 % of the bonds stay below", ""},
               {"max_bond_tension_N", "Largest tension of a bond", "N"},
               {"corrected_positions", "Corrected positions", ""}});
+    add_rows(rows, member(rag, "wall_contact_by_zone_s"),
+             {{"impeller", "Time in contact with the impeller", "s"},
+              {"tongue", "Time in contact with the tongue", "s"},
+              {"other", "Time in contact with other walls", "s"}});
     std::erase_if(rows, [](const auto& row) { return row[0].empty(); });
     result += html::table({name_of(rag), "Value"}, rows);
     Rows events;
@@ -209,7 +222,7 @@ std::string rag_tables(const json& summary) {
         const double angle = real(event, "angle_deg");
         events.push_back({text_of(member(event, "t_s")), std::isfinite(angle) ? html::number(angle) : "", text_of(member(event, "what"))});
       }
-    if (!events.empty()) result += html::table({"Time [s]", "Angle of the impeller [deg]", "What happened"}, events);
+    if (!events.empty()) result += html::table({"Time [s]", "Angle of the rag's centroid, 0 at the tongue [deg]", "What happened"}, events);
   }
   return result;
 }
@@ -231,14 +244,21 @@ std::string conservation_table(const json& summary) {
   const json& conservation = member(summary, "conservation");
   if (!conservation.is_object()) return "";
   Rows rows;
-  for (const auto& check : checks) {
-    const json& value = member(conservation, check.key);
-    if (value.is_null() && check.key == std::string("interface_closure_rel")) continue;  // there is no interface
+  const auto add = [&](const Check& check, const json& value) {
     const char* verdict = "<span class=\"idle\">not measured</span>";
     if (value.is_number())  // what is not a number fails
       verdict = value.get<double>() <= check.limit ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">FAIL</span>";
     rows.push_back({check.meaning, value.is_number() ? text_of(value) : "", check.limit == 0 ? "0" : html::number(check.limit), verdict});
+  };
+  for (const auto& check : checks) {
+    const json& value = member(conservation, check.key);
+    if (value.is_null() && check.key == std::string("interface_closure_rel")) continue;  // there is no interface
+    add(check, value);
   }
+  // of rags: the worst of them; a contact that gives way by more than half a radius is no longer the contact of a sphere with a wall
+  for (const Check& check : {Check{"max_wall_overlap_over_radius", "Deepest overlap of a particle with a wall, in its radii", 0.5},
+                             Check{"corrected_positions", "Positions of particles corrected by hand", 0}})
+    if (const json worst = largest(member(summary, "rags"), check.key); !worst.is_null()) add(check, worst);
   return html::table({"Quantity", "Largest value", "Limit", "Check"}, rows);
 }
 

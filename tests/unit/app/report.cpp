@@ -163,15 +163,16 @@ class Report : public testing::Test {
   }
 };
 
-// The page stands alone: nine instants and two slices as pictures inside it, plots drawn inside it, nothing fetched from anywhere.
+// The page stands alone: nine instants with their scale and two slices as pictures inside it, plots drawn inside it, nothing fetched from
+// anywhere.
 TEST_F(Report, IsOneSelfContainedFile) {
   if (std::system("/usr/bin/python3 -c 'import vtkmodules.vtkIOXML' 2> /dev/null && command -v xvfb-run > /dev/null") != 0)
     GTEST_SKIP() << "python3-vtk9 or xvfb is not installed";
   write_run();
   write_report(dir);
   const auto html = page();
-  EXPECT_EQ(times(html, "<img src=\"data:image/png;base64,iVBOR"), 11u);
-  EXPECT_EQ(times(html, "<img"), 11u);
+  EXPECT_EQ(times(html, "<img src=\"data:image/png;base64,iVBOR"), 12u);
+  EXPECT_EQ(times(html, "<img"), 12u);
   EXPECT_EQ(times(html, "<svg"), 9u);
   EXPECT_FALSE(std::regex_search(html, std::regex("https?://|<script|<link|url\\(")));
   EXPECT_FALSE(holds(html, "missing:")) << html.substr(html.find("missing:"), 300);

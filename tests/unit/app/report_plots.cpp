@@ -60,6 +60,47 @@ TEST(LinePlotFigure, DrawsDegenerateLines) {
   }
 }
 
+// A band fills what lies between its curves and takes part in the axis; where a logarithmic axis has no place for it, it ends at the frame.
+TEST(LinePlotFigure, FillsBands) {
+  LinePlot plot{"", "", "", {{"median", {0, 10}, {2, 2}}}};
+  plot.bands = {{"to the largest", {0, 10}, {2, 2}, {4, 4}}};
+  const auto html = figure(plot);
+  EXPECT_TRUE(holds(html, "d=\"M64.0 25.5L468.0 25.5L468.0 212.5L64.0 212.5Z\"")) << html;
+  EXPECT_TRUE(holds(html, "█</b> to the largest"));
+  plot.logarithmic = true;
+  plot.bands[0].low = {0, 0}, plot.bands[0].high = {10, 10};
+  EXPECT_TRUE(holds(figure(plot), "d=\"M64.0 18.0L468.0 18.0L468.0 220.0L64.0 220.0Z\"")) << figure(plot);
+  plot.bands[0] = {"", {}, {}, {}};
+  EXPECT_FALSE(holds(figure(plot), "Z\""));
+}
+
+// Events are upright lines with letters that the legend explains, levels carry their names; what lies outside the plot is not drawn.
+TEST(LinePlotFigure, MarksEventsAndLevels) {
+  LinePlot plot{"", "", "", {{"", {0, 10}, {2, 4}}}};
+  plot.marks = {{5, "entered"}, {50, "exited"}, {6, "tongue", true}};
+  plot.spans = {{-3, 5, "inside"}, {20, 30, "outside"}};
+  const auto html = figure(plot);
+  EXPECT_TRUE(holds(html, "<line x1=\"266.0\" y1=\"18.0\" x2=\"266.0\" y2=\"220.0\"")) << html;
+  EXPECT_TRUE(holds(html, ">a</text>") && holds(html, "<b>a</b> entered") && holds(html, "<b>b</b> exited"));
+  EXPECT_FALSE(holds(html, ">b</text>"));
+  EXPECT_TRUE(holds(html, ">tongue</text>") && !holds(html, "</b> tongue"));
+  EXPECT_TRUE(holds(html, "<rect x=\"64.0\" y=\"18\" width=\"202.0\"")) << html;
+  EXPECT_TRUE(holds(html, "M64.0 212.5L468.0 119.0")) << "the level is inside the plot: " << html;
+}
+
+// Turns of a path are one line with gaps: one colour, one entry in the legend; given ticks span the axis.
+TEST(LinePlotFigure, ContinuesALineAfterAGap) {
+  LinePlot plot{"", "", "", {{"path", {300, 360}, {1, 2}}, {"path", {0, 60}, {2, 3}}, {"means", {10, 30}, {2, 2}}}};
+  plot.lines[1].continues = true;
+  plot.x_ticks = {0, 180, 360};
+  const auto html = figure(plot);
+  EXPECT_EQ(html.find("━</b> path"), html.rfind("━</b> path"));
+  EXPECT_TRUE(holds(html, "━</b> means"));
+  EXPECT_TRUE(holds(html, "L468.0 119.0\" fill=\"none\" stroke=\"#0072B2\"")) << html;
+  EXPECT_TRUE(holds(html, "M64.0 119.0L131.3 25.5\" fill=\"none\" stroke=\"#0072B2\"")) << html;
+  EXPECT_TRUE(holds(html, ">180</text>"));
+}
+
 /// A folder of monitors that is gone at the end.
 struct Monitors {
   std::filesystem::path folder = std::filesystem::temp_directory_path() / ("snag_monitor_plots_" + std::to_string(getpid()));
@@ -98,6 +139,15 @@ TEST(MonitorPlots, KeepConstantsAndUnitsApart) {
   ASSERT_EQ(found.plots.size(), 2u);
   EXPECT_EQ(found.plots[0].y_label, "x [m]");
   EXPECT_EQ(found.plots[1].y_label, "y [cm]");
+}
+
+// Columns that another section shows are left out, the others of their monitor stay.
+TEST(MonitorPlots, LeaveOutWhatIsShownElsewhere) {
+  const Monitors monitors;
+  monitors.write("passage.csv", "time [s],rag [1],radius [m],own [m]\n0,0,1,2\n1,0,2,3\n");
+  const auto found = monitor_plots(monitors.folder, {{"passage", {"radius"}}, {"absent", {"a"}}});
+  ASSERT_EQ(found.plots.size(), 1u);
+  EXPECT_EQ(found.plots[0].title, "passage: own");
 }
 
 // Residuals and relative errors are read by their order of magnitude; forces and seconds never are.

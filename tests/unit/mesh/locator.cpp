@@ -7,7 +7,9 @@
 #include "check.hpp"
 #include "mesh/import.hpp"
 #include "mesh/structured.hpp"
+#include "mesh/turning_mesh.hpp"
 #include "sample.hpp"
+#include "sliding_shells.hpp"
 
 namespace {
 
@@ -136,6 +138,69 @@ TEST(Locator, NeighbourhoodsAgreeWithASearchThroughAllCells) {
   }
   const Mesh box = structured_box(MPI_COMM_SELF, {0, 0, 0}, {4, 4, 4}, {4, 4, 4});
   EXPECT_EQ(box.cell_id[CellLocator(box).nearest({2, 2, 2})], 1 + 4 * (1 + 4 * 1));
+}
+
+// In a mesh with a turning zone, at any angle: a point belongs to one cell of one rank, on its side of the surface of revolution that both
+// zones share, also in the slivers between that surface and the flat faces of the cells; no answer depends on the hint, nor on the angle at
+// which the locator was made.
+TEST(Locator, FollowsATurningZone) {
+  const test::Shells shells{.origin = {0.1, 0, 0}, .axis = {1, 2, 3}};
+  const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
+  Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  TurningMesh turning(mesh, shells.description(), 0.3);
+  const CellLocator made_before(mesh);
+  const Vec3 n = unit(shells.axis), e1 = unit(cross({1, 0, 0}, n)), e2 = cross(n, e1);
+  for (const double angle : {0.3, 0.31, 2.0, -9.0}) {
+    turning.turn(angle);
+    const CellLocator locator(mesh);
+    for (int c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(made_before.find(mesh.cell_centre[c], mesh.n_cells - 1 - c), c);
+    std::vector<int> is_found;
+    int hint = -1;
+    for (const Vec3& u : random_points(20000, {0, 0, 0}, {1, 1, 1})) {
+      // Within the inner and outer walls as they are, polygons; every second point near the cylinder of the interface.
+      const bool is_near = u.x < 0.5;
+      const double r = is_near ? shells.radius * (1 + 0.02 * (4 * u.x - 1)) : shells.inner + 0.001 + 0.045 * (2 * u.x - 1);
+      const double z = is_near ? shells.height * u.z : shells.top * u.z;
+      if (z > shells.height && r > shells.radius * std::cos(std::numbers::pi / shells.stator[0])) continue;  // beside the lid
+      const double theta = 2 * std::numbers::pi * u.y;
+      const Vec3 point = shells.origin + r * std::cos(theta) * e1 + r * std::sin(theta) * e2 + z * n;
+      const int cell = made_before.find(point);
+      EXPECT_EQ(locator.find(point), cell);
+      EXPECT_EQ(made_before.find(point, hint), cell);
+      is_found.push_back(cell >= 0);
+      if (cell < 0) continue;
+      hint = cell;
+      EXPECT_EQ(mesh.cell_zone[cell] == mesh.turning.zone, r < shells.radius && z < shells.height);
+      std::vector<int> around, expected;
+      made_before.within(point, 0.01, around);
+      for (int c = 0; c < mesh.n_cells; ++c)
+        if (norm(mesh.cell_centre[c] - point) < 0.01) expected.push_back(c);
+      std::sort(around.begin(), around.end());
+      EXPECT_EQ(around, expected);
+    }
+    // In the slivers of so coarse a ring cells of two ranks may answer; the lower number holds then.
+    MPI_Allreduce(MPI_IN_PLACE, is_found.data(), static_cast<int>(is_found.size()), MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(std::count(is_found.begin(), is_found.end(), 0), 0);
+    EXPECT_LT(std::count_if(is_found.begin(), is_found.end(), [](int count) { return count > 1; }), 0.005 * static_cast<double>(is_found.size()));
+  }
+}
+
+// In the pump centres that turn with the rotor keep their cell.
+TEST(Locator, PointsTurnWithTheRotorOfThePump) {
+  const char* root = std::getenv("SNAG_SOURCE_DIR");
+  Mesh mesh = import_gmsh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
+  TurningMesh turning(mesh, {});
+  const CellLocator locator(mesh);
+  const std::vector<Vec3> at_rest = mesh.cell_centre;
+  std::int64_t n_turning = 0;
+  for (const double angle : {0.1, 1.7, 4.4}) {
+    turning.turn(angle);
+    for (int c = 0; c < mesh.n_cells; ++c) {
+      EXPECT_EQ(locator.find(mesh.cell_centre[c]), c);
+      n_turning += norm(mesh.cell_centre[c] - at_rest[c]) > 1e-4;
+    }
+  }
+  EXPECT_GT(on_all_ranks(n_turning), 30000);
 }
 
 }  // namespace
