@@ -225,9 +225,11 @@ ExitCode run_study(const StudyOptions& options) {
     if (worst == ExitCode::ok) worst = code;
   }
   if (options.dry_run) return worst;
+  std::string results;
   together(world, [&] {
-    if (rank_of(world) == 0) write_study_results(study, folder);
+    if (rank_of(world) == 0) results = write_study_results(study, folder);
   });
+  log::info(results);
   log::info("study: " + (folder / "study.csv").string() + " and " + (folder / "study.html").string());
   return worst;
 }

@@ -79,6 +79,29 @@ std::string table(const Study& study, const std::vector<Row>& rows) {
   return html::table(header, cells);
 }
 
+/// The runs side by side: a line for each result, a column for each run.
+std::string side_by_side(const Study& study, const std::vector<Row>& rows) {
+  std::vector<std::vector<std::string>> columns{{""}};
+  for (const std::string& key : study.settings.results) columns[0].push_back(key);
+  for (const Row& row : rows) {
+    columns.push_back({row.run.name});
+    for (const std::string& key : study.settings.results) {
+      const json value = value_of(study, row, key);
+      columns.back().push_back(value.is_null() ? "-" : value.is_number_float() ? words(value.get<double>()) : field(value));
+    }
+  }
+  std::string text;
+  for (std::size_t line = 0; line < columns[0].size(); ++line) {
+    std::string cells;
+    for (const auto& column : columns) {
+      const auto widest = std::max_element(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+      cells += column[line] + std::string(widest->size() + 2 - column[line].size(), ' ');
+    }
+    text += (line > 0 ? "\n" : "") + cells.substr(0, cells.find_last_not_of(' ') + 1);
+  }
+  return text;
+}
+
 std::string plot(const Study& study, const StudyPlotSettings& settings, const std::vector<Row>& rows) {
   LinePlot result{settings.title,
                   settings.x_label.empty() ? settings.x : settings.x_label,
@@ -100,7 +123,7 @@ std::string plot(const Study& study, const StudyPlotSettings& settings, const st
 
 }  // namespace
 
-void write_study_results(const Study& study, const std::filesystem::path& folder) {
+std::string write_study_results(const Study& study, const std::filesystem::path& folder) {
   std::vector<Row> rows;
   for (const StudyRun& run : study.runs)
     rows.push_back({run, json::parse(file_text(folder / run.name / "summary.json").value_or(""), nullptr, false)});
@@ -117,6 +140,7 @@ void write_study_results(const Study& study, const std::filesystem::path& folder
   if (!plots.empty()) page += section("Plots", "<div class=\"plots\">\n" + plots + "</div>\n");
   page += section("Runs", table(study, rows));
   write_atomically(folder / "study.html", page + "</body>\n</html>\n");
+  return side_by_side(study, rows);
 }
 
 }  // namespace snag

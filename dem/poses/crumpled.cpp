@@ -35,11 +35,12 @@ constexpr double step_share = 0.7;             // of the stable step, which does
 constexpr double margin_over_radius = 0.3;     // by which the wall closes further, so that particles pressed into it are within
 constexpr double interval = 5e-3;              // between looks at the state, s
 constexpr double rest_share = 1e-2;            // kinetic energy at rest over the largest
-constexpr double longest_rest = 2;             // s
+constexpr double longest_rest = 0.5;           // s
 constexpr double longest_fall = 5;             // s
 constexpr double largest_volume_share = 0.35;  // of the pipe, filled by the spheres of a crumpled sheet
 constexpr double largest_strain = 0.1;         // p99 of the bonds
-constexpr double largest_overlap = 0.3;        // over the radius
+constexpr double largest_overlap = 0.3;        // over the radius, at rest
+constexpr double crushing_overlap = 1;         // over the radius, on the way
 
 [[noreturn]] void refuse(const PosePlan& plan, const std::string& what) {
   throw Error(ExitCode::usage, plan.where + ": pose = \"" + plan.kind + "\": " + what);
@@ -100,6 +101,7 @@ void for_places(const RagPiece& piece, const F& f) {
 /// The flat sheet at rest about the origin, or so high above it that it just does not touch the hopper; bonds hold whatever happens here.
 RagPiece flat_piece(const RagPiece& given) {
   RagPiece piece = given;
+  piece.insert_time = 0, piece.with_water = false;
   piece.centre = piece.velocity = piece.spin = {};
   piece.poses.clear();
   piece.rag.breakage = false;
@@ -151,6 +153,10 @@ class Crumpling {
   void rest();
   void advance(double dt);
   CrumpledPose result();
+  [[noreturn]] void refuse_crushed(const std::string& how) const {
+    refuse(piece_.plan, "the cloth is crushed: " + how +
+                            "; give a larger confine_radius or confine_length, or turn the sheet's lengthwise along confine_axis");
+  }
   template <class F>
   void for_all(const F& f) const {
     for (const Tile& tile : rags_.tiles()) for_particles(tile, [&](int k, int i, int j) { f(tile, k, i, j); });
@@ -167,10 +173,10 @@ PipeShape Crumpling::pipe() const {
   const PosePlan& plan = piece_.plan;
   PipeShape shape{.axis = unit(plan.confine_axis), .radius = plan.confine_radius, .half_length = infinity};
   if (plan.kind == "hopper") {
-    shape.hopper_angle = plan.hopper_angle;
+    shape.hopper_slope = std::tan(plan.hopper_angle);
     return shape;
   }
-  shape.half_length = 0;
+  shape.half_length = 0.5 * plan.confine_length;
   for_places(piece_, [&](const Vec3& x) {
     const double along = dot(x, shape.axis);
     shape.radius = std::max(shape.radius, norm(x - along * shape.axis) + piece_.rag.radius);
@@ -191,6 +197,9 @@ void Crumpling::advance(double dt) {
   rags_.advance(dt, &wall_);
   energy_ = rag_states(rags_)[0].kinetic_energy;
   largest_energy_ = std::max(largest_energy_, energy_);
+  const double overlap = std::max(rags_.contacts()->measures().max_overlap_over_radius, wall_.max_overlap() / piece_.rag.radius);
+  if (overlap > crushing_overlap) refuse_crushed("overlap over radius of " + words(overlap));
+  rags_.contacts()->reset_measures(), wall_.reset_overlap();
 }
 
 void Crumpling::close() {
@@ -253,12 +262,10 @@ CrumpledPose Crumpling::result() {
   pose.overlap_over_radius = rags_.contacts()->measures().max_overlap_over_radius;
   pose.strain_p99 = std::max(bond_strain_quantile(rags_, 0, 0.99), -bond_strain_quantile(rags_, 0, 0.01));
   pose.duration = rags_.time();
-  if (piece_.plan.kind == "confined" && outside > 0)
-    refuse(piece_.plan, "particles are left " + words(outside) + " m outside confine_radius or confine_length; give larger ones");
+  if (piece_.plan.kind == "confined" && outside > 0) refuse_crushed("particles are left " + words(outside) + " m outside");
   if (pose.strain_p99 > largest_strain || pose.overlap_over_radius > largest_overlap)
-    refuse(piece_.plan, "the cloth is crushed: strain of the bonds (p99) " + words(pose.strain_p99) + ", must be below " +
-                            words(largest_strain) + ", overlap over radius " + words(pose.overlap_over_radius) + ", must be below " +
-                            words(largest_overlap) + "; give a larger confine_radius or confine_length");
+    refuse_crushed("strain of the bonds (p99) " + words(pose.strain_p99) + ", must be below " + words(largest_strain) +
+                   ", overlap over radius " + words(pose.overlap_over_radius) + ", must be below " + words(largest_overlap));
   return pose;
 }
 

@@ -10,17 +10,18 @@ namespace snag {
 PipeContact pipe_contact(const PipeShape& shape, const Vec3& centre, double radius) {
   const double depth = dot(centre, shape.axis);  // below the mouth
   const Vec3 across = centre - depth * shape.axis;
-  const double room = shape.radius - radius;
+  const double secant = std::sqrt(1 + shape.hopper_slope * shape.hopper_slope);
+  const double room = shape.radius - radius * secant - std::min(0.0, depth) * shape.hopper_slope;
   if (room > 0 && norm_squared(across) < room * room) return {};  // most particles
   const double rho = norm(across);
   const Vec3 outward = rho > 0 ? across / rho : Vec3{};
-  if (shape.hopper_angle <= 0) return {rho + radius - shape.radius, -outward, shape.closing_speed};
+  if (shape.hopper_slope <= 0) return {rho + radius - shape.radius, -outward, shape.closing_speed};
 
   // In the plane of the particle and the axis, from the mouth's edge: (outwards, upwards).
   struct Place {
     double out, up;
   };
-  const Place at{rho - shape.radius, -depth}, side{std::sin(shape.hopper_angle), std::cos(shape.hopper_angle)};
+  const Place at{rho - shape.radius, -depth}, side{shape.hopper_slope / secant, 1 / secant};
   const double up_side = std::max(0.0, at.out * side.out + at.up * side.up), down_pipe = std::max(0.0, -at.up);
   const Place from_side{at.out - up_side * side.out, at.up - up_side * side.up}, from_pipe{at.out, at.up + down_pipe};
   const double to_side = std::hypot(from_side.out, from_side.up), to_pipe = std::hypot(from_pipe.out, from_pipe.up);
@@ -45,6 +46,7 @@ void PipeWall::add(std::size_t index, Tile& tile, double step) {
     for (const auto contact : {pipe_contact, end_contact}) {
       const PipeContact c = contact(shape_, x, rag_.radius);
       if (!(c.overlap > 0)) continue;
+      max_overlap_ = std::max(max_overlap_, c.overlap);
       force += std::max(0.0, law_.stiffness * c.overlap - law_.damping * (dot(v, c.normal) - c.wall_speed)) * c.normal;
     }
     tile.set_vector(Tile::fx, k, tile.vector(Tile::fx, k) + force);

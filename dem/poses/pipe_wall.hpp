@@ -17,7 +17,7 @@ struct PipeShape {
   Vec3 axis;                 // unit vector; out of the hopper into the pipe
   double radius = 0;         // m
   double half_length = 0;    // of a pipe between two plane ends; infinity: none, m
-  double hopper_angle = 0;   // of the hopper's side to the axis, rad; 0: the pipe goes on for ever
+  double hopper_slope = 0;   // of the hopper's side, tangent of its angle to the axis; 0: the pipe goes on for ever
   double closing_speed = 0;  // -d radius/dt, m/s
   double end_speed = 0;      // -d half_length/dt, m/s
 };
@@ -49,11 +49,14 @@ class PipeWall : public TileForce {
   /// Where it stands and how it closes from now on.
   void set_shape(const PipeShape& shape) { shape_ = shape; }
   void set_rate(double rate) { law_.rate = rate; }
+  double max_overlap() const { return max_overlap_; }  // since the last reset, m
+  void reset_overlap() { max_overlap_ = 0; }
 
  private:
   PipeShape shape_;
   Rag rag_;
   Law law_;
+  double max_overlap_ = 0;
 };
 
 }  // namespace snag

@@ -1,0 +1,167 @@
+# timeout: 900
+# processors: 5
+"""Requirement: rags that cross both parts of the sliding interface of a pump, touch its turning walls and are put in later lose nothing, and
+the run agrees to 1e-6 on 1, 2, 3 and 5 ranks and after a stop and a resume to the bit."""
+import os
+import signal
+
+import numpy
+
+import harness
+
+N_STEPS = 50
+CASE = """
+[case]
+name = "rag-in-pump"
+[mesh]
+file = "{mesh}"
+[rotating_zone]
+zone = "rotor"
+speed_rpm = 600     # an impact at full speed multiplies round-off of the water by some thousand
+[time]
+end_ms = 5
+step_ms = 0.1
+[flow]
+kinematic_viscosity_m2_s = 1.0048e-6
+initial_velocity_m_s = [0, 0, -1]
+pressure_tolerance = 1e-11
+pressure_tolerance_intermediate = 1e-11
+momentum_tolerance = 1e-11
+[turbulence]
+model = "k_epsilon"
+[pump]
+inlet_diameter_mm = 100
+outlet_diameter_mm = 80
+[[boundary]]
+patch = "inlet"
+kind = "flow_rate_inlet"
+flow_rate_L_s = 26.8
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["impeller_walls", "casing_walls"]
+kind = "wall"
+[[wall]]
+kind = "patches"
+patches = ["impeller_walls", "casing_walls"]
+# Through the disc of the interface, from the inlet pipe into the eye.
+[[rag]]
+length_mm = 60
+width_mm = 40
+radius_mm = 2
+centre_m = [0, 0, 0.1]
+lengthwise = [1, 0.2, 0.5]
+crosswise = [0, 1, 0.3]
+velocity_m_s = [0, 0, -6]
+# Through the cylinder, from the volute towards the vane.
+[[rag]]
+length_mm = 40
+width_mm = 16
+radius_mm = 2
+centre_m = [0.0038, 0.1079, 0.04]
+lengthwise = [0, 0, 1]
+crosswise = [0.03, 1, 0]
+velocity_m_s = [0, -5, 0]
+# Beside the tongue, later.
+[[rag]]
+length_mm = 24
+width_mm = 24
+radius_mm = 2
+centre_m = [-0.05, -0.135, 0.04]
+lengthwise = [0, 0, 1]
+crosswise = [1, -0.3, 0]
+insert_time_ms = 2
+with_water = true
+[passage]
+inlet_flange_m = [0, 0, 0.086]
+inlet_normal = [0, 0, -1]
+inlet_radius_mm = 50
+outlet_flange_m = [0.153, 0.22, 0.04]
+outlet_normal = [0, 1, 0]
+outlet_radius_mm = 40
+tongue_m = [0.1023, 0.0499, 0.04]
+tongue_reach_mm = 15
+impeller_radius_mm = 100
+[contact]
+wall_stiffness_factor = 5
+impact_speed_m_s = 15
+[coupling]
+mode = "two_way"
+kernel = "{kernel}"
+kernel_width_mm = 6
+forces = ["free_stream_drag"]
+[output]
+report = false
+single_precision = false
+fields_interval_s = 1
+rags_interval_ms = 2.5
+"""
+MONITORS = ("rags", "passage", "rag_forces", "contacts", "coupling", "patches", "pump")
+
+
+class RagInPump(harness.CaseTest):
+    def pump(self, kernel="gaussian"):
+        return self.case(CASE.format(mesh=harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", kernel=kernel))
+
+    def look_at(self, run):
+        """The case shows something: rags cross the interface and touch the impeller; nothing is lost."""
+        summary, rags = run.summary, run.monitor("rags")
+        self.assertEqual(summary["time_steps"], N_STEPS)
+        number, centre = rags.column("rag"), numpy.stack([rags.column(axis) for axis in "xyz"], axis=1)
+        self.assertGreater(centre[number == 0][0, 2], 0.09)
+        self.assertLess(centre[number == 0][-1, 2], 0.08, "the first rag must come through the disc at z = 86 mm")
+        radius = numpy.hypot(centre[number == 1][:, 0], centre[number == 1][:, 1])
+        self.assertGreater(radius[0], 0.1045)
+        self.assertLess(radius.min(), 0.1045, "the second rag must come through the cylinder of 104.5 mm")
+        self.assertEqual((number == 2).sum(), N_STEPS - 20, "the third rag is there from 2 ms on")
+        last = rags.values[(number == 2)][0]
+        self.assertGreater(abs(last[rags.columns.index("vx [m/s]")]), 0.01, "it starts with the water")
+        self.assertGreater(run.monitor("contacts").column("wall_contacts").max(), 0)
+        self.assertGreater(run.monitor("passage").column("touching_impeller").max(), 0)
+        self.assertEqual(run.monitor("coupling").column("particles_outside_cells").max(), 0)
+        conservation = summary["conservation"]
+        for name in ("particles_lost", "bonds_lost", "particles_beyond_walls"):
+            self.assertEqual(conservation[name], 0, name)
+        self.assertLess(conservation["momentum_exchange_rel"], 1e-10)
+        self.assertLess(conservation["interface_closure_rel"], 1e-12)
+        self.assertLess(conservation["mass_imbalance_rel"], 1e-6)
+        for rag in summary["rags"]:
+            print(f"  {rag['name']}: wall overlap {rag['max_wall_overlap_over_radius']:.3f} r, contact {rag['wall_contact_s']} s")
+            self.assertLess(rag["max_wall_overlap_over_radius"], 0.5)
+
+    def agree(self, kernel):
+        case = self.pump(kernel)
+        one = self.run_case(case, 1, out="1")
+        self.look_at(one)
+        for ranks in (2, 3, 5):
+            other = self.run_case(case, ranks, out=str(ranks))
+            for monitor in MONITORS:
+                self.assert_monitors_agree(one, other, monitor, 1e-6)
+
+    def test_gaussian_kernel_on_any_number_of_ranks(self):
+        self.agree("gaussian")
+
+    def test_cell_kernel_on_any_number_of_ranks(self):
+        self.agree("cell")
+
+    def stop_and_resume(self, ranks):
+        case, folder = self.pump(), self.work / "stopped"
+        whole = self.run_case(case, ranks, out="whole")
+        mpirun = harness.start(["run", case, "--out", folder], ranks)
+        harness.wait_for_records(folder / "monitors" / "coupling.csv", 28, mpirun)
+        os.kill(harness.program_processes(mpirun)[-1], signal.SIGTERM)
+        stdout, stderr = mpirun.communicate(timeout=120)
+        self.assertEqual(mpirun.returncode, 7, stdout + stderr)
+        resumed = self.run_case(case, ranks, "--resume", out="stopped")
+        self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").glob(f"*_{N_STEPS:06}.vtp")))
+
+    def test_stop_in_mid_transit_on_one_rank(self):
+        self.stop_and_resume(1)
+
+    def test_stop_in_mid_transit_on_two_ranks(self):
+        self.stop_and_resume(2)
+
+
+if __name__ == "__main__":
+    harness.main()
