@@ -10,7 +10,8 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi, degrees = 180 / std::numbers::pi;
 constexpr double stuck_after = 1, longest_gap = 0.05;  // s
-constexpr double armed_beyond = std::numbers::pi / 2;  // from the tongue
+constexpr double armed_beyond = std::numbers::pi / 2;  // from the tongue, rad
+constexpr double passed_beyond = std::numbers::pi / 9;
 
 const char* const event_names[] = {"entered",         "wholly in the casing", "tongue passed",      "recirculated",
                                    "stuck on tongue", "stuck on impeller",    "reached the outlet", "exited"};
@@ -71,16 +72,20 @@ void RagJourney::enter(const RagSighting& seen, double time) {
 /// `before`: the unwrapped angle a step ago.
 void RagJourney::pass_tongue(const RagSighting& seen, double before, double time) {
   const auto turns = [&](double angle) { return std::floor(sense_ * angle / two_pi); };
-  const bool is_outside = 2 * seen.n_outside_impeller > seen.n, is_inside_tongue = seen.n_past_inside >= seen.n_past_outside;
-  if (turns(angle_) > turns(before) && is_armed_ && is_outside && is_inside_tongue) {
-    ++n_recirculations_, is_past_tongue_ = false;
+  if (turns(angle_) > turns(before)) {
+    is_passing_ = is_armed_ && 2 * seen.n_outside_impeller > seen.n, is_armed_ = false;
+  } else if (turns(angle_) < turns(before)) {
+    is_armed_ = is_passing_, is_passing_ = false;
+  }
+  if (std::abs(seen.angle) > armed_beyond) is_armed_ = true;
+  const double past = sense_ * angle_ - two_pi * turns(angle_);
+  if (2 * seen.n_in_discharge > seen.n) {
+    if (!is_past_tongue_) note(tongue_passed, time);
+    is_past_tongue_ = true, is_passing_ = false;
+  } else if (is_passing_ && past > passed_beyond && seen.n_past_inside >= seen.n_past_outside) {
+    ++n_recirculations_, is_past_tongue_ = is_passing_ = false;
     note(recirculated, time);
   }
-  if (turns(angle_) != turns(before)) is_armed_ = false;
-  if (std::abs(seen.angle) > armed_beyond) is_armed_ = true;
-  if (is_past_tongue_ || 2 * seen.n_in_discharge <= seen.n) return;
-  is_past_tongue_ = true;
-  note(tongue_passed, time);
 }
 
 void RagJourney::leave(const RagSighting& seen, double time) {
@@ -125,7 +130,8 @@ RagVerdict RagJourney::verdict() const {
 /// Visits all numbers of a journey but its log: one list for both ways.
 template <class Self, class Visit>
 void RagJourney::for_numbers(Self& self, const Visit& visit) {
-  visit(self.time_), visit(self.angle_), visit(self.is_seen_), visit(self.is_armed_), visit(self.is_past_tongue_), visit(self.is_upstream_);
+  visit(self.time_), visit(self.angle_), visit(self.is_seen_), visit(self.is_armed_), visit(self.is_passing_), visit(self.is_past_tongue_),
+      visit(self.is_upstream_);
   visit(self.n_recirculations_), visit(self.entered_), visit(self.wholly_in_), visit(self.reached_outlet_), visit(self.exited_);
   for (auto& c : self.contact_) visit(c.begin), visit(c.last), visit(c.is_stuck), visit(c.stuck), visit(c.contact);
   visit(self.wall_contact_);

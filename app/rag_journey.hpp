@@ -4,11 +4,12 @@
 //   entered            the first particle is past the plane of the inlet flange
 //   wholly in the casing   no particle is upstream any more; what is out already counts as inside
 //   tongue passed      more than half of its particles are in the discharge: told again only after it recirculated
-//   recirculated       its centroid passes the tongue's angle in the sense of rotation on the shaft's side of the tongue (of the particles
-//                      within a quarter turn past that angle most are not in the discharge) while more than half of its particles are
-//                      outside the impeller: back into the volute. A pass counts once the centroid was more than a quarter turn away from
-//                      the tongue since the last one, and not if it went back through that angle in between: so hanging on the tongue is
-//                      no recirculation, nor is turning in the eye of the impeller
+//   recirculated       its centroid passes the tongue's angle in the sense of rotation while more than half of its particles are outside
+//                      the impeller, and gets 20 degrees further on the shaft's side of the tongue (of the particles within a quarter
+//                      turn past that angle most are not in the discharge): back into the volute. So one that hangs on the tongue and
+//                      then goes out did not recirculate. A pass counts once the centroid was more than a quarter turn away from the
+//                      tongue since the last one, and not if it went back in between: nor is swinging at the tongue a recirculation, or
+//                      turning in the eye of the impeller
 //   stuck on ...       it touches the tongue, or the impeller, for more than 1 s without a gap longer than 50 ms; told once each time
 //   reached the outlet the first particle is out;      exited   all of them are
 //
@@ -112,7 +113,7 @@ class RagJourney {
   std::vector<Entry> log_;
   double time_ = 0;
   double angle_ = 0;  // unwrapped, rad
-  bool is_seen_ = false, is_armed_ = false, is_past_tongue_ = false, is_upstream_;
+  bool is_seen_ = false, is_armed_ = false, is_passing_ = false, is_past_tongue_ = false, is_upstream_;
   std::int64_t n_recirculations_ = 0;
   double entered_ = -1, wholly_in_ = -1, reached_outlet_ = -1, exited_ = -1;  // s, -1: not yet
   std::array<Contact, n_wall_places> contact_;

@@ -15,8 +15,8 @@ struct Film {
   std::string problem;  // why some or all are missing; empty if all were made
 };
 
-/// Draws DIR/pictures/film_0001.png and so on: the view of the report's instants, a picture for each time at which the rags were written.
-/// One rank only.
+/// Draws DIR/pictures/film_0001.png and so on: the view of the report's instants, a picture for each time at which the rags were written,
+/// from the first at which there is one. One rank only.
 Film make_film(const std::filesystem::path& dir);
 
 }  // namespace snag

@@ -9,6 +9,8 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/words.hpp"
 #include "mesh/connectivity.hpp"
 #include "mesh/geometry.hpp"
 #include "parallel/session.hpp"
@@ -110,6 +112,10 @@ TurningMesh::TurningMesh(Mesh& mesh, const SlidingDescription& description, doub
   number_interface_cells();
   keep_reference();
   turn(angle);
+  if (const std::int64_t n = n_bounded_global(); n > 0)
+    log::warning("sliding interface: " + std::to_string(n) + " of " + std::to_string(n_facets_global()) +
+                 " facets lie near or beyond the centre of one of their cells; their interpolation weights are kept within " +
+                 words(least_weight) + " and " + words(1 - least_weight) + "; smaller cells at the interface avoid it");
 }
 
 /// Takes the faces of both patches out of the boundary; the patches go.
@@ -215,6 +221,7 @@ void TurningMesh::turn(double angle) {
 
 /// Cells, nodes and faces of the zone; then what facets have of their cells.
 void TurningMesh::turn_geometry() {
+  n_bounded_ = 0;
   const Turning& r = reference_;
   const Mat3& rotation = mesh_.turning.rotation;
   for (std::size_t i = 0; i < r.cell.size(); ++i) mesh_.cell_centre[r.cell[i]] = interface_.turned_point(rotation, r.cell_centre[i]);
@@ -229,7 +236,9 @@ void TurningMesh::turn_geometry() {
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) {
     const Vec3 &x_P = mesh_.cell_centre[mesh_.owner[f]], &x_N = mesh_.cell_centre[mesh_.neighbour[f]], &S = mesh_.face_vector[f];
     mesh_.delta[f] = x_N - x_P;
-    mesh_.weight[f] = std::clamp(dot(S, x_N - mesh_.face_centre[f]) / dot(S, mesh_.delta[f]), least_weight, 1 - least_weight);
+    const double weight = dot(S, x_N - mesh_.face_centre[f]) / dot(S, mesh_.delta[f]);
+    mesh_.weight[f] = std::clamp(weight, least_weight, 1 - least_weight);
+    n_bounded_ += mesh_.weight[f] != weight && mesh_.owner[f] < mesh_.n_cells;
   }
 }
 
@@ -288,6 +297,8 @@ double TurningMesh::closure() const {
   }
   return maximum(mesh_.comm, worst);
 }
+
+std::int64_t TurningMesh::n_bounded_global() const { return sum(mesh_.comm, n_bounded_); }
 
 std::int64_t TurningMesh::n_facets_global() const {
   std::int64_t n = 0;

@@ -15,8 +15,8 @@ namespace snag {
 
 class TurningMesh {
  public:
-  /// Gives the mesh (at angle 0, as it was read) the curved interface and joins it at `angle`. The mesh must outlive this object.
-  /// Collective; throws Error(mesh) as SlidingInterface does.
+  /// Gives the mesh (at angle 0, as it was read) the curved interface and joins it at `angle`; warns of bounded weights there. The mesh
+  /// must outlive this object. Collective; throws Error(mesh) as SlidingInterface does.
   TurningMesh(Mesh& mesh, const SlidingDescription& description, double angle = 0);
 
   /// Bring the zone to `angle` (rad, from where the mesh file has it). Collective; throws Error(mesh) where a face is not covered.
@@ -32,6 +32,9 @@ class TurningMesh {
   double closure() const;
   /// Facets of all ranks, each counted once. Collective.
   std::int64_t n_facets_global() const;
+  /// Those of them at this angle that lie so near the end of the line between the centres of their cells, or beyond it, that their
+  /// interpolation weight is a bound instead of the linear one. Collective.
+  std::int64_t n_bounded_global() const;
 
  private:
   void release_interface();
@@ -46,6 +49,7 @@ class TurningMesh {
   SlidingInterface interface_;
   int zone_ = 0;
   double angle_ = 0;
+  std::int64_t n_bounded_ = 0;
   // of what turns, at angle 0
   struct Turning {
     std::vector<int> cell, face, boundary_face, node;  // boundary_face: f - n_interior

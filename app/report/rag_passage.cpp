@@ -120,7 +120,7 @@ std::optional<PumpMeans> PumpRecord::means(double from, int n) const {
 std::optional<PumpMeans> PumpRecord::before(double time) const {
   if (empty() || !std::isfinite(time)) return {};
   const double end = revolution(time), first = turned_.front();
-  const int whole = static_cast<int>(std::floor(end - first + 1e-6)), n = std::min(most_revolutions, whole > 1 ? whole - 1 : whole);
+  const int whole = static_cast<int>(std::floor(end - first + 1e-6)), n = std::min(most_revolutions, whole - 1);
   return means(end - n, n);
 }
 

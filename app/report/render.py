@@ -550,8 +550,11 @@ class Run:
                 self.tables["speed"] = colour_table(BLUES, 0, float(np.percentile(speeds, 99.5)) if speeds.size else 1)
 
     def passing(self):
-        """When the first rag entered and the last one left; where that is not known, the times at which rags were written."""
+        """When the first rag entered and the last one left; where that is not known, the times at which rags were written, from the first
+        one's insertion on."""
         first, last = (self.rags.entries[0][0], self.rags.entries[-1][0]) if self.rags.entries else (0.0, 0.0)
+        if self.pump is not None and self.rag_path:
+            first = min((time for time, _ in self.rags.entries if time >= column(self.rag_path, "time")[0]), default=first)
         entered = [time for time, what, _ in self.events if what == "entered"]
         exited = [time for time, what, _ in self.events if what == "exited"]
         if not entered:
@@ -693,20 +696,24 @@ def named(events):
 
 def draw_instants(run, stage, middle, thin):
     before = -np.inf
+    near = 0.01 * (run.instants[-1][0] - run.instants[0][0]) if run.instants else 0.0    # an event that follows at once belongs here
     for i, (time, file) in enumerate(run.instants):
         scene = instant(run, time, file, middle, thin)
-        until = time if i + 1 < len(run.instants) else np.inf
+        until = time + near if i + 1 < len(run.instants) else np.inf
         bars, scene["bars"], scene["large"] = scene["bars"], [], True
         scene["events"] = named([event for event in run.events if before < event[0] <= until])
-        before = time
+        before = until
         stage.show(f"rag_{i + 1}.png", "rag" if run.pump is None else "pump", "; ".join([scene["text"]] + scene["events"]), scene)
     if run.instants and bars:
         stage.scale("rag_scale.png", bars)
 
 
 def draw_film(run, stage, middle, thin):
-    times = [time for time, _ in run.rags.entries]
-    for i, (time, file) in enumerate(run.rags.entries):
+    entries = list(run.rags.entries)
+    while entries and read(entries[0][1]) is None:      # before the first rag was put in
+        entries.pop(0)
+    times = [time for time, _ in entries]
+    for i, (time, file) in enumerate(entries):
         scene = instant(run, time, file, middle, thin)
         since = times[i - FILM_HOLD] if i >= FILM_HOLD else -np.inf
         scene["events"] = named([event for event in run.events if since < event[0] <= time])

@@ -220,9 +220,9 @@ std::string rag_tables(const json& summary) {
     if (const json& list = member(rag, "events"); list.is_array())
       for (const auto& event : list) {
         const double angle = real(event, "angle_deg");
-        events.push_back({text_of(member(event, "t_s")), std::isfinite(angle) ? html::number(angle) : "", text_of(member(event, "what"))});
+        events.push_back({text_of(member(event, "what")), text_of(member(event, "t_s")), std::isfinite(angle) ? html::number(angle) : ""});
       }
-    if (!events.empty()) result += html::table({"Time [s]", "Angle of the rag's centroid, 0 at the tongue [deg]", "What happened"}, events);
+    if (!events.empty()) result += html::table({"What happened", "Time [s]", "Angle of the centroid [deg]"}, events);
   }
   return result;
 }

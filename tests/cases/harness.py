@@ -15,6 +15,8 @@ import time
 import unittest
 
 import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
 
 BINARY_DIR = pathlib.Path(os.environ["SNAG_BINARY_DIR"])
 SOURCE_DIR = pathlib.Path(os.environ["SNAG_SOURCE_DIR"])
@@ -138,6 +140,19 @@ def largest_difference(a, b):
     return differences
 
 
+def read_vtk(file):
+    """A .pvtu or .vtp as VTK has it."""
+    reader = vtkXMLPUnstructuredGridReader() if file.suffix == ".pvtu" else vtkXMLPolyDataReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def arrays(attributes):
+    """{name with unit: values} of the cell, point or field data of what was read."""
+    return {attributes.GetArrayName(i): vtk_to_numpy(attributes.GetArray(i)) for i in range(attributes.GetNumberOfArrays())}
+
+
 class CaseTest(unittest.TestCase):
     """Each test has a temporary folder; meshes are made once a script."""
 
@@ -171,6 +186,35 @@ class CaseTest(unittest.TestCase):
         run = snag(["run", file, "--out", self.work / out, *arguments], ranks, self.work / out, timeout)
         self.assertEqual(run.code, code, f"exit code of {file} on {ranks} ranks\n{run.tail()}")
         return run
+
+    def crashed_and_resumed(self, case, ranks, last_files, resumed_at):
+        """A run to its end, and one that goes on after a crash: the finished folder without its last checkpoint and the fields of the end
+        is what a crash leaves behind. `last_files`: those of a run that the crashed one has not written; `resumed_at`: time of the
+        checkpoint before the last."""
+        whole = self.run_case(case, ranks, out="whole")
+        shutil.copytree(whole.folder, self.work / "crashed")
+        slots = sorted((self.work / "crashed" / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
+        self.assertEqual(len(slots), 2)
+        slots[-1].write_bytes(slots[-1].read_bytes()[:-5000])
+        for file in last_files(whole):
+            (self.work / "crashed" / file.relative_to(whole.folder)).unlink()
+        resumed = self.run_case(case, ranks, "--resume", out="crashed")
+        self.assertIn(f"resumed at {resumed_at}", resumed.stdout)
+        return whole, resumed
+
+    def assert_equal_to_the_bit(self, whole, resumed, last_files):
+        """Monitors line by line, `last_files(whole)` byte by byte."""
+        for file in sorted((whole.folder / "monitors").glob("*.csv")):
+            if file.stem == "timing":  # the clock never shows the same twice
+                continue
+            a, b = (run.monitor(file.stem).lines for run in (whole, resumed))
+            for i, (line, other) in enumerate(zip(a, b)):
+                self.assertEqual(line, other, f"{file.name}, line {i + 1} of {len(a)}")
+            self.assertEqual(len(a), len(b), file.name)
+        files = last_files(whole)
+        self.assertTrue(files, "nothing to compare")
+        for file in files:
+            self.assertEqual(file.read_bytes(), (resumed.folder / file.relative_to(whole.folder)).read_bytes(), f"{file.name} differs")
 
     def assert_monitors_agree(self, first, second, name, tolerance):
         """Prints the largest difference, so that a creeping loss shows before it fails."""

@@ -9,21 +9,10 @@ import xml.etree.ElementTree
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
 
 import harness
+from harness import arrays, read_vtk
 from small_cases import CHANNEL, CHANNEL_MESH
-
-
-def read_vtk(file):
-    reader = vtkXMLPUnstructuredGridReader() if file.suffix == ".pvtu" else vtkXMLPolyDataReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
-
-
-def arrays(attributes):
-    return {attributes.GetArrayName(i): vtk_to_numpy(attributes.GetArray(i)) for i in range(attributes.GetNumberOfArrays())}
 
 
 def collection(file):
@@ -53,7 +42,7 @@ class OutputFolder(harness.CaseTest):
     def test_all_files_are_there(self):
         for name in ("case.resolved.toml", "summary.json", "log.txt", "report.html", "walls/walls.vtp", "fields/water.pvd"):
             self.assertTrue((self.folder / name).is_file(), name)
-        for monitor in ("residuals", "patches", "rags", "contacts", "silhouettes", "coupling", "timing"):
+        for monitor in ("residuals", "patches", "rags", "contacts", "rag_forces", "silhouettes", "coupling", "timing"):
             self.assertTrue((self.folder / "monitors" / f"{monitor}.csv").is_file(), monitor)
         self.assertTrue(list((self.folder / "rags").glob("*.pvd")))
         self.assertTrue(list((self.folder / "checkpoint").glob("*.h5")))

@@ -6,7 +6,6 @@ import shutil
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import harness
 
@@ -53,12 +52,8 @@ interval_s = 0.005
 
 def surface(file):
     """Points and cell arrays of a .vtp."""
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    data = reader.GetOutput()
-    arrays = {data.GetCellData().GetArrayName(i): vtk_to_numpy(data.GetCellData().GetArray(i)) for i in range(data.GetCellData().GetNumberOfArrays())}
-    return vtk_to_numpy(data.GetPoints().GetData()), arrays
+    data = harness.read_vtk(file)
+    return vtk_to_numpy(data.GetPoints().GetData()), harness.arrays(data.GetCellData())
 
 
 class Pump(harness.CaseTest):

@@ -33,6 +33,16 @@ velocity_m_s = [2, 0, -3]
 report = false
 """
 
+# Patches of `snag mesh channel` but for its inlet.
+CHANNEL_OUTLET_AND_WALLS = """
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["bottom", "top", "side_z0", "side_z1"]
+kind = "wall"
+"""
+
 # A small rag across a slow channel of thick water, held back by its walls; {mesh} and {kernel} are filled in.
 CHANNEL = """
 [case]
@@ -53,12 +63,7 @@ momentum_tolerance = 1e-11
 patch = "inlet"
 kind = "velocity_inlet"
 velocity_m_s = [0.5, 0, 0]
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["bottom", "top", "side_z0", "side_z1"]
-kind = "wall"
+""" + CHANNEL_OUTLET_AND_WALLS + """
 [[wall]]
 kind = "patches"
 patches = ["bottom", "top", "side_z0", "side_z1"]

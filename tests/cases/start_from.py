@@ -4,9 +4,9 @@
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkCellCenters
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 import harness
+from small_cases import CHANNEL_OUTLET_AND_WALLS
 
 # Turbulent water through a channel towards its steady state.
 CASE = """
@@ -24,12 +24,7 @@ model = "k_epsilon"
 patch = "inlet"
 kind = "velocity_inlet"
 velocity_m_s = [1, 0, 0]
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["bottom", "top", "side_z0", "side_z1"]
-kind = "wall"
+""" + CHANNEL_OUTLET_AND_WALLS + """
 [output]
 report = false
 single_precision = false
@@ -45,18 +40,14 @@ class Water:
     """Cells of one field output: centres and fields, sorted by place."""
 
     def __init__(self, file):
-        reader = vtkXMLPUnstructuredGridReader()
-        reader.SetFileName(str(file))
-        reader.Update()
-        grid = reader.GetOutput()
+        grid = harness.read_vtk(file)
         centres = vtkCellCenters()
         centres.SetInputData(grid)
         centres.Update()
         self.centre = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
         order = numpy.lexsort(numpy.round(self.centre, 6).T)
         self.centre = self.centre[order]
-        data = grid.GetCellData()
-        self.field = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))[order] for i in range(data.GetNumberOfArrays())}
+        self.field = {name: values[order] for name, values in harness.arrays(grid.GetCellData()).items()}
 
 
 def first_and_last(run):

@@ -1,10 +1,9 @@
 # processors: 2
 """Requirement: [turbulence] in a case file chooses the model; its fields are written with units, start where the case says, and laminar runs have none."""
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 import harness
+from small_cases import CHANNEL_OUTLET_AND_WALLS
 
 CHANNEL = """
 [case]
@@ -23,12 +22,7 @@ patch = "inlet"
 kind = "velocity_inlet"
 velocity_m_s = [2, 0, 0]
 {inlet}
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["bottom", "top", "side_z0", "side_z1"]
-kind = "wall"
+""" + CHANNEL_OUTLET_AND_WALLS + """
 [output]
 fields_interval_s = 0.02
 report = false
@@ -38,11 +32,7 @@ NAMES = {"turbulent_kinetic_energy [m2/s2]", "dissipation_rate [m2/s3]", "eddy_v
 
 
 def cell_fields(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    data = reader.GetOutput().GetCellData()
-    return {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+    return harness.arrays(harness.read_vtk(file).GetCellData())
 
 
 class Turbulence(harness.CaseTest):

@@ -155,8 +155,8 @@ TEST(Passage, TwiceRoundTheVolute) {
   lead_out(rag);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, recirculated, recirculated, tongue passed, reached the outlet, exited");
   const auto events = rag.verdict().events;
-  EXPECT_NEAR(events[2].angle.value(), 360, 2);
-  EXPECT_NEAR(events[3].angle.value(), 720, 2);
+  EXPECT_NEAR(events[2].angle.value(), 380, 2);
+  EXPECT_NEAR(events[3].angle.value(), 740, 2);
   EXPECT_NEAR(events[4].angle.value(), 1080, 2);
   EXPECT_EQ(rag.verdict().recirculations.value(), 2);
 }
@@ -174,9 +174,19 @@ TEST(Passage, SwingingAtTheTongueIsOneRecirculation) {
   rag.look(at(200, in_gap));
   rag.arc(200, 365, in_gap, 0.2);
   for (int i = 0; i < 5; ++i) rag.arc(365, 340, in_gap, 0.02), rag.arc(340, 365, in_gap, 0.02);
-  EXPECT_EQ(rag.verdict().recirculations.value(), 1);
+  EXPECT_EQ(rag.verdict().recirculations.value(), 0) << "it has not got past yet";
   rag.arc(365, 480, in_gap, 0.1), rag.arc(480, 350, in_gap, 0.1), rag.arc(350, 370, in_gap, 0.1);
   EXPECT_EQ(rag.verdict().recirculations.value(), 1) << "it went back past the tongue in between";
+}
+
+TEST(Passage, HangingOnTheTongueAndPulledOutIsNoRecirculation) {
+  Led rag;
+  rag.look(at(200, in_gap));
+  rag.arc(200, 370, in_gap, 0.2);
+  rag.line({in_volute, 0.02, 0.02}, 0.1);
+  lead_out(rag);
+  EXPECT_EQ(rag.verdict().recirculations.value(), 0);
+  EXPECT_EQ(rag.story(), "entered, wholly in the casing, tongue passed, reached the outlet, exited");
 }
 
 TEST(Passage, ImpellerThatTurnsTheOtherWay) {
@@ -187,7 +197,7 @@ TEST(Passage, ImpellerThatTurnsTheOtherWay) {
   rag.look(at(150, in_gap));
   rag.arc(150, -200, in_gap, 0.4);
   EXPECT_EQ(rag.verdict().recirculations.value(), 1);
-  EXPECT_NEAR(rag.event("recirculated").angle.value(), 0, 2);
+  EXPECT_NEAR(rag.event("recirculated").angle.value(), -20, 2);
   rag.line(at(-200, in_volute), 0.1);
   rag.arc(-200, -360, in_volute, 0.2);
   rag.line({in_volute, -0.5, 0.02}, 0.2);

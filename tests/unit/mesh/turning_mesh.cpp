@@ -39,6 +39,17 @@ std::vector<int> interface_faces(const Mesh& mesh) {
   return count;
 }
 
+/// Facets whose linear weight, formed anew from the geometry, is not the one in the mesh; each counted once.
+std::int64_t other_weights(const Mesh& mesh) {
+  std::int64_t n = 0;
+  for (int f = mesh.first_facet; f < mesh.n_interior; ++f) {
+    if (mesh.owner[f] >= mesh.n_cells) continue;
+    const Vec3 to_face = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]];
+    n += std::abs(1 - dot(mesh.face_vector[f], to_face) / dot(mesh.face_vector[f], mesh.delta[f]) - mesh.weight[f]) > 1e-9;
+  }
+  return sum(mesh.comm, n);
+}
+
 // Cells close, facets cover each interface face once, and nothing is swept out of a cell.
 void expect_closed(const Mesh& mesh, const TurningMesh& turning, const std::vector<int>& covered) {
   std::vector<Vec3> total(mesh.n_all_cells());
@@ -320,6 +331,20 @@ TEST(TurningMesh, NamesThePlaceWhereZonesDoNotTouch) {
     EXPECT_EQ(error.code, ExitCode::mesh);
     EXPECT_NE(std::string(error.what()).find("side at ("), std::string::npos) << error.what();
   }
+}
+
+// Weights that are kept within bounds are counted: some at the rims of coarse tetrahedra, none on hexahedra.
+TEST(TurningMesh, CountsBoundedWeights) {
+  const auto bounded = [](const Shells& shells) {
+    Mesh mesh = imported(shells);
+    TurningMesh turning(mesh, shells.description());
+    EXPECT_EQ(turning.n_bounded_global(), other_weights(mesh));
+    turning.turn(0.5);
+    EXPECT_EQ(turning.n_bounded_global(), other_weights(mesh));
+    return turning.n_bounded_global();
+  };
+  EXPECT_GT(bounded({}), 0);
+  EXPECT_EQ(bounded({.tetrahedra = false}), 0);
 }
 
 }  // namespace

@@ -1,29 +1,13 @@
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "case_texts.hpp"
 #include "mesh/structured.hpp"
 #include "solver/flow_solver.hpp"
 
 using namespace snag;
+using namespace snag::test;
 
 namespace {
-
-std::vector<PatchBoundary> conditions(const std::string& toml) { return read_boundaries(CaseFile::parse(toml).root()); }
-
-/// The message of the Error(usage) that a piece of work throws.
-template <class Work>
-std::string usage_error(const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "no error was thrown";
-  return "";
-}
-
-bool mentions(const std::string& message, const std::string& word) { return message.find(word) != std::string::npos; }
 
 const char* const walls = "[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\"]\nkind = \"wall\"\n";
 

@@ -1,7 +1,7 @@
 // ranks: 1 2
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "case_texts.hpp"
 #include "mesh/structured.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
@@ -9,6 +9,7 @@
 #include "solver/turbulence/wall_functions.hpp"
 
 using namespace snag;
+using namespace snag::test;
 
 namespace {
 
@@ -16,22 +17,6 @@ const char* const model = "[turbulence]\nmodel = \"k_epsilon\"\ninitial_k = \"0.
 const char* const all_walls = "[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n";
 
 std::unique_ptr<Turbulence> turbulence(const std::string& toml) { return read_turbulence(CaseFile::parse(toml).root()); }
-std::vector<PatchBoundary> conditions(const std::string& toml) { return read_boundaries(CaseFile::parse(toml).root()); }
-
-/// The message of the Error(usage) that a piece of work throws.
-template <class Work>
-std::string usage_error(const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "no error was thrown";
-  return "";
-}
-
-bool mentions(const std::string& message, const std::string& word) { return message.find(word) != std::string::npos; }
 
 }  // namespace
 

@@ -44,8 +44,7 @@ TEST(RagMeasures, KnowAFlatSheet) {
   settings.length = 0.08, settings.width = 0.04, settings.position = {1, 2, 3};
   RagPiece piece = make_piece(settings, "test");
   for (int row = 0; row < 20; ++row)
-    for (int column = 0; column < 40; ++column)
-      piece.poses.push_back({{2.02e-3 * (column - 19.5), 2e-3 * (row - 9.5), 0}, {}});
+    for (int column = 0; column < 40; ++column) piece.poses.push_back({{2.02e-3 * (column - 19.5), 2e-3 * (row - 9.5), 0}, {}});
   RagSystem rags(MPI_COMM_SELF, {}, {piece});
   const RagState s = rag_states(rags)[0];
   EXPECT_LT(norm(s.centre - Vec3{1, 2, 3}), 1e-14);

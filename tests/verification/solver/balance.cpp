@@ -2,36 +2,16 @@
 #include <gtest/gtest.h>
 
 #include "solver/monitors.hpp"
-#include "tests/verification/solver/flow_cases.hpp"
+#include "tests/verification/solver/channel.hpp"
 
 using namespace snag;
 using namespace snag::test;
 
 namespace {
 
-const char* const channel = R"(
-[[boundary]]
-patches = ["z0", "z1"]
-kind = "wall"
-[[boundary]]
-patches = ["y0", "y1"]
-kind = "symmetry"
-[[boundary]]
-patch = "x0"
-kind = "velocity_inlet"
-normal_speed = "1 m/s"
-[[boundary]]
-patch = "x1"
-kind = "pressure_outlet"
-)";
+const std::string driven = channel("kind = \"velocity_inlet\"\nnormal_speed = \"1 m/s\"");
 
-Mesh tetrahedra() { return tetrahedral_box(MPI_COMM_WORLD, {.upper = {2, 1, 1}, .distortion = 0.15}, {10, 5, 6}); }
-
-FlowSettings settings_of(double kinematic_viscosity) {
-  FlowSettings settings = sharp_settings();
-  settings.kinematic_viscosity = kinematic_viscosity;
-  return settings;
-}
+Mesh tetrahedra() { return channel_mesh(5); }
 
 /// A porous body in the middle that drags the water towards a velocity of its own.
 void put_rag(Flow& flow, double drag) {
@@ -58,11 +38,11 @@ struct RisingPressure final : Boundary {
 TEST(Balance, rising_outlet_pressure) {
   const Mesh mesh = tetrahedra();
   const auto pressure_and_velocity = [&](double rate) {
-    auto boundary = conditions(channel);
+    auto boundary = conditions(driven);
     auto rising = std::make_unique<RisingPressure>();
     rising->rate = rate;
     boundary.back().boundary = std::move(rising);
-    FlowSolver solver(mesh, settings_of(0.01), std::move(boundary));
+    FlowSolver solver(mesh, channel_settings(0.01), std::move(boundary));
     for (int i = 0; i < 5; ++i) solver.advance(0.02);
     return std::pair(solver.flow.pressure, solver.flow.velocity);
   };
@@ -77,7 +57,7 @@ TEST(Balance, rising_outlet_pressure) {
 // gradients hardly do.
 TEST(Balance, checkerboard) {
   const Mesh mesh = tetrahedra();
-  FlowSolver solver(mesh, settings_of(0.01),
+  FlowSolver solver(mesh, channel_settings(0.01),
                     conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n"));
   for (int c = 0; c < mesh.n_cells; ++c) solver.flow.pressure[c] = mesh.cell_id[c] % 2 == 0 ? 1 : -1;
   for (int i = 0; i < 3; ++i) solver.advance(0.02);
@@ -88,9 +68,9 @@ TEST(Balance, checkerboard) {
 // in each cell.
 TEST(Balance, momentum_and_mass) {
   const Mesh mesh = tetrahedra();
-  FlowSettings settings = settings_of(0.01);
+  FlowSettings settings = channel_settings(0.01);
   settings.body_force = {0.3, -0.2, 0.1};
-  FlowSolver solver(mesh, settings, conditions(channel));
+  FlowSolver solver(mesh, settings, conditions(driven));
   put_rag(solver.flow, 50);
   for (int i = 0; i < 10; ++i) {
     const StepReport report = solver.advance(0.02);
@@ -107,7 +87,7 @@ TEST(Balance, momentum_and_mass) {
 // The forces that the patches report are those of the momentum balance.
 TEST(Balance, forces_of_patches) {
   const Mesh mesh = tetrahedra();
-  FlowSolver solver(mesh, settings_of(0.01), conditions(channel));
+  FlowSolver solver(mesh, channel_settings(0.01), conditions(driven));
   for (int i = 0; i < 3; ++i) solver.advance(0.02);
   Vec3 pressure, friction;
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
@@ -122,7 +102,7 @@ TEST(Balance, forces_of_patches) {
 // Water at rest in a closed box under its weight stays at rest on tetrahedra: the pressure balances the force exactly.
 TEST(Balance, hydrostatic) {
   const Mesh mesh = tetrahedra();
-  FlowSettings settings = settings_of(1e-3);
+  FlowSettings settings = channel_settings(1e-3);
   settings.body_force = {1, 2, -9.81 * 1.2};
   FlowSolver solver(mesh, settings,
                     conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n"));
@@ -136,7 +116,7 @@ TEST(Balance, drag_decay) {
   const Mesh mesh = tetrahedral_box(MPI_COMM_WORLD, {.distortion = 0.1}, {3, 3, 3}, {true, true, true});
   std::vector<double> h, error;
   for (const int steps : {10, 20, 40}) {
-    FlowSettings settings = settings_of(0.01);
+    FlowSettings settings = channel_settings(0.01);
     settings.initial_velocity = {1, -0.5, 0.2};
     FlowSolver solver(mesh, settings, {});
     std::fill(solver.flow.drag.begin(), solver.flow.drag.end(), 2.4);
@@ -152,7 +132,7 @@ TEST(Balance, drag_decay) {
 // through cells at its edge that share faces with free ones); the balance holds.
 TEST(Balance, stiff_drag) {
   const Mesh mesh = tetrahedra();
-  FlowSolver solver(mesh, settings_of(0.001), conditions(channel));
+  FlowSolver solver(mesh, channel_settings(0.001), conditions(driven));
   put_rag(solver.flow, 1e6 * 1.2 / 0.02);
   for (int i = 0; i < 10; ++i) solver.advance(0.02);
   for (int c = 0; c < mesh.n_cells; ++c) {

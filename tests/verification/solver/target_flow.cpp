@@ -3,12 +3,10 @@
 // A pressure inlet and an outlet whose pressure floats until the flow is the one that is asked for.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "parallel/checkpoint.hpp"
 #include "solver/boundaries/water_column.hpp"
 #include "solver/monitors.hpp"
-#include "tests/verification/solver/flow_cases.hpp"
+#include "tests/verification/solver/channel.hpp"
+#include "tests/verification/solver/take_over.hpp"
 
 using namespace snag;
 using namespace snag::test;
@@ -17,32 +15,12 @@ namespace {
 
 constexpr double dt = 0.02, target = 0.8;
 
-/// A channel of walls between a tank and an outlet; `outlet`: more keys of the outlet.
-std::string channel(const std::string& outlet) {
-  return R"(
-[[boundary]]
-patches = ["z0", "z1"]
-kind = "wall"
-[[boundary]]
-patches = ["y0", "y1"]
-kind = "symmetry"
-[[boundary]]
-patch = "x0"
-kind = "pressure_inlet"
-pressure_Pa = 3
-[[boundary]]
-patch = "x1"
-kind = "pressure_outlet"
-)" + outlet;
-}
+/// A channel between a tank and an outlet; `outlet`: more keys of the outlet.
+std::string from_tank(const std::string& outlet) { return channel("kind = \"pressure_inlet\"\npressure_Pa = 3", outlet); }
 
-Mesh tetrahedra() { return tetrahedral_box(MPI_COMM_WORLD, {.upper = {2, 1, 1}, .distortion = 0.15}, {10, 3, 6}); }
+Mesh tetrahedra() { return channel_mesh(3); }
 
-FlowSettings settings() {
-  FlowSettings chosen = sharp_settings();
-  chosen.kinematic_viscosity = 0.02;
-  return chosen;
-}
+FlowSettings settings() { return channel_settings(0.02); }
 
 /// Flow through x1 over its target after each of `steps` steps.
 std::vector<double> share_of_target(FlowSolver& solver, int steps) {
@@ -73,7 +51,7 @@ void print(const char* what, const std::vector<double>& share, double end) {
 TEST(TargetFlow, water_column) {
   const auto conductance_of = [](const Mesh& mesh) {
     std::vector<PatchBoundary> ordered(mesh.patches.size());
-    for (const PatchBoundary& condition : conditions(channel("")))
+    for (const PatchBoundary& condition : conditions(from_tank("")))
       ordered[mesh.patch_index(condition.patch)] = {condition.patch, "", boundaries().make("wall", "test")};
     for (const char* open : {"x0", "x1"}) ordered[mesh.patch_index(open)].boundary = boundaries().make("pressure_outlet", "test");
     return column_conductance(mesh, ordered, mesh.patches[mesh.patch_index("x1")]);
@@ -87,7 +65,7 @@ TEST(TargetFlow, water_column) {
 TEST(TargetFlow, from_rest) {
   const Mesh mesh = tetrahedra();
   for (const double level : {0.0, -4.0, 4.0}) {
-    FlowSolver solver(mesh, settings(), conditions(channel("target_flow_rate_m3_s = 0.8\npressure_Pa = " + std::to_string(level))));
+    FlowSolver solver(mesh, settings(), conditions(from_tank("target_flow_rate_m3_s = 0.8\npressure_Pa = " + std::to_string(level))));
     const auto share = share_of_target(solver, 320);
     print("from rest", share, 1);
     EXPECT_LT(largest(share), 1.03) << level;
@@ -98,7 +76,7 @@ TEST(TargetFlow, from_rest) {
 // The target falls to a half: the flow follows, is not more than 3 % of the target off on the other side, and settles.
 TEST(TargetFlow, step_change) {
   const Mesh mesh = tetrahedra();
-  FlowSolver solver(mesh, settings(), conditions(channel("target_flow_rate_m3_s = 0.8\ntimes_s = [5, 5.001]\nfactors = [1, 0.5]")));
+  FlowSolver solver(mesh, settings(), conditions(from_tank("target_flow_rate_m3_s = 0.8\ntimes_s = [5, 5.001]\nfactors = [1, 0.5]")));
   EXPECT_NEAR(share_of_target(solver, 249).back(), 1, 1e-3);
   const auto share = share_of_target(solver, 320);
   print("step change", share, 0.5);
@@ -112,7 +90,7 @@ TEST(TargetFlow, response_time) {
   const auto swing = [&](const std::string& response) {
     std::string times, factors;
     for (int i = 0; i < 12; ++i) times += std::to_string(i) + ", ", factors += i % 2 == 0 ? "1, " : "0.8, ";
-    auto text = channel("target_flow_rate_m3_s = 0.8\nresponse_time_s = " + response);
+    auto text = from_tank("target_flow_rate_m3_s = 0.8\nresponse_time_s = " + response);
     text.replace(text.find("pressure_Pa = 3"), 15, "pressure_Pa = 3\ntimes_s = [" + times + "]\nfactors = [" + factors + "]");
     FlowSolver solver(mesh, settings(), conditions(text));
     share_of_target(solver, 400);
@@ -152,7 +130,7 @@ target_flow_rate_m3_s = 0.3
 // A run that starts with the water of one that has settled finds the level in its pressure, whatever the case says of it: the flow stays.
 TEST(TargetFlow, from_settled_water) {
   const Mesh mesh = tetrahedra();
-  const std::string text = channel("target_flow_rate_m3_s = 0.8\npressure_Pa = 40");
+  const std::string text = from_tank("target_flow_rate_m3_s = 0.8\npressure_Pa = 40");
   FlowSolver settled(mesh, settings(), conditions(text));
   share_of_target(settled, 320);
   FlowSolver solver(mesh, settings(), conditions(text));
@@ -167,24 +145,12 @@ TEST(TargetFlow, from_settled_water) {
 // A resumed run has the level and all that it comes from: the same pressures to the bit.
 TEST(TargetFlow, resume) {
   const Mesh mesh = tetrahedra();
-  const std::string text = channel("target_flow_rate_m3_s = 0.8");
-  const auto folder = std::filesystem::temp_directory_path() / ("snag-target-flow-" + std::to_string(size_of(mesh.comm)));
+  const std::string text = from_tank("target_flow_rate_m3_s = 0.8");
   FlowSolver whole(mesh, settings(), conditions(text));
   share_of_target(whole, 7);
-  {
-    CheckpointWriter writer(mesh.comm, folder, {.case_sha256 = "", .ranks = size_of(mesh.comm), .time_step = 7});
-    whole.save(writer);
-    writer.finish();
-  }
-  share_of_target(whole, 5);
   FlowSolver resumed(mesh, settings(), conditions(text));
-  {
-    CheckpointReader reader(mesh.comm, folder);
-    resumed.load(reader);
-  }
-  share_of_target(resumed, 5);
+  take_over(whole, resumed, "target_flow");
+  share_of_target(whole, 5), share_of_target(resumed, 5);
   for (int c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(whole.flow.pressure[c], resumed.flow.pressure[c]);
   EXPECT_EQ(whole.boundary().state(), resumed.boundary().state());
-  MPI_Barrier(mesh.comm);
-  if (rank_of(mesh.comm) == 0) std::filesystem::remove_all(folder);
 }

@@ -1,12 +1,11 @@
 // ranks: 1 2 3 5
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <map>
 
-#include "parallel/checkpoint.hpp"
 #include "solver/monitors.hpp"
 #include "tests/verification/solver/flow_cases.hpp"
+#include "tests/verification/solver/take_over.hpp"
 
 using namespace snag;
 using namespace snag::test;
@@ -94,27 +93,13 @@ TEST(TurbulentDuct, positive) {
 
 // A run resumed from a checkpoint gives the same bits as the uninterrupted one on the same ranks.
 TEST(TurbulentDuct, resumed_run) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("snag_turbulence_resume_" + std::to_string(size_of(MPI_COMM_WORLD)));
   Duct whole(MPI_COMM_WORLD), resumed(MPI_COMM_WORLD);
   whole.advance(4);
-  {
-    CheckpointWriter writer(MPI_COMM_WORLD, folder,
-                            {.case_sha256 = "test", .ranks = size_of(MPI_COMM_WORLD), .time_step = 4, .time = 0.12});
-    whole.solver.save(writer);
-    writer.finish();
-  }
-  whole.advance(5);
-  {
-    CheckpointReader reader(MPI_COMM_WORLD, folder);
-    resumed.solver.load(reader);
-  }
-  resumed.advance(5);
+  take_over(whole.solver, resumed.solver, "turbulent_duct");
+  whole.advance(5), resumed.advance(5);
   EXPECT_EQ(whole.solver.flow.velocity, resumed.solver.flow.velocity);
   EXPECT_EQ(whole.solver.flow.pressure, resumed.solver.flow.pressure);
   EXPECT_EQ(whole.solver.flow.turbulent_kinetic_energy, resumed.solver.flow.turbulent_kinetic_energy);
   EXPECT_EQ(whole.solver.flow.dissipation_rate, resumed.solver.flow.dissipation_rate);
   EXPECT_EQ(whole.solver.flow.face_viscosity, resumed.solver.flow.face_viscosity);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder);
 }

@@ -1,0 +1,201 @@
+# timeout: 600
+# processors: 3
+"""Requirement: what is told of a rag that goes through a turning zone agrees with its particles, on any number of ranks and after a resume."""
+import shutil
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+import harness
+from small_cases import CHANNEL, CHANNEL_MESH
+from turning_zone import Rings
+
+N_STEPS, N_PARTICLES = 100, 60
+CASE = """
+[case]
+name = "rag-through-rings"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 0.1
+step_s = 1e-3
+[rotating_zone]
+zone = "rotor"
+speed = "600 rpm"
+[flow]
+initial_velocity_m_s = [0, 0, -0.5]
+pressure_tolerance = 1e-11
+pressure_tolerance_intermediate = 1e-11
+momentum_tolerance = 1e-11
+[pump]
+[passage]
+inlet_flange_m = [0, 0, 0.04]
+inlet_normal = [0, 0, -1]
+inlet_radius_m = 0.05
+outlet_flange_m = [0, 0, 0]
+outlet_normal = [0, 0, -1]
+outlet_radius_m = 0.08
+tongue_m = [0.0565685, 0.0565685, 0.02]
+tongue_reach_m = 0.03
+impeller_radius_m = 0.05
+[[boundary]]
+patch = "inlet"
+kind = "flow_rate_inlet"
+flow_rate_m3_s = 5e-3
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["impeller_walls", "walls"]
+kind = "wall"
+[[wall]]
+kind = "patches"
+patches = ["impeller_walls", "walls"]
+[[rag]]
+length_mm = 20
+width_mm = 12
+radius_mm = 1
+centre_m = [0.04, 0, 0.05]
+lengthwise = [0, 1, 0]
+crosswise = [1, 0, 0]
+[checkpoint]
+interval_s = 0.06
+[output]
+report = false
+rags_interval_s = 0.001
+"""
+
+
+def particles(folder, step):
+    """Point arrays of rags/particles_<step>.vtp, positions as "x"."""
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(folder / "rags" / f"particles_{step:06}.vtp"))
+    reader.Update()
+    points = reader.GetOutput().GetPointData()
+    arrays = {points.GetArrayName(i): vtk_to_numpy(points.GetArray(i)) for i in range(points.GetNumberOfArrays())}
+    return {"x": vtk_to_numpy(reader.GetOutput().GetPoints().GetData()), **arrays}
+
+
+class RagThroughRings(harness.CaseTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        mesh = cls.shared / "rings.msh"
+        Rings().write(mesh)
+        cls.file = cls.shared / "case.toml"
+        cls.file.write_text(CASE.format(mesh=mesh))
+        cls.done = harness.snag(["run", cls.file, "--out", cls.shared / "1"], 1, cls.shared / "1")
+        assert cls.done.code == 0, cls.done.tail()
+
+    def test_monitor_agrees_with_particles(self):
+        passage, rags = self.done.monitor("passage"), self.done.monitor("rags")
+        count = {place: passage.column(f"particles_{place}") for place in ("upstream", "in_casing", "out")}
+        self.assertTrue((sum(count.values()) == N_PARTICLES).all(), "every particle is in one place")
+        self.assertEqual(count["upstream"][0], N_PARTICLES)
+        self.assertGreater(count["out"][-1], 0, "the rag must have come through, else the case shows little")
+        x, y, z = (rags.column(c) for c in "xyz")
+        angle = numpy.degrees(numpy.unwrap(numpy.arctan2(y, x))) - 45
+        numpy.testing.assert_allclose(passage.column("angle"), angle, atol=1e-6)
+        numpy.testing.assert_allclose(passage.column("radius"), numpy.hypot(x, y), atol=1e-12)
+        numpy.testing.assert_allclose(passage.column("height"), z, atol=1e-12)
+        numpy.testing.assert_array_equal(passage.column("max_tension"), rags.column("bond_tension_max"))
+        touching = sum(passage.column(f"touching_{wall}") for wall in ("impeller", "tongue", "other_wall"))
+        self.assertTrue(((touching > 0) == (self.done.monitor("contacts").column("wall_contacts") > 0)).all())
+        for step in range(1, N_STEPS + 1):
+            seen = particles(self.done.folder, step)
+            self.assertEqual((seen["x"][:, 2] < 0).sum(), count["out"][step - 1], f"step {step}")
+
+    def test_forces_add_up(self):
+        forces, coupling = self.done.monitor("rag_forces"), self.done.monitor("coupling")
+        in_all = 0
+        for step in range(1, N_STEPS + 1):
+            seen = particles(self.done.folder, step)
+            total = [coupling.column(f"force_on_rags_{c}")[step - 1] for c in "xyz"]
+            numpy.testing.assert_allclose(seen["fluid_force [N]"].sum(axis=0), total, atol=1e-6 * numpy.abs(total).max())
+            for kind in ("fluid", "contact"):
+                size = numpy.linalg.norm(seen[f"{kind}_force [N]"], axis=1)
+                touched = size[size > 0] if kind == "contact" else size
+                expected = [touched.mean(), touched.max()] if len(touched) else [0, 0]
+                numpy.testing.assert_allclose([forces.column(f"{kind}_{what}")[step - 1] for what in ("mean", "max")], expected, rtol=1e-6, atol=1e-15)
+            in_all += (size > 0).sum()
+            self.assertEqual((size > 0).sum(), forces.column("in_contact")[step - 1])
+            for kind in ("fluid", "contact"):
+                values = [forces.column(f"{kind}_{what}")[step - 1] for what in ("p50", "p90", "p99", "max")]
+                self.assertEqual(values, sorted(values))
+        self.assertGreater(in_all, 0, "the rag must touch something, else the case shows little")
+
+    def test_verdict_agrees_with_monitors(self):
+        rag, passage = self.done.summary["rags"][0], self.done.monitor("passage")
+        time, angle = passage.column("time"), passage.column("angle")
+        first = {
+            "entered": passage.column("particles_upstream") < N_PARTICLES,
+            "wholly in the casing": passage.column("particles_upstream") == 0,
+            "reached the outlet": passage.column("particles_out") > 0,
+            "exited": passage.column("particles_out") == N_PARTICLES,
+        }
+        events = {event["what"]: event for event in rag["events"]}
+        for what, happens in first.items():
+            self.assertEqual(happens.any(), what in events, what)
+            if happens.any():
+                at = numpy.argmax(happens)
+                self.assertAlmostEqual(events[what]["t_s"], time[at], places=12, msg=what)
+                self.assertAlmostEqual(events[what]["angle_deg"], angle[at], places=9, msg=what)
+        self.assertEqual([e["t_s"] for e in rag["events"]], sorted(e["t_s"] for e in rag["events"]))
+        self.assertAlmostEqual(rag["time_to_enter_s"], events["wholly in the casing"]["t_s"] - events["entered"]["t_s"], places=12)
+        if "exited" in events:
+            self.assertEqual(rag["outcome"], "exited")
+            self.assertAlmostEqual(rag["retention_time_s"], events["exited"]["t_s"] - events["wholly in the casing"]["t_s"], places=12)
+        else:
+            self.assertIsNone(rag["retention_time_s"])
+        zones = rag["wall_contact_by_zone_s"]
+        self.assertGreater(rag["wall_contact_s"], 0)
+        self.assertGreaterEqual(rag["wall_contact_s"], max(zones.values()))
+        self.assertLessEqual(rag["wall_contact_s"], sum(zones.values()) + 1e-12)
+        for zone, column in (("impeller", "impeller"), ("tongue", "tongue"), ("other", "other_wall")):
+            # A row tells the end of a step, the time counts touches within it as well.
+            self.assertGreaterEqual(zones[zone] + 1e-12, 1e-3 * (passage.column(f"touching_{column}") > 0).sum(), zone)
+        tension = passage.column("max_tension")
+        self.assertAlmostEqual(rag["max_bond_tension_N"], tension.max(), places=12)
+        self.assertAlmostEqual(rag["max_bond_tension_at"]["t_s"], time[numpy.argmax(tension)], places=12)
+        self.assertEqual(len(rag["volute"]), 18)
+        print("  " + self.done.stdout.split("rag 1: ")[-1].splitlines()[0])
+        self.assertIn(f"rag 1: {rag['outcome']}, retention time", self.done.stdout)
+        self.assertIn("pump: head", self.done.stdout)
+
+    def test_any_number_of_ranks(self):
+        for ranks in (2, 3):
+            other = self.run_case(self.file, ranks, out=str(ranks))
+            for monitor in ("passage", "rag_forces", "rags", "contacts"):
+                self.assert_monitors_agree(self.done, other, monitor, 1e-6)
+            mine, others = self.done.summary["rags"][0], other.summary["rags"][0]
+            self.assertEqual(mine["outcome"], others["outcome"])
+            self.assertEqual([e["what"] for e in mine["events"]], [e["what"] for e in others["events"]])
+
+    def test_resume_to_the_bit(self):
+        """The finished run's folder without its last checkpoint is what a crash leaves behind: step 60 is the newest state."""
+        shutil.copytree(self.done.folder, self.work / "crashed")
+        slots = sorted((self.work / "crashed" / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
+        self.assertEqual(len(slots), 2)
+        slots[-1].write_bytes(slots[-1].read_bytes()[:-5000])
+        resumed = self.run_case(self.file, 1, "--resume", out="crashed")
+        self.assertIn("resumed at 0.06", resumed.stdout)
+        for monitor in ("passage", "rag_forces", "rags", "contacts", "coupling"):
+            self.assertEqual(self.done.monitor(monitor).lines, resumed.monitor(monitor).lines, monitor)
+        self.assertEqual(self.done.summary["rags"], resumed.summary["rags"])
+
+    def test_pictures_change_nothing(self):
+        other = self.run_case(self.file, 1, "--set", "output.rags_interval_s=0.02", out="few")
+        for monitor in ("passage", "rag_forces", "rags"):
+            self.assertEqual(self.done.monitor(monitor).lines, other.monitor(monitor).lines, monitor)
+
+    def test_passage_needs_a_turning_zone(self):
+        text = self.file.read_text()
+        table = text[text.index("[passage]") : text.index("[[boundary]]")]
+        refused = self.run_case(self.case(CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell") + table), code=2)
+        self.assertIn("[passage]", refused.stderr)
+        self.assertIn("add [rotating_zone]", refused.stderr)
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,44 @@
+"""Requirement: a crumpled pose is made before the run, the same on any number of ranks, told and stored; another run and a resume take the stored one."""
+import harness
+
+SHEET = """
+[case]
+name = "crumpled"
+[time]
+end_s = 0.004
+step_s = 1e-3
+[[rag]]
+length_mm = 120
+width_mm = 88
+radius_mm = 2
+{pose}
+[output]
+report = false
+"""
+CONFINED = 'pose = "confined"\nconfine_radius_mm = 28\nconfine_axis = [0, 0, -1]\ncentre_m = [0.1, 0, 0.2]'
+
+
+class Poses(harness.CaseTest):
+    def test_confined(self):
+        file = self.case(SHEET.format(pose=CONFINED))
+        one, two = self.run_case(file, out="one"), self.run_case(file, 2, out="two")
+        stored = one.folder / "rags" / "pose_0.csv"
+        self.assertEqual(stored.read_bytes(), (two.folder / "rags" / "pose_0.csv").read_bytes())
+        log = (one.folder / "log.txt").read_text()
+        self.assertIn("elongation ratio", log)
+        self.assertIn("strain of the bonds", log)
+
+        taken = self.run_case(self.case(SHEET.format(pose=f'pose_file = "{stored}"\ncentre_m = [0.1, 0, 0.2]'), "taken"), out="taken")
+        self.assertEqual(one.monitor("rags").lines, taken.monitor("rags").lines)
+        self.assertNotIn("strain of the bonds", (taken.folder / "log.txt").read_text())
+
+        resumed = self.run_case(file, 1, "--resume", out="one")
+        self.assertNotIn("making the pose", resumed.stdout + resumed.stderr)
+
+    def test_errors(self):
+        file = self.case(SHEET.format(pose='pose = "confined"\nconfine_radius_mm = 6'))
+        self.assertIn("confine_radius", self.run_case(file, 2, code=2).stderr)
+
+
+if __name__ == "__main__":
+    harness.main()
