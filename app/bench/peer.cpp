@@ -1,18 +1,15 @@
 #include "app/bench/peer.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <charconv>
-#include <cstring>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/bench/peer_script.hpp"
 #include "base/atomic_file.hpp"
+#include "base/child_process.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
@@ -41,36 +38,6 @@ void first_rank_alone(const Work& work) {
   together(world, [&] {
     if (failure) std::rethrow_exception(failure);
   });
-}
-
-/// The environment without what ties this process to its MPI job: the other program is a job of its own.
-std::vector<char*> own_environment() {
-  std::vector<char*> environment;
-  for (char** entry = environ; *entry; ++entry) {
-    const auto begins = [&](const char* prefix) { return std::strncmp(*entry, prefix, std::strlen(prefix)) == 0; };
-    if (!begins("OMPI_") && !begins("PMIX_") && !begins("PRTE_") && !begins("ORTE_")) environment.push_back(*entry);
-  }
-  environment.push_back(nullptr);
-  return environment;
-}
-
-int run(std::vector<std::string> command, const std::filesystem::path& output) {
-  std::vector<char*> arguments, environment = own_environment();
-  for (std::string& word : command) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int failure = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environment.data());
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw Error(ExitCode::io, command[0] + ": cannot be started; install python3");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 std::string written(double value) {
@@ -124,27 +91,27 @@ PeerFlow run_peer(const PeerFlowCase& flow_case) {
     std::filesystem::remove_all(flow_case.folder, failure);
     std::filesystem::create_directories(flow_case.folder, failure);
     write_atomically(flow_case.folder / "openfoam.py", peer_script);
-    const int code = run({"/usr/bin/python3",
-                          (flow_case.folder / "openfoam.py").string(),
-                          "--mesh",
-                          flow_case.mesh.string(),
-                          "--out",
-                          flow_case.folder.string(),
-                          "--ranks",
-                          std::to_string(flow_case.ranks),
-                          "--warm-up",
-                          std::to_string(flow_case.n_warm_up),
-                          "--steps",
-                          std::to_string(flow_case.n_steps),
-                          "--time-step",
-                          written(flow_case.time_step),
-                          "--flow-rate",
-                          written(flow_case.flow_rate),
-                          "--speed",
-                          written(flow_case.speed),
-                          "--viscosity",
-                          written(flow_case.kinematic_viscosity)},
-                         log);
+    const int code = run_command({"/usr/bin/python3",
+                                  (flow_case.folder / "openfoam.py").string(),
+                                  "--mesh",
+                                  flow_case.mesh.string(),
+                                  "--out",
+                                  flow_case.folder.string(),
+                                  "--ranks",
+                                  std::to_string(flow_case.ranks),
+                                  "--warm-up",
+                                  std::to_string(flow_case.n_warm_up),
+                                  "--steps",
+                                  std::to_string(flow_case.n_steps),
+                                  "--time-step",
+                                  written(flow_case.time_step),
+                                  "--flow-rate",
+                                  written(flow_case.flow_rate),
+                                  "--speed",
+                                  written(flow_case.speed),
+                                  "--viscosity",
+                                  written(flow_case.kinematic_viscosity)},
+                                 log, "install python3");
     if (code != 0) throw Error(ExitCode::io, "OpenFOAM ended with code " + std::to_string(code) + "; " + log.string() + " says more");
     text = file_text(result).value_or("");
     parsed(text, log);

@@ -1,15 +1,11 @@
 #include "app/report/pictures.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <nlohmann/json.hpp>
 
 #include "app/report/html.hpp"
 #include "app/report/render_script.hpp"
 #include "base/atomic_file.hpp"
+#include "base/child_process.hpp"
 #include "base/error.hpp"
 
 namespace snag {
@@ -19,26 +15,6 @@ namespace {
 constexpr const char* time_limit = "900";        // s, of all pictures
 constexpr const char* film_time_limit = "7200";  // s
 constexpr int timed_out = 124;                   // exit code of timeout(1)
-
-/// Runs a command with its output in a file; its exit code, or 128 + the signal that ended it. Throws Error(io) if it cannot be started.
-int run(const std::vector<std::string>& command, const std::filesystem::path& output) {
-  std::vector<char*> arguments;
-  for (const auto& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int failure = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw Error(ExitCode::io, command[0] + ": cannot be started; install coreutils");
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
 
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
@@ -76,7 +52,7 @@ Pictures drawn(const std::filesystem::path& dir, const char* list, const char* l
                                         "--out",
                                         folder.string()};
     command.insert(command.end(), options.begin(), options.end());
-    const int exit_code = run(command, output);
+    const int exit_code = run_command(command, output, "install coreutils");
     pictures.made = listed(folder, list);
     if (exit_code == timed_out)
       pictures.problem = std::string("drawing was stopped after ") + limit + " s";

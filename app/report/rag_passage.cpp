@@ -13,6 +13,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int most_revolutions = 3;  // before and after a passage
+constexpr double settled = 0.02;     // change of the head from one revolution to the next
 
 /// The records of each rag.
 std::map<int, SeriesTable> by_rag(const SeriesTable& table) {
@@ -121,6 +122,9 @@ std::optional<PumpMeans> PumpRecord::before(double time) const {
   if (empty() || !std::isfinite(time)) return {};
   const double end = revolution(time), first = turned_.front();
   const int whole = static_cast<int>(std::floor(end - first + 1e-6)), n = std::min(most_revolutions, whole - 1);
+  if (n < 2) return {};
+  const double last = mean("head", end - 1, end), last_but_one = mean("head", end - 2, end - 1);
+  if (std::abs(last - last_but_one) > settled * std::abs(last)) return {};
   return means(end - n, n);
 }
 

@@ -46,7 +46,8 @@ class PumpRecord {
   const std::vector<double>& column(const std::string& name) const { return table_.column(name); }
   /// At each record the mean of a column over the revolution around it; NAN where that reaches beyond the run.
   std::vector<double> sliding_mean(const std::string& name) const;
-  /// Up to three whole revolutions that end at a time, without the first one of a run: a start from rest is no state to compare with.
+  /// Up to three whole revolutions that end at a time, without the first one of a run; none if there are less than two of them, or the head
+  /// still changed by more than 2 % from one to the next: a start from rest is no state to compare with.
   std::optional<PumpMeans> before(double time) const;
   /// As many whole revolutions as fit between two times, at least one, around the middle of them.
   std::optional<PumpMeans> during(double begin, double end) const;
