@@ -6,7 +6,8 @@
 
 namespace snag {
 
-/// Writes both from the runs that have a summary; returns the results of all runs side by side, for people. One rank only; throws Error(io).
+/// Writes both from the runs that have a summary; returns the results of all runs side by side, for people. One rank only; throws
+/// Error(io).
 std::string write_study_results(const Study& study, const std::filesystem::path& folder);
 
 }  // namespace snag

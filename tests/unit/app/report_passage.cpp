@@ -129,9 +129,10 @@ TEST_F(PassageReport, TakesMeansOfWholeRevolutions) {
   EXPECT_NEAR(before->head, 5, 1e-9);
   EXPECT_NEAR(during->head, 4.6, 1e-9);
   EXPECT_NEAR(after->head, 5, 1e-9);
-  EXPECT_FALSE(pump.before(0.06)) << "the first revolution does not count";
+  EXPECT_FALSE(pump.before(0.11)) << "the first revolution does not count, and one more does not tell whether the head had settled";
+  EXPECT_EQ(pump.before(0.16)->revolutions, 2);
+  EXPECT_FALSE(pump.before(0.45)) << "the head had fallen by 8 % from one revolution to the next";
   EXPECT_FALSE(pump.after(0.97));
-  EXPECT_EQ(pump.before(0.11)->revolutions, 1);
   EXPECT_NEAR(pump.period(), 0.05, 1e-9);
   const auto mean = pump.sliding_mean("head");
   EXPECT_TRUE(std::isnan(mean[0]) && std::isnan(mean.back()));

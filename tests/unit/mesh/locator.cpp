@@ -181,7 +181,8 @@ TEST(Locator, FollowsATurningZone) {
     // In the slivers of so coarse a ring cells of two ranks may answer; the lower number holds then.
     MPI_Allreduce(MPI_IN_PLACE, is_found.data(), static_cast<int>(is_found.size()), MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     EXPECT_EQ(std::count(is_found.begin(), is_found.end(), 0), 0);
-    EXPECT_LT(std::count_if(is_found.begin(), is_found.end(), [](int count) { return count > 1; }), 0.005 * static_cast<double>(is_found.size()));
+    EXPECT_LT(std::count_if(is_found.begin(), is_found.end(), [](int count) { return count > 1; }),
+              0.005 * static_cast<double>(is_found.size()));
   }
 }
 
