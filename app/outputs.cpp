@@ -120,6 +120,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   if (simulation.rags) {
     rag_monitors_ =
         std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
+    elongation_at_start_.resize(simulation.rags->rags().size());
     rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
     forces_ = rag_forces(*simulation.rags, nullptr, 0);
   }
@@ -156,6 +157,7 @@ void Outputs::write_rags() {
   if (rank_of(MPI_COMM_WORLD) != 0) return;
   for (std::size_t rag = 0; rag < rag_output_->silhouettes().size(); ++rag) {
     const Silhouette& seen = rag_output_->silhouettes()[rag];
+    if (elongation_at_start_[rag] == 0 && seen.area > 0) elongation_at_start_[rag] = seen.elongation_ratio;
     silhouettes_.add({simulation_.time(), static_cast<double>(rag), seen.area, seen.x, seen.y, seen.elongation_ratio, seen.orientation});
   }
 }
@@ -216,7 +218,12 @@ void Outputs::write_rotor_monitors() {
 
 void Outputs::save(CheckpointWriter& writer) const {
   writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_});
-  if (rag_monitors_) writer.shared("rag_monitors", rag_monitors_->state());
+  if (rag_monitors_) {
+    writer.shared("rag_monitors", rag_monitors_->state());
+    std::vector<double> at_start = elongation_at_start_;  // known on rank 0
+    MPI_Bcast(at_start.data(), static_cast<int>(at_start.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    writer.shared("elongation_at_start", at_start);
+  }
   if (!pump_) return;
   pump_->save(writer);
   write_phase();
@@ -225,7 +232,10 @@ void Outputs::save(CheckpointWriter& writer) const {
 void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
   largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2];
-  if (rag_monitors_) rag_monitors_->restore(reader.shared("rag_monitors"));
+  if (rag_monitors_) {
+    rag_monitors_->restore(reader.shared("rag_monitors"));
+    elongation_at_start_ = reader.shared("elongation_at_start");
+  }
   if (pump_) pump_->load(reader);
 }
 
@@ -246,8 +256,9 @@ void Outputs::summarise_rags(Summary& summary) const {
       if (one.projected_area > 0) one.elongation_ratio = rag_output_->silhouettes()[r].elongation_ratio;
     }
     one.max_wall_overlap_over_radius = rag_monitors_->max_wall_overlap(r), one.max_overlap_over_radius = rag_monitors_->max_overlap();
-    one.bond_strain_p99 = bond_strain_quantile(rags, static_cast<int>(r), 0.99);
+    one.bond_strain_p99 = rag_monitors_->max_bond_strain_p99(r), one.elongation_ratio_at_start = elongation_at_start_[r];
     summary.rags.push_back(one);
+    if (!rags.inserted(static_cast<int>(r))) continue;
     summary.conservation.particles_lost += rag.n_particles - one.particles;
     summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
   }

@@ -55,6 +55,7 @@ class Outputs {
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<WallOutput> walls_;
   std::unique_ptr<RagMonitors> rag_monitors_;
+  std::vector<double> elongation_at_start_;  // [n_rags] of the first silhouette, on rank 0; 0: not seen yet
   std::unique_ptr<RagOutput> rag_output_;
   RagForces forces_;  // of the last step
   std::unique_ptr<PumpOutput> pump_;

@@ -43,7 +43,9 @@ Section PassageSettings::section() {
       "it is beyond a patch of kind pressure_outlet.",
       {point("inlet_flange", &inlet_flange, "Centre of the plane where the casing begins."),
        required({"inlet_normal", &inlet_normal, "1", -infinity, infinity, Basis::assumed, "Into the casing, of any length."}),
-       length("inlet_radius", &inlet_radius, "Radius of the inlet; a particle within 1.5 of it from its axis is in the inlet."),
+       length("inlet_radius", &inlet_radius,
+              "Radius of what lies before that plane, a pipe or a tank; a particle behind the plane and within 1.5 of it from its axis is "
+              "upstream."),
        point("outlet_flange", &outlet_flange, "Centre of the plane where the casing ends."),
        required({"outlet_normal", &outlet_normal, "1", -infinity, infinity, Basis::assumed, "Out of the casing, of any length."}),
        length("outlet_radius", &outlet_radius, "Radius of the outlet; a particle within 1.5 of it from its axis goes out by it."),
@@ -99,7 +101,7 @@ std::optional<PassageGeometry> read_passage(const Table& root, const RotatingZon
     throw Error(ExitCode::usage, table.where() +
                                      " tells a rag's way about an axis, and nothing turns here; add [rotating_zone], or remove "
                                      "[passage]");
-  return PassageGeometry(settings, zone->origin(), zone->axis(), zone->speed(infinity), table.where());
+  return PassageGeometry(settings, zone->origin(), zone->axis(), zone->full_speed(), table.where());
 }
 
 }  // namespace snag

@@ -40,7 +40,7 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
   const double before = is_seen_ ? angle_ : seen.angle;
   angle_ = before + std::remainder(seen.angle - before, two_pi), is_seen_ = true;
   enter(seen, time);
-  if (sense_ != 0 && !was_out) pass_tongue(seen, before, time);
+  if (sense_ != 0 && wholly_in_ >= 0 && !was_out) pass_tongue(seen, before, time);
   leave(seen, time);
 
   if (std::any_of(seen.touched.begin(), seen.touched.end(), [](bool touched) { return touched; })) wall_contact_ += step;

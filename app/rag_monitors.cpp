@@ -29,6 +29,7 @@ std::vector<std::string> rag_columns() {
           "z_max [m]",
           "kinetic_energy [J]",
           "bond_energy [J]",
+          "bond_strain_p99 [1]",
           "bond_strain_max [1]",
           "bond_tension_max [N]",
           "broken_bonds [1]",
@@ -68,7 +69,7 @@ std::vector<std::string> force_columns() {
 }  // namespace
 
 RagMonitors::RagMonitors(const std::filesystem::path& folder, const RagSystem& rags, bool with_passage, bool resume, double from_time)
-    : with_passage_(with_passage), max_wall_overlap_(rags.rags().size()) {
+    : with_passage_(with_passage), max_wall_overlap_(rags.rags().size()), max_bond_strain_p99_(rags.rags().size()) {
   together(rags.comm(), [&] {
     if (rank_of(rags.comm()) != 0) return;
     const auto open = [&](const char* name, const std::vector<std::string>& columns) {
@@ -84,16 +85,21 @@ void RagMonitors::after_step(RagSystem& rags, const Passage& passage, const RagF
   const std::vector<BondCount> bonds = rags.check();
   const std::vector<RagForceSpread> spreads = force_spreads(rags, forces);
   measure_contacts(rags, time);
+  std::vector<double> strain_p99;
+  for (std::size_t rag = 0; rag < bonds.size(); ++rag) {
+    strain_p99.push_back(bond_strain_quantile(rags, static_cast<int>(rag), 0.99));
+    max_bond_strain_p99_[rag] = std::max(max_bond_strain_p99_[rag], strain_p99[rag]);
+  }
   if (rank_of(rags.comm()) != 0) return;
   for (std::size_t rag = 0; rag < bonds.size(); ++rag) {
     if (passage.states()[rag].n_particles == 0) continue;
-    add_state(rag, passage, bonds[rag], time);
+    add_state(rag, passage, bonds[rag], strain_p99[rag], time);
     add_forces(rag, spreads[rag], time);
     if (with_passage_) add_passage(rag, passage, time);
   }
 }
 
-void RagMonitors::add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double time) {
+void RagMonitors::add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double strain_p99, double time) {
   const RagState& s = passage.states()[rag];
   rags_.add({time,
              static_cast<double>(rag),
@@ -111,6 +117,7 @@ void RagMonitors::add_state(std::size_t rag, const Passage& passage, const BondC
              s.upper.z,
              s.kinetic_energy,
              s.bond_energy,
+             strain_p99,
              s.max_bond_strain,
              s.max_bond_tension,
              static_cast<double>(bonds.broken),
@@ -156,12 +163,15 @@ void RagMonitors::measure_contacts(RagSystem& rags, double time) {
 std::vector<double> RagMonitors::state() const {
   std::vector<double> state{max_overlap_, most_beyond_walls_};
   state.insert(state.end(), max_wall_overlap_.begin(), max_wall_overlap_.end());
+  state.insert(state.end(), max_bond_strain_p99_.begin(), max_bond_strain_p99_.end());
   return state;
 }
 
 void RagMonitors::restore(const std::vector<double>& state) {
   max_overlap_ = state.at(0), most_beyond_walls_ = state.at(1);
-  max_wall_overlap_.assign(state.begin() + 2, state.end());
+  const auto middle = state.begin() + 2 + static_cast<std::ptrdiff_t>(max_wall_overlap_.size());
+  max_wall_overlap_.assign(state.begin() + 2, middle);
+  max_bond_strain_p99_.assign(middle, state.end());
 }
 
 }  // namespace snag

@@ -21,20 +21,21 @@ class RagMonitors {
   // over the whole run, kept by checkpoints
   double max_overlap() const { return max_overlap_; }
   double max_wall_overlap(std::size_t rag) const { return max_wall_overlap_[rag]; }
+  double max_bond_strain_p99(std::size_t rag) const { return max_bond_strain_p99_[rag]; }
   std::int64_t most_beyond_walls() const { return static_cast<std::int64_t>(most_beyond_walls_); }
   std::vector<double> state() const;
   void restore(const std::vector<double>& state);
 
  private:
   void measure_contacts(RagSystem& rags, double time);
-  void add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double time);
+  void add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double strain_p99, double time);
   void add_passage(std::size_t rag, const Passage& passage, double time);
   void add_forces(std::size_t rag, const RagForceSpread& spread, double time);
 
   Series rags_, contacts_, passage_, forces_;  // open on rank 0
   bool with_passage_;
   double max_overlap_ = 0, most_beyond_walls_ = 0;
-  std::vector<double> max_wall_overlap_;  // [n_rags]
+  std::vector<double> max_wall_overlap_, max_bond_strain_p99_;  // [n_rags]
 };
 
 }  // namespace snag

@@ -174,19 +174,24 @@ void Simulation::step() {
 void Simulation::insert_rags() {
   if (!rags) return;
   std::vector<int> fresh;
+  double crowding = 0;
   for (int r = 0; r < static_cast<int>(rags->rags().size()); ++r) {
     const RagPiece& piece = rags->pieces()[static_cast<std::size_t>(r)];
     if (rags->inserted(r)) {
       if (time_step_ == 0) fresh.push_back(r);
       continue;
     }
-    if (piece.insert_time > time() + 1e-6 * time_settings.step) continue;
+    if (piece.insert_time > time() + 1e-6 * time_settings.step) {
+      if (time_step_ == 0) check_waiting(*this, r);
+      continue;
+    }
+    if (fresh.empty() && time_step_ > 0) crowding = overlap_of_particles(*rags);
     rags->insert(r);
     fresh.push_back(r);
     if (piece.with_water) push_with_water(r);
     if (time_step_ > 0) log::info(piece.rag.name + ": put in at " + words(time()) + " s");
   }
-  check_start(*this, fresh);
+  check_start(*this, fresh, crowding);
 }
 
 void Simulation::push_with_water(int rag) {

@@ -59,6 +59,7 @@ nlohmann::ordered_json rag_json(const RagSummary& rag) {
           {"wall_contact_s", verdict.wall_contact},
           {"wall_contact_by_zone_s",
            {{"impeller", verdict.impeller_contact}, {"tongue", or_null(verdict.tongue_contact)}, {"other", verdict.other_contact}}},
+          {"elongation_ratio_at_start", rag.elongation_ratio_at_start},
           {"elongation_ratio", rag.elongation_ratio},
           {"projected_area_m2", rag.projected_area},
           {"max_wall_overlap_over_radius", rag.max_wall_overlap_over_radius},

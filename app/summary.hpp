@@ -16,7 +16,8 @@ struct RagSummary {
   std::string name;
   std::int64_t particles = 0, bonds = 0, broken_bonds = 0;
   RagVerdict verdict;
-  double elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0, max_overlap_over_radius = 0, bond_strain_p99 = 0;
+  double elongation_ratio_at_start = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0,
+         max_overlap_over_radius = 0, bond_strain_p99 = 0;
   std::int64_t corrected_positions = 0;
 };
 

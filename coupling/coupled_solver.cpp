@@ -154,6 +154,7 @@ void CoupledSolver::save(CheckpointWriter& writer) const {
 void CoupledSolver::load(CheckpointReader& reader) {
   const double last_step = reader.shared("coupling/last_step").at(0);
   if (kernel_field_) kernel_field_->set_last_step(last_step);
+  mesh_moved();  // the water was loaded before: a turning zone is not where it was when the kernel was made
 }
 
 }  // namespace snag

@@ -55,7 +55,7 @@ class CoupledSolver {
   static std::vector<std::string> columns();
   std::vector<double> record() const;
 
-  /// What the next step needs of the last one. Flow and rags save themselves. Collective; throws Error(io).
+  /// What the next step needs of the last one. Flow and rags save themselves and are loaded before. Collective; throws Error(io).
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
 

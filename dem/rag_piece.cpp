@@ -120,6 +120,10 @@ void check_plan(const RagSettings& s, const std::string& where) {
     refuse("confine_radius needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
   if (plan.kind != "confined" && plan.confine_length > 0)
     refuse("confine_length needs pose = \"confined\", it is \"" + plan.kind + "\"; set pose, or remove it");
+  if (!plan.crumpled() && plan.seed != PosePlan{}.seed)
+    refuse("seed needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
+  if (plan.kind != "hopper" && plan.hopper_angle != PosePlan{}.hopper_angle)
+    refuse("hopper_angle needs pose = \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
   if (plan.crumpled() && plan.confine_radius <= 0)
     refuse("pose = \"" + plan.kind + "\" without confine_radius, the radius of the pipe; give it");
 }

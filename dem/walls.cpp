@@ -151,6 +151,9 @@ WallSet read_walls(const CaseFile& file, const Mesh* mesh, const WallMotion* rot
     };
     demand("point", "plane"), demand("normal", "plane"), demand("lower", "box"), demand("upper", "box");
     demand("patches", "patches"), demand("file", "stl");
+    if (wall.fixed && wall.kind != "patches")
+      throw Error(ExitCode::usage, table.where() + ": fixed = true for a wall of kind \"" + wall.kind +
+                                       "\", only patches of a mesh turn by themselves; remove it");
     if (wall.name.empty()) wall.name = wall.kind + "_" + std::to_string(number);
     add_wall(walls, wall, file, mesh, rotor);
     ++number;

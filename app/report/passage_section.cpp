@@ -37,7 +37,12 @@ std::string brief_percent(double value) {
   return text;
 }
 
-std::string name_of(const RagPassage& passage, bool is_alone) { return is_alone ? "The rag" : "Rag " + std::to_string(passage.id); }
+std::string name_of(const RagPassage& passage, bool is_alone) {
+  if (is_alone) return "The rag";
+  const auto& name = passage.summary;
+  return name.is_object() && name.contains("name") && name["name"].is_string() ? name["name"].get<std::string>()
+                                                                               : "Rag number " + std::to_string(passage.id);
+}
 
 /// How it ended, as the beginning of a sentence.
 std::string ending(const RagPassage& passage, const std::string& name) {

@@ -455,7 +455,7 @@ def events_of(file):
         return []
     events = []
     for rag in rags:
-        whose = f"rag {rag.get('id')}: " if len(rags) > 1 else ""
+        whose = f"{rag.get('name') or rag.get('id')}: " if len(rags) > 1 else ""
         for event in rag.get("events") or []:
             if isinstance(event.get("t_s"), (int, float)):
                 events.append((event["t_s"], event.get("what", ""), f"{event['t_s']:.3f} s: {whose}{event.get('what', '')}"))

@@ -203,6 +203,7 @@ std::string rag_tables(const json& summary) {
               {"stuck_on_tongue_s", "Time stuck on the tongue", "s"},
               {"stuck_on_impeller_s", "Time stuck on the impeller", "s"},
               {"wall_contact_s", "Time in contact with a wall", "s"},
+              {"elongation_ratio_at_start", "Elongation ratio where it begins", ""},
               {"elongation_ratio", "Elongation ratio at the end: long side over short side", ""},
               {"projected_area_m2", "Projected area at the end", "m²"},
               {"max_wall_overlap_over_radius", "Deepest overlap with a wall, in particle radii", ""},

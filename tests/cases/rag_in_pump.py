@@ -145,11 +145,11 @@ class RagInPump(harness.CaseTest):
     def test_cell_kernel_on_any_number_of_ranks(self):
         self.agree("cell")
 
-    def stop_and_resume(self, ranks):
-        case, folder = self.pump(), self.work / "stopped"
+    def stop_and_resume(self, ranks, kernel="gaussian", after=28):
+        case, folder = self.pump(kernel), self.work / "stopped"
         whole = self.run_case(case, ranks, out="whole")
         mpirun = harness.start(["run", case, "--out", folder], ranks)
-        harness.wait_for_records(folder / "monitors" / "coupling.csv", 28, mpirun)
+        harness.wait_for_records(folder / "monitors" / "coupling.csv", after, mpirun)
         os.kill(harness.program_processes(mpirun)[-1], signal.SIGTERM)
         stdout, stderr = mpirun.communicate(timeout=120)
         self.assertEqual(mpirun.returncode, 7, stdout + stderr)
@@ -161,6 +161,13 @@ class RagInPump(harness.CaseTest):
 
     def test_stop_in_mid_transit_on_two_ranks(self):
         self.stop_and_resume(2)
+
+    def test_stop_before_the_last_rag_is_put_in(self):
+        self.stop_and_resume(2, after=8)
+
+    def test_stop_with_cells_that_have_come_to_another_place(self):
+        """The cell kernel asks only the ranks whose cells' box holds a particle: after 10 degrees of turning a box is another."""
+        self.stop_and_resume(3, "cell", after=42)
 
 
 if __name__ == "__main__":
