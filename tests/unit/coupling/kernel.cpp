@@ -8,8 +8,11 @@
 #include <map>
 #include <random>
 
+#include "../mesh/sliding_shells.hpp"
 #include "coupling/cell_owner.hpp"
+#include "mesh/import.hpp"
 #include "mesh/structured.hpp"
+#include "mesh/turning_mesh.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -213,6 +216,26 @@ TEST(KernelOrder, SecondOrderAwayFromWalls) {
     EXPECT_GT(order, 1.8) << name;
     EXPECT_LT(order, 2.4) << name;
   }
+}
+
+// Requirement: once told that the mesh has moved, the kernel finds all particles of a turning zone; ranks that hold a part of it are asked
+// by boxes that lie elsewhere after a turn.
+TEST(Kernel, FollowsATurningZone) {
+  const test::Shells shells;
+  const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
+  Mesh mesh = import_gmsh(file.path(), world);
+  TurningMesh turning(mesh, shells.description());
+  const auto shape = kernel_shapes().make("cell", "test");
+  Kernel kernel(*shape, 1, mesh);
+  turning.turn(2);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 200 && rank_of(world) == 0; ++i) {
+    const double r = 0.035 + 0.012 * (i % 7) / 7, angle = 0.1 * i;
+    points.push_back({r * std::cos(angle), r * std::sin(angle), 0.002 + 0.036 * (i % 11) / 11});
+  }
+  kernel.mesh_moved();
+  kernel.locate(points);
+  EXPECT_EQ(kernel.n_outside(), 0);
 }
 
 // Requirement: a point belongs to the rank of its cell; one outside to the rank of the nearest cell; the same answer on every rank.
