@@ -1,11 +1,9 @@
 # timeout: 600
 # processors: 3
 """Requirement: what is told of a rag that goes through a turning zone agrees with its particles, on any number of ranks and after a resume."""
-import shutil
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import harness
 from small_cases import CHANNEL, CHANNEL_MESH
@@ -69,12 +67,8 @@ rags_interval_s = 0.001
 
 def particles(folder, step):
     """Point arrays of rags/particles_<step>.vtp, positions as "x"."""
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(str(folder / "rags" / f"particles_{step:06}.vtp"))
-    reader.Update()
-    points = reader.GetOutput().GetPointData()
-    arrays = {points.GetArrayName(i): vtk_to_numpy(points.GetArray(i)) for i in range(points.GetNumberOfArrays())}
-    return {"x": vtk_to_numpy(reader.GetOutput().GetPoints().GetData()), **arrays}
+    data = harness.read_vtk(folder / "rags" / f"particles_{step:06}.vtp")
+    return {"x": vtk_to_numpy(data.GetPoints().GetData()), **harness.arrays(data.GetPointData())}
 
 
 class RagThroughRings(harness.CaseTest):
@@ -173,16 +167,9 @@ class RagThroughRings(harness.CaseTest):
             self.assertEqual([e["what"] for e in mine["events"]], [e["what"] for e in others["events"]])
 
     def test_resume_to_the_bit(self):
-        """The finished run's folder without its last checkpoint is what a crash leaves behind: step 60 is the newest state."""
-        shutil.copytree(self.done.folder, self.work / "crashed")
-        slots = sorted((self.work / "crashed" / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
-        self.assertEqual(len(slots), 2)
-        slots[-1].write_bytes(slots[-1].read_bytes()[:-5000])
-        resumed = self.run_case(self.file, 1, "--resume", out="crashed")
-        self.assertIn("resumed at 0.06", resumed.stdout)
-        for monitor in ("passage", "rag_forces", "rags", "contacts", "coupling"):
-            self.assertEqual(self.done.monitor(monitor).lines, resumed.monitor(monitor).lines, monitor)
-        self.assertEqual(self.done.summary["rags"], resumed.summary["rags"])
+        whole, resumed = self.crashed_and_resumed(self.file, 1, lambda run: sorted((run.folder / "rags").glob("*.vtp"))[-1:], "0.06")
+        self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").glob("*.vtp"))[-1:])
+        self.assertEqual(whole.summary["rags"], resumed.summary["rags"])
 
     def test_pictures_change_nothing(self):
         other = self.run_case(self.file, 1, "--set", "output.rags_interval_s=0.02", out="few")
