@@ -145,6 +145,21 @@ class RagInPump(harness.CaseTest):
     def test_cell_kernel_on_any_number_of_ranks(self):
         self.agree("cell")
 
+    def test_the_whole_rag_on_any_number_of_ranks(self):
+        """The rag and the pump of the demo at full speed, from the start, the rag reaching into the eye."""
+        case = harness.SOURCE_DIR / "cases" / "pump-demo" / "case.toml"
+        settings = ["time.end_ms=20", "rotating_zone.ramp_ms=0", "boundary.0.ramp_ms=0", "rag.0.insert_time_ms=0", "rag.0.centre_m=[0, 0, 0.19]",
+                    "flow.pressure_tolerance=1e-11", "flow.pressure_tolerance_intermediate=1e-11", "flow.momentum_tolerance=1e-11",
+                    "turbulence.tolerance=1e-11", "output.report=false", "output.fields_interval_ms=1000", "output.rags_interval_ms=10"]
+        words = [word for one in settings for word in ("--set", one)]
+        one = self.run_case(case, 1, *words, out="1")
+        self.assertEqual(one.summary["time_steps"], N_STEPS)
+        self.assertGreater(one.monitor("passage").column("particles_in_casing").max(), 100)
+        for ranks in (2, 3, 5):
+            other = self.run_case(case, ranks, *words, out=str(ranks))
+            for monitor in MONITORS:
+                self.assert_monitors_agree(one, other, monitor, 1e-6)
+
     def stop_and_resume(self, ranks, kernel="gaussian", after=28):
         case, folder = self.pump(kernel), self.work / "stopped"
         whole = self.run_case(case, ranks, out="whole")
