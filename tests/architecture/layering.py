@@ -11,8 +11,9 @@ ALLOWED = {
     "solver": ["mesh", "parallel", "base"],
     "dem": ["observe", "mesh", "parallel", "base"],
     "observe": ["base"],
+    "diagnosis": ["observe", "base"],
     "coupling": ["solver", "dem", "mesh", "parallel", "base"],
-    "app": ["coupling", "observe", "solver", "dem", "mesh", "parallel", "base"],
+    "app": ["diagnosis", "coupling", "observe", "solver", "dem", "mesh", "parallel", "base"],
 }
 HEAVY = re.compile(r"(toml\+\+|spdlog|nlohmann/json.hpp|CLI|petsc|hdf5|gmsh)")
 TOP = set(ALLOWED) | {"cases", "tests", "docs", "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "snag", "build", "results"}

@@ -1,0 +1,55 @@
+#pragma once
+// What was measured: observables, operating points and data of an experiment, as DIAGNOSIS.toml and its CSV give them.
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace snag {
+
+/// A measured quantity.
+struct Observable {
+  enum class Kind { gaussian, lognormal, count, event, angle };
+  std::string id;    // x, vx, area, retention_time, ...
+  std::string unit;  // as written; data are converted to SI when they are read
+  Kind kind = Kind::gaussian;
+  double noise_u = 0;             // standard uncertainty of one sample, SI (lognormal: of the logarithm)
+  double bias_u = 0;              // shared by all samples of the calibration group
+  std::string calibration_group;  // empty: of its own
+};
+
+/// One set of conditions under which replicates were measured.
+struct OperatingPoint {
+  std::string id;
+  std::filesystem::path case_file;                        // the base model
+  bool withheld = false;                                  // used for "how far" only
+  std::vector<std::pair<std::string, double>> input_u{};  // relative standard uncertainty by key of the case
+};
+
+/// One number of the data file, SI.
+struct Datum {
+  int point = 0, observable = 0, replicate = 0;
+  double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN: a scalar of the replicate
+  double value = 0;
+  bool censored = false;  // the true value is larger (a test that ended)
+};
+
+struct Experiment {
+  std::string name;
+  std::vector<Observable> observables;
+  std::vector<OperatingPoint> points;
+  std::vector<Datum> data;              // by point, observable, replicate, time
+  std::vector<std::string> candidates;  // empty: all
+  bool pairs = true;
+  int max_runs = 2000;
+  std::uint64_t seed = 1;
+  std::string data_sha256, withheld_sha256;  // of all rows, of the rows of withheld points
+};
+
+/// Reads DIAGNOSIS.toml and the data file beside it. Throws Error(usage, io) that names file and line: missing unit, point without data,
+/// withheld point named for training, constant column without noise_u, NaN, unknown observable, time that is not finite.
+Experiment read_experiment(const std::filesystem::path& file);
+
+}  // namespace snag

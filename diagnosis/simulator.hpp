@@ -1,0 +1,67 @@
+#pragma once
+// What the diagnosis sees of the physics: named effects, each one number, and runs that answer with the observables. The solver behind it
+// is not seen (app/ implements it; tests use formulas).
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace snag {
+
+/// Something that the base model may lack. Its strength theta = 0 is the base model to the bit.
+struct Effect {
+  std::string name;                   // added_mass; names of candidates are fixed
+  std::string parameter;              // what theta is: "added-mass coefficient"
+  std::string unit = "1";             // of theta
+  double mean = 0, sd = 1;            // prior of theta given that the effect is there
+  double minimum = 0, maximum = 1e9;  // physical range of theta
+  bool random = false;                // runs with another seed give another result
+  bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
+  std::string blind;                  // why this base case cannot show it; empty: it can
+};
+
+/// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.
+struct Nuisance {
+  std::string name;         // "flow.amplitude", "drag_form", "camera" (a calibration group)
+  double u = 0;             // standard uncertainty of its relative deviation (of a calibration group: in units of bias_u)
+  std::vector<int> points;  // that share one deviation; each of several nuisances may have the same name at other points
+};
+
+/// One number that a run is asked for.
+struct Slot {
+  int observable = 0;
+  double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN: a scalar of the run
+};
+
+/// One run of the model of an operating point.
+struct RunRequest {
+  int point = 0;
+  std::map<std::string, double> effects;    // theta by name; absent: 0
+  std::map<std::string, double> nuisances;  // relative deviation by name; absent: 0
+  std::uint64_t seed = 0;                   // of random effects and of the initial pose
+  double step_factor = 1;                   // time step over that of the case, for u_num
+};
+
+struct RunResult {
+  std::vector<double> values;  // at the slots of the point, SI; NaN: the run has no such number (not retained, left before)
+  std::string failure;         // empty: it ran
+};
+
+/// Collective over the ranks of the program; the same answers on every rank.
+class Simulator {
+ public:
+  virtual ~Simulator() = default;
+  /// All effects of the library, those that are blind here included, by name.
+  virtual const std::vector<Effect>& effects() const = 0;
+  virtual const std::vector<Nuisance>& nuisances() const = 0;
+  /// What the runs of a point answer with.
+  virtual const std::vector<Slot>& slots(int point) const = 0;
+  /// Runs all of them, in parallel where it can; equal requests are run once and kept.
+  virtual std::vector<RunResult> run(std::span<const RunRequest> requests) = 0;
+  /// Runs done so far, without those that were kept.
+  virtual int n_runs() const = 0;
+};
+
+}  // namespace snag
