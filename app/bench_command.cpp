@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "app/bench/dem.hpp"
 #include "app/bench/flow.hpp"
 #include "app/command.hpp"
 
@@ -20,6 +21,7 @@ Action add_bench(CLI::App& app) {
   command->add_option("--level", options->level, "Mesh: coarse (30 thousand cells) or medium (200 thousand, default)");
   command->add_option("--steps", options->n_steps, "Steps that are timed (default 8)");
   return [options] {
+    if (options->target == "dem") return bench_dem({.out = options->out, .peer = options->peer});
     if (options->target != "flow")
       throw Error(ExitCode::usage, "snag bench " + options->target + ": there is no such benchmark; there is: flow");
     return bench_flow(*options);

@@ -42,11 +42,11 @@ ParticlePose RagPiece::pose(int column, int row) const {
 namespace {
 
 /// Starts of equal parts of n, as many as make the cost of the padded parts least.
-std::vector<int> equal_parts(int n, bool padded) {
+std::vector<int> equal_parts(int n, int most, bool padded) {
   const auto size = [n](int parts, int p) {
     return static_cast<int>(static_cast<std::int64_t>(n) * (p + 1) / parts - static_cast<std::int64_t>(n) * p / parts);
   };
-  const int fewest = (n + max_tile_side - 1) / max_tile_side;
+  const int fewest = (n + most - 1) / most;
   int best = fewest, least = 0;
   for (int parts = fewest; parts <= fewest + 2 && parts <= n; ++parts) {
     int cost = 0;
@@ -62,7 +62,7 @@ std::vector<int> equal_parts(int n, bool padded) {
 
 TileGrid tile_grid(int n_columns, int n_rows) {
   TileGrid grid;
-  grid.column_start = equal_parts(n_columns, true), grid.row_start = equal_parts(n_rows, false);
+  grid.column_start = equal_parts(n_columns, max_tile_columns, true), grid.row_start = equal_parts(n_rows, max_tile_rows, false);
   grid.columns = static_cast<int>(grid.column_start.size()) - 1, grid.rows = static_cast<int>(grid.row_start.size()) - 1;
   return grid;
 }

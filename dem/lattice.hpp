@@ -49,7 +49,7 @@ struct TileGrid {
 
   int n_tiles() const { return columns * rows; }
 };
-/// Sides of at most max_tile_side, nearly equal, chosen so that rows fill their vectors of 8.
+/// Sides of at most max_tile_columns x max_tile_rows, nearly equal, chosen so that rows fill their vectors of 8.
 TileGrid tile_grid(int n_columns, int n_rows);
 
 /// Tile `t` (within the piece) with mask, bonds (ring included) and poses (ring included).

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dem/bonds/bond_law.hpp"
+#include "dem/bonds/tile_bonds.hpp"
 #include "dem/tile_particles.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
@@ -15,31 +15,24 @@ namespace snag {
 
 namespace {
 
-template <int direction>
-BondEnd bond_end(const Tile& tile, int k) {
-  const double w = tile.field(Tile::qw)[k];
-  const Vec3 v = tile.vector(Tile::qx, k);
-  return {tile.vector(Tile::x, k),
-          tile.vector(Tile::vx, k),
-          tile.vector(Tile::wx, k),
-          w,
-          v.x,
-          v.y,
-          v.z,
-          carried_direction<direction>(w, v.x, v.y, v.z)};
-}
-
-/// Visits the whole bonds whose first end is in the tile, or with `all` also those from the ring: f(first place, second place, elastic
-/// bond).
+/// Visits the whole bonds whose first end is in the tile, or with `all` also those from the ring: f(first place, second place).
 template <class F>
-void for_bonds(const Tile& tile, const BondLaws& laws, bool all, const F& f) {
+void for_whole_bonds(const Tile& tile, bool all, const F& f) {
   for (int j = all ? -1 : 0; j < tile.ny; ++j)
     for (int i = all ? -1 : 0; i < tile.nx; ++i) {
       const int k = tile.index(i, j);
-      if (j >= 0 && tile.bond_x[k] > 0.5) f(k, k + 1, bond_force<0, false>(laws[0], bond_end<0>(tile, k), bond_end<0>(tile, k + 1)));
-      if (i >= 0 && tile.bond_y[k] > 0.5)
-        f(k, k + tile.stride, bond_force<1, false>(laws[1], bond_end<1>(tile, k), bond_end<1>(tile, k + tile.stride)));
+      if (j >= 0 && tile.bond_x[k] > 0.5) f(k, k + 1);
+      if (i >= 0 && tile.bond_y[k] > 0.5) f(k, k + tile.stride);
     }
+}
+
+/// The same with the elastic bond: f(first place, second place, bond).
+template <class F>
+void for_bonds(const Tile& tile, const BondLaws& laws, bool all, const F& f) {
+  for_whole_bonds(tile, all, [&](int a, int b) {
+    f(a, b, b == a + 1 ? bond_force<0, false>(laws[0], bond_end<0>(tile, a), bond_end<0>(tile, b))
+                       : bond_force<1, false>(laws[1], bond_end<1>(tile, a), bond_end<1>(tile, b)));
+  });
 }
 
 /// Terms of one rag's sums on this rank; summed over ranks without regard to their order.
@@ -144,21 +137,37 @@ Vec3 force_on_clamped(const RagSystem& rags, int rag) {
   return sum(rags.comm(), std::span<const Vec3>(forces));
 }
 
+/// By counting how many are in each part of an interval, which then shrinks to the part that holds the quantile: only counts travel.
 double bond_strain_quantile(const RagSystem& rags, int rag, double p) {
-  std::vector<double> mine;
+  constexpr int n_parts = 1024, n_rounds = 4;  // to 1e-12 of the range
+  const double length = 2 * rags.rags()[static_cast<std::size_t>(rag)].radius;
+  std::vector<double> strain;
+  double low = infinity, high = -infinity;
   for (const Tile& tile : rags.tiles())
     if (tile.rag == rag)
-      for_bonds(tile, bond_laws(rags.rags()[rag]), false,
-                [&](int, int, const BondForce& bond) { mine.push_back(bond.length / (2 * rags.rags()[rag].radius) - 1); });
-  std::vector<double> all = gathered_on_first(rags.comm(), mine);
-  double quantile = 0;
-  if (!all.empty()) {
-    const auto place = all.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(p * all.size()), std::ssize(all) - 1);
-    std::nth_element(all.begin(), place, all.end());
-    quantile = *place;
+      for_whole_bonds(tile, false, [&](int a, int b) {
+        strain.push_back(norm(tile.vector(Tile::x, b) - tile.vector(Tile::x, a)) / length - 1);
+        low = std::min(low, strain.back()), high = std::max(high, strain.back());
+      });
+  const std::int64_t n = sum(rags.comm(), static_cast<std::int64_t>(strain.size()));
+  if (n == 0) return 0;
+  low = minimum(rags.comm(), low), high = maximum(rags.comm(), high);
+  std::int64_t place = std::min(static_cast<std::int64_t>(p * static_cast<double>(n)), n - 1);  // the quantile's, in ascending order
+  if (place == 0) return low;
+  if (place == n - 1) return high;
+  for (int round = 0; round < n_rounds && high > low; ++round) {
+    const double per_part = n_parts / (high - low);
+    const auto part = [&](double value) { return std::clamp(static_cast<int>((value - low) * per_part), 0, n_parts - 1); };
+    std::vector<std::int64_t> counts(n_parts, 0);
+    for (const double value : strain) ++counts[part(value)];
+    MPI_Allreduce(MPI_IN_PLACE, counts.data(), n_parts, MPI_INT64_T, MPI_SUM, rags.comm());
+    int found = 0;
+    while (place >= counts[found]) place -= counts[found++];
+    std::erase_if(strain, [&](double value) { return part(value) != found; });
+    const double begun = low;
+    low = begun + found / per_part, high = begun + (found + 1) / per_part;
   }
-  MPI_Bcast(&quantile, 1, MPI_DOUBLE, 0, rags.comm());
-  return quantile;
+  return 0.5 * (low + high);
 }
 
 namespace {

@@ -34,6 +34,9 @@ double box_distance_squared(const double* a, const double* b) {
   return sum;
 }
 
+/// How far a particle may go beyond skin/2 before ghosts are chosen anew, m: more tiles are sent against fewer searches.
+double ghost_path(const ContactSolver& contacts) { return contacts.cutoff(); }
+
 }  // namespace
 
 int RagSystem::rag_of_tile(int number) const {
@@ -83,13 +86,13 @@ bool RagSystem::near(int a, int b, const std::vector<double>& boxes) const {
   for (const auto& [column, row] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
     if (neighbour_number(a, column, row) == b) return true;
   if (!contacts_) return false;
-  const double reach = contacts_->cutoff();
+  const double reach = contacts_->cutoff() + 2 * ghost_path(*contacts_);
   return box_distance_squared(&boxes[6 * a], &boxes[6 * b]) <= reach * reach;
 }
 
 /// True once a tile has left its box by more than what the ghosts were chosen for.
 bool RagSystem::ghosts_outdated() const {
-  const double margin = contacts_->skin() / 2;
+  const double margin = contacts_->skin() / 2 + ghost_path(*contacts_);
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     const Box now = bounding_box(tiles_[i]), &then = boxes_[i];
     for (int c = 0; c < 3; ++c)
@@ -118,8 +121,11 @@ std::map<int, RagSystem::TileLists> RagSystem::exchange_lists() {
   return lists;
 }
 
-void RagSystem::find_ghosts() {
-  const std::map<int, TileLists> lists = exchange_lists();
+void RagSystem::find_ghosts() { set_ghosts(exchange_lists()); }
+
+void RagSystem::set_ghosts(std::map<int, TileLists> new_lists) {
+  lists_ = std::move(new_lists);
+  const std::map<int, TileLists>& lists = lists_;
   ghost_numbers_.clear(), ghosts_.clear(), ghost_pointers_.clear();
   for (const auto& [other_rank, list] : lists) ghost_numbers_.insert(ghost_numbers_.end(), list.receive.begin(), list.receive.end());
   std::sort(ghost_numbers_.begin(), ghost_numbers_.end());

@@ -124,7 +124,10 @@ void RagSystem::exchange_ghosts() {
   if (contacts_ && size_of(comm_) > 1) {
     int outdated = ghosts_outdated(), any = 0;
     MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, comm_);
-    if (any) find_ghosts();
+    if (any) {
+      std::map<int, TileLists> lists = exchange_lists();
+      if (lists != lists_) set_ghosts(std::move(lists));
+    }
   }
   halo_->exchange_ghosts();
 }
@@ -137,14 +140,13 @@ void RagSystem::evaluate_contacts() {
 }
 
 void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
+  halo_->fill_rings();
+  if (contacts_) contacts_->evaluate(owned_pointers_, ghost_pointers_, step);
+  // Everything else a tile at a time, while it is in the cache.
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
-    halo_->fill_ring(i);  // here, where the tile is about to be in the cache
     broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
-  }
-  if (contacts_) contacts_->add_forces(owned_pointers_, ghost_pointers_, step);
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    Tile& tile = tiles_[i];
+    if (contacts_) contacts_->add_to_tile(i);
     if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces
     kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);
   }

@@ -124,9 +124,11 @@ class RagSystem {
   void evaluate_and_move(double step, double drift_step, TileForce* force);
   struct TileLists {
     std::vector<int> send, receive;  // tile numbers
+    bool operator==(const TileLists&) const = default;
   };
   std::map<int, TileLists> exchange_lists();
   void find_ghosts();
+  void set_ghosts(std::map<int, TileLists> lists);
   bool ghosts_outdated() const;
   std::vector<double> all_boxes();
   bool near(int a, int b, const std::vector<double>& boxes) const;
@@ -157,6 +159,7 @@ class RagSystem {
   std::vector<int> owner_;    // [n_tiles] rank of each tile; -1: its rag waits
   std::vector<int> numbers_;  // of the owned tiles, ascending
   std::vector<Tile> tiles_;
+  std::map<int, TileLists> lists_;  // by the other rank
   std::vector<int> ghost_numbers_;
   std::vector<Tile> ghosts_;
   std::vector<Tile*> owned_pointers_;

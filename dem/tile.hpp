@@ -1,6 +1,6 @@
 #pragma once
 // Particles live in lattice tiles: a piece of cloth (sheet, disc, fibre, single sphere) is a masked rectangular lattice, cut into tiles of
-// at most 32 x 32 particles. A tile is stored with a ring of one particle around it (copies of its neighbours), field by field, row by row,
+// at most max_tile_columns x max_tile_rows particles. A tile is stored with a ring of one particle around it (copies of its neighbours), field by field, row by row,
 // so that bonds are implicit neighbours k -> k + 1 (along the row, "x") and k -> k + stride (between rows, "y"), and every loop runs over
 // contiguous rows and vectorises.
 //
@@ -15,8 +15,8 @@
 
 namespace snag {
 
-inline constexpr int max_tile_side = 32;
-inline constexpr int max_stride = 40;  // max_tile_side + 2, rounded up to a multiple of 8
+inline constexpr int max_tile_columns = 158, max_tile_rows = 14;
+inline constexpr int max_stride = (max_tile_columns + 2 + 7) / 8 * 8;  // doubles in a row, ring included
 
 /// Memory that starts at a cache line: a vector load that crosses two lines costs double.
 template <class T>
@@ -67,6 +67,7 @@ struct Tile {
   AlignedDoubles free;    // [(ny + 2) * stride] 1: obeys the forces; 0: keeps its velocity (held by a clamp, or absent)
   // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
   AlignedDoubles bond_x, bond_y;
+  int n_breaks = 0;  // grows whenever a bond mark is taken away: lists that know of bonds are out of date
 
   /// Sizes the arrays for nx x ny particles: everything zero, unit quaternions, nothing exists.
   void allocate(int tile_nx, int tile_ny);

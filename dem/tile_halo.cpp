@@ -61,18 +61,20 @@ void TileHalo::exchange_ghosts() {
   }
 }
 
-void TileHalo::fill_ring(std::size_t i) {
-  Tile& t = *rings_[i].tile;
-  const auto& [left, right, below, above] = rings_[i].from;
-  if (left) copy_line(t, t.index(-1, 0), t.stride, *left, left->index(left->nx - 1, 0), left->stride, t.ny);
-  if (right) copy_line(t, t.index(t.nx, 0), t.stride, *right, right->index(0, 0), right->stride, t.ny);
-  if (below) copy_line(t, t.index(0, -1), 1, *below, below->index(0, below->ny - 1), 1, t.nx);
-  if (above) copy_line(t, t.index(0, t.ny), 1, *above, above->index(0, 0), 1, t.nx);
+void TileHalo::fill_rings() {
+  for (const Ring& ring : rings_) {
+    Tile& t = *ring.tile;
+    const auto& [left, right, below, above] = ring.from;
+    if (left) copy_line(t, t.index(-1, 0), t.stride, *left, left->index(left->nx - 1, 0), left->stride, t.ny);
+    if (right) copy_line(t, t.index(t.nx, 0), t.stride, *right, right->index(0, 0), right->stride, t.ny);
+    if (below) copy_line(t, t.index(0, -1), 1, *below, below->index(0, below->ny - 1), 1, t.nx);
+    if (above) copy_line(t, t.index(0, t.ny), 1, *above, above->index(0, 0), 1, t.nx);
+  }
 }
 
 void TileHalo::exchange() {
   exchange_ghosts();
-  for (std::size_t i = 0; i < rings_.size(); ++i) fill_ring(i);
+  fill_rings();
 }
 
 }  // namespace snag

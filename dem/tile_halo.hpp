@@ -25,8 +25,8 @@ class TileHalo {
   void add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above);
   /// Brings ghosts up to date. Collective over the neighbours.
   void exchange_ghosts();
-  /// Fills the ring of the tile that was added as number i, from owned and ghost tiles as they are.
-  void fill_ring(std::size_t i);
+  /// Fills the rings of the tiles that were added, from owned and ghost tiles as they are.
+  void fill_rings();
   /// Both, for all tiles.
   void exchange();
 

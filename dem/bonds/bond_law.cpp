@@ -11,8 +11,9 @@ BondLaw bond_law(const Rag& rag, int direction) {
   const double I = pi * r * r * r * r / 4, J = 2 * I;
   BondLaw law;
   law.length = 2 * r;
-  law.area = pi * r * r, law.bending_modulus = I / r, law.torsion_modulus = J / r;
-  law.normal = p.normal_stiffness * law.area, law.shear = p.tangential_stiffness * law.area;
+  const double area = pi * r * r;
+  law.per_area = 1 / area, law.per_bending_modulus = r / I, law.per_torsion_modulus = r / J;
+  law.normal = p.normal_stiffness * area, law.shear = p.tangential_stiffness * area;
   law.bending = p.bending_stiffness * I, law.torsion = p.tangential_stiffness * J;
 
   // c_d sqrt(2 k m_eq) with m_eq = m/2

@@ -41,7 +41,7 @@ struct BondLaw {
   double bending_damping = 0, torsion_damping = 0;                                      // N m s
   double friction_arm = 0;                                                              // r_p c_r, m
   double friction_damping = 0;                                                          // c_f, N m s
-  double area = 0, bending_modulus = 0, torsion_modulus = 0;                            // A, I/r_p, J/r_p; m2, m3, m3
+  double per_area = 0, per_bending_modulus = 0, per_torsion_modulus = 0;                // 1/A, r_p/I, r_p/J; 1/m2, 1/m3, 1/m3
   double normal_strength = infinity_, shear_strength = infinity_, longest = infinity_;  // Pa, Pa, m
 
   bool damped() const { return normal_damping > 0 || shear_damping > 0 || bending_damping > 0 || torsion_damping > 0 || friction_arm > 0; }
@@ -108,7 +108,14 @@ template <int direction, bool damped>
   const double half_S2 = 0.125 * dot(b, b);  // S^2/2 = (1 + c)/4
   const double sin2 = 0.25 * dot(d, d);      // sin^2(beta/2), accurate for small angles
   const double S = std::sqrt(2 * half_S2);   // cos(beta/2)
-  const double inverse_S1S = 1 / (S * (1 + S));
+  // scalar part and a0 component of conj(q1) q2
+  const double pw = one.qw * two.qw + one.qx * two.qx + one.qy * two.qy + one.qz * two.qz;
+  const double pa = direction == 0 ? one.qw * two.qx - one.qx * two.qw - one.qy * two.qz + one.qz * two.qy
+                                   : one.qw * two.qy - one.qy * two.qw - one.qz * two.qx + one.qx * two.qz;
+  // Three quotients by one division: divisions and roots are what the loops over bonds wait for.
+  const double S1S = S * (1 + S), turn = std::fabs(pw) + S;
+  const double inverse = 1 / (S1S * turn);
+  const double inverse_S1S = turn * inverse;       // 1/(S (1 + S))
   const double inverse_1S = S * inverse_S1S;       // 1/(1 + S)
   const double inverse_S = (1 + S) * inverse_S1S;  // 1/S
 
@@ -120,11 +127,8 @@ template <int direction, bool damped>
   const double u_bend = sin2 * inverse_1S * inverse_1S;  // tan^2(beta/4)
   const double h_bend = arc_tangent_ratio(u_bend);
   const double bend = 2 * law.bending * h_bend * inverse_S1S;  // S_nb I beta/sin(beta)
-  // torsion: scalar part and a0 component of conj(q1) q2
-  const double pw = one.qw * two.qw + one.qx * two.qx + one.qy * two.qy + one.qz * two.qz;
-  const double pa = direction == 0 ? one.qw * two.qx - one.qx * two.qw - one.qy * two.qz + one.qz * two.qy
-                                   : one.qw * two.qy - one.qy * two.qw - one.qz * two.qx + one.qx * two.qz;
-  const double e = std::copysign(pa, pa * pw) / (std::fabs(pw) + S);  // tan(psi/4)
+  // torsion
+  const double e = std::copysign(pa, pa * pw) * S1S * inverse;  // tan(psi/4)
   const double psi = 4 * e * arc_tangent_ratio(e * e);
   bond.torsion_moment = law.torsion * psi;
   const double twist = 0.5 * bond.torsion_moment * inverse_S * inverse_S;  // S_t J psi/(1 + c)
@@ -165,9 +169,12 @@ template <int direction, bool damped>
 /// True where a bond holds: tensile stress N/A + |M_b| r/I below the normal strength, shear stress |F_s|/A + |M_t| r/J below the shear
 /// strength (extreme fibre of a beam, Potyondy and Cundall 2004), and no longer than twice the contact radius.
 [[gnu::always_inline]] inline bool bond_holds(const BondLaw& law, const BondForce& bond) {
-  const double normal_stress = bond.tension / law.area + std::sqrt(bond.bending_squared) / law.bending_modulus;
-  const double shear_stress = std::sqrt(bond.shear_squared) / law.area + std::fabs(bond.torsion_moment) / law.torsion_modulus;
-  return (normal_stress < law.normal_strength) & (shear_stress < law.shear_strength) & (bond.length < law.longest);
+  // Squares are compared: no roots.
+  const double bending = law.normal_strength - bond.tension * law.per_area;                        // what is left for it, Pa
+  const double shear = law.shear_strength - std::fabs(bond.torsion_moment) * law.per_torsion_modulus;
+  const double bending_squared = bond.bending_squared * (law.per_bending_modulus * law.per_bending_modulus);
+  const double shear_squared = bond.shear_squared * (law.per_area * law.per_area);
+  return (bending > 0) & (bending_squared < bending * bending) & (shear > 0) & (shear_squared < shear * shear) & (bond.length < law.longest);
 }
 
 }  // namespace snag

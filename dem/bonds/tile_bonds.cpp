@@ -99,10 +99,22 @@ void gather(const RowForces& along, const RowForces& above, const RowForces& bel
   }
 }
 
+/// Whole bonds that the tile owns.
 double n_whole(const Tile& tile) {
   double n = 0;
-  for (int j = 0; j < tile.ny; ++j)
-    for (int i = 0; i < tile.nx; ++i) n += tile.bond_x[tile.index(i, j)] + tile.bond_y[tile.index(i, j)];
+  for (int j = 0; j < tile.ny; ++j) {
+    const double *x = &tile.bond_x[tile.index(0, j)], *y = &tile.bond_y[tile.index(0, j)];
+#pragma omp simd reduction(+ : n)
+    for (int i = 0; i < tile.nx; ++i) n += x[i] + y[i];
+  }
+  return n;
+}
+
+/// Whole bonds of the tile that its neighbours own: those from the ring.
+double n_whole_from_ring(const Tile& tile) {
+  double n = 0;
+  for (int j = 0; j < tile.ny; ++j) n += tile.bond_x[tile.index(-1, j)];
+  for (int i = 0; i < tile.nx; ++i) n += tile.bond_y[tile.index(i, -1)];
   return n;
 }
 
@@ -135,9 +147,11 @@ int set_bond_forces(const BondLaws& laws, bool breakage, Tile& tile) {
     damped ? sweep<true, false>(laws, tile) : sweep<false, false>(laws, tile);
     return 0;
   }
-  const double before = n_whole(tile);
+  const double before = n_whole(tile), from_ring = n_whole_from_ring(tile);
   damped ? sweep<true, true>(laws, tile) : sweep<false, true>(laws, tile);
-  return static_cast<int>(before - n_whole(tile));
+  const int broken = static_cast<int>(before - n_whole(tile));
+  tile.n_breaks += broken + static_cast<int>(from_ring - n_whole_from_ring(tile));
+  return broken;
 }
 
 }  // namespace snag

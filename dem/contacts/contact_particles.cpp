@@ -1,15 +1,18 @@
 #include "dem/contacts/contact_particles.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace snag {
 
 bool ContactParticles::holds(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) const {
   if (pieces_.size() != owned.size() + ghosts.size()) return false;
-  const auto same = [this](std::size_t i, const Tile* tile, bool is_owned) {
+  const auto same = [this](std::size_t i, const Tile* tile, bool mine) {
     const Piece& p = pieces_[i];
-    return p.tile == tile && p.owned == is_owned && p.rag == tile->rag && p.column == tile->column && p.row == tile->row &&
+    return p.tile == tile && p.owned == mine && p.rag == tile->rag && p.column == tile->column && p.row == tile->row &&
            p.nx == tile->nx && p.ny == tile->ny;
   };
   for (std::size_t i = 0; i < owned.size(); ++i)
@@ -32,13 +35,19 @@ void ContactParticles::assign(std::span<Tile* const> owned, std::span<const Tile
   for (const Tile* tile : ghosts) add(tile, nullptr);
   std::sort(rows.begin(), rows.end(), [](const ParticleRow& a, const ParticleRow& b) { return a.id < b.id; });
 
-  row_of.clear();
+  row_of.clear(), is_owned.clear();
   int n = 0;
   for (std::size_t r = 0; r < rows.size(); ++r) {
     rows[r].first = n;
     n += rows[r].count;
     row_of.insert(row_of.end(), rows[r].count, static_cast<int>(r));
+    is_owned.insert(is_owned.end(), rows[r].count, rows[r].owned != nullptr);
   }
+  rows_of_.assign(owned.size(), {});
+  std::map<const Tile*, std::size_t> number;
+  for (std::size_t i = 0; i < owned.size(); ++i) number[owned[i]] = i;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (rows[r].owned) rows_of_[number[rows[r].owned]].push_back(static_cast<int>(r));
   position.resize(n), motion.resize(n), load.resize(n), present.resize(n);
   marked_x_.resize(n), marked_y_.resize(n), marked_z_.resize(n);
 }
@@ -57,38 +66,83 @@ void ContactParticles::mark_positions() {
       marked_x_[p] = x.x, marked_y_[p] = x.y, marked_z_[p] = x.z;
     }
   }
-  for (Piece& piece : pieces_) piece.bonds = bond_count(piece);
+  for (Piece& piece : pieces_) piece.n_breaks = piece.tile->n_breaks;
+  largest_offset_ = 0;
 }
 
-bool ContactParticles::moved(double distance) const {
-  double largest = 0;
+/// Bounds of the offsets; lower > upper if there is no particle.
+ContactParticles::Offsets ContactParticles::offsets() const {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  double lower[3] = {far, far, far}, upper[3] = {-far, -far, -far};
+  const std::vector<double>* marked[3] = {&marked_x_, &marked_y_, &marked_z_};
   for (const ParticleRow& row : rows) {
-    const double *x = row.tile->field(Tile::x) + row.place, *y = row.tile->field(Tile::y) + row.place,
-                 *z = row.tile->field(Tile::z) + row.place;
-    const double *x0 = marked_x_.data() + row.first, *y0 = marked_y_.data() + row.first, *z0 = marked_z_.data() + row.first;
     const double* exists = row.tile->exists.data() + row.place;
-#pragma omp simd reduction(max : largest)
-    for (int i = 0; i < row.count; ++i) {
-      const double dx = x[i] - x0[i], dy = y[i] - y0[i], dz = z[i] - z0[i];
-      const double square = exists[i] > 0 ? dx * dx + dy * dy + dz * dz : 0.0;
-      largest = square > largest ? square : largest;
+    for (int c = 0; c < 3; ++c) {
+      const double *x = row.tile->field(Tile::x + c) + row.place, *x0 = marked[c]->data() + row.first;
+      double low = lower[c], high = upper[c];
+#pragma omp simd reduction(min : low) reduction(max : high)
+      for (int i = 0; i < row.count; ++i) {
+        const double d = x[i] - x0[i];
+        low = exists[i] > 0 && d < low ? d : low, high = exists[i] > 0 && d > high ? d : high;
+      }
+      lower[c] = low, upper[c] = high;
     }
   }
-  return largest > distance * distance;
+  return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
 }
 
-double ContactParticles::bond_count(const Piece& piece) const {
-  if (!piece.owned || !(*rags_)[piece.rag].breakage) return 0;
+bool ContactParticles::keeps_distances(double distance) {
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto [lower, upper] = offsets();
+    if (!(lower.x <= upper.x)) return true;
+    largest_offset_ = norm({std::max(-lower.x, upper.x), std::max(-lower.y, upper.y), std::max(-lower.z, upper.z)});
+    // A common shift is a rigid motion too.
+    if (0.5 * norm(upper - lower) <= distance) return true;
+    if (attempt > 0 || !follow_marks()) return false;
+  }
+  return false;
+}
+
+/// Moves the marks by the rigid motion that brings them nearest to the present positions (Kabsch 1976): their distances from each other,
+/// by which the pairs were listed, stay. False where that is not worth the effort.
+bool ContactParticles::follow_marks() {
+  constexpr int fewest = 200;
+  if (size() < fewest) return false;
+  const Vec3 near_0{marked_x_[0], marked_y_[0], marked_z_[0]}, near_1 = rows[0].tile->vector(Tile::x, rows[0].place);
+  Vec3 from, to;  // means, at first from these points
+  Mat3 moments{};
   double n = 0;
-  const double *bx = piece.tile->bond_x.data(), *by = piece.tile->bond_y.data();
-  const int size = static_cast<int>(std::min(piece.tile->bond_x.size(), piece.tile->bond_y.size()));
-#pragma omp simd reduction(+ : n)
-  for (int k = 0; k < size; ++k) n += bx[k] + by[k];
-  return n;
+  for (const ParticleRow& row : rows)
+    for (int i = 0; i < row.count; ++i) {
+      const int p = row.first + i;
+      if (!present[p]) continue;
+      const Vec3 a = Vec3{marked_x_[p], marked_y_[p], marked_z_[p]} - near_0, b = row.tile->vector(Tile::x, row.place + i) - near_1;
+      from += a, to += b, ++n;
+      moments[0] += a.x * b, moments[1] += a.y * b, moments[2] += a.z * b;
+    }
+  if (n < 3) return false;
+  from *= 1 / n, to *= 1 / n;
+  Eigen::Matrix3d H;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) H(i, j) = moments[i][j] - n * from[i] * to[j];
+  from += near_0, to += near_1;
+  if (!H.allFinite()) return false;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
+  const Eigen::Matrix3d R = svd.matrixV() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixU().transpose();
+  const Mat3 turn{Vec3{R(0, 0), R(0, 1), R(0, 2)}, Vec3{R(1, 0), R(1, 1), R(1, 2)}, Vec3{R(2, 0), R(2, 1), R(2, 2)}};
+  double furthest = 0;
+  for (int p = 0; p < size(); ++p) {
+    const Vec3 x0{marked_x_[p], marked_y_[p], marked_z_[p]}, x = to + turn * (x0 - from);
+    furthest = std::max(furthest, present[p] ? norm_squared(x - x0) : 0.0);
+    marked_x_[p] = x.x, marked_y_[p] = x.y, marked_z_[p] = x.z;
+  }
+  path_ += std::sqrt(furthest);
+  return true;
 }
 
 bool ContactParticles::bonds_changed() const {
-  return std::any_of(pieces_.begin(), pieces_.end(), [this](const Piece& piece) { return bond_count(piece) != piece.bonds; });
+  return std::any_of(pieces_.begin(), pieces_.end(), [](const Piece& piece) { return piece.owned && piece.tile->n_breaks != piece.n_breaks; });
 }
 
 bool ContactParticles::bonded(int p, int q) const {
@@ -103,37 +157,34 @@ bool ContactParticles::bonded(int p, int q) const {
   return (along_row ? tile.bond_x : tile.bond_y)[k] > 0;
 }
 
-void ContactParticles::gather_positions() {
+void ContactParticles::gather() {
   for (const ParticleRow& row : rows) {
     if (!row.near) continue;
-    const double *x = row.tile->field(Tile::x) + row.place, *y = row.tile->field(Tile::y) + row.place,
-                 *z = row.tile->field(Tile::z) + row.place;
-    for (int i = 0; i < row.count; ++i) position[row.first + i] = {x[i], y[i], z[i]};
-  }
-}
-
-void ContactParticles::gather_motion() {
-  for (const ParticleRow& row : rows) {
-    if (!row.near) continue;
-    const double* field[6];
-    for (int f = 0; f < 3; ++f)
-      field[f] = row.tile->field(Tile::vx + f) + row.place, field[3 + f] = row.tile->field(Tile::wx + f) + row.place;
+    const double* field[Tile::wz + 1];
+    for (int f = 0; f <= Tile::wz; ++f) field[f] = row.tile->field(f) + row.place;
     for (int i = 0; i < row.count; ++i) {
-      motion[row.first + i] = {field[0][i], field[1][i], field[2][i], 0, field[3][i], field[4][i], field[5][i]};
-      load[row.first + i] = {};
+      position[row.first + i] = {field[Tile::x][i], field[Tile::y][i], field[Tile::z][i]};
+      motion[row.first + i] = {field[Tile::vx][i], field[Tile::vy][i], field[Tile::vz][i], 0,
+                               field[Tile::wx][i], field[Tile::wy][i], field[Tile::wz][i]};
     }
   }
 }
 
-void ContactParticles::scatter_loads() const {
-  for (const ParticleRow& row : rows) {
-    if (!row.near || !row.owned) continue;
+void ContactParticles::clear_loads() {
+  for (const ParticleRow& row : rows)
+    if (row.near || row.at_wall) std::fill_n(load.begin() + row.first, row.count, ParticleLoad{});
+}
+
+void ContactParticles::add_loads(std::size_t i) const {
+  for (const int r : rows_of_[i]) {
+    const ParticleRow& row = rows[r];
+    if (!row.near && !row.at_wall) continue;
     double* field[6];
     for (int f = 0; f < 6; ++f) field[f] = row.owned->field(Tile::fx + f) + row.place;
-    for (int i = 0; i < row.count; ++i) {
-      const ParticleLoad& sum = load[row.first + i];
-      field[0][i] += sum.fx, field[1][i] += sum.fy, field[2][i] += sum.fz;
-      field[3][i] += sum.tx, field[4][i] += sum.ty, field[5][i] += sum.tz;
+    for (int k = 0; k < row.count; ++k) {
+      const ParticleLoad& sum = load[row.first + k];
+      field[0][k] += sum.fx, field[1][k] += sum.fy, field[2][k] += sum.fz;
+      field[3][k] += sum.tx, field[4][k] += sum.ty, field[5][k] += sum.tz;
     }
   }
 }

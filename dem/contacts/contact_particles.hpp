@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/vec3.hpp"
 #include "dem/rag.hpp"
 #include "dem/tile.hpp"
 
@@ -21,6 +22,7 @@ struct ParticleRow {
   int lattice_row = 0, column = 0;  // of the row's first particle in the rag
   std::int64_t id = 0;              // of the row's first particle
   bool near = false;                // some particle of the row is in the list of pairs
+  bool at_wall = false;             // some particle of the row is in the list of walls
 };
 
 struct alignas(32) ParticlePosition {
@@ -41,21 +43,26 @@ class ContactParticles {
   bool holds(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) const;
   void assign(std::span<Tile* const> owned, std::span<const Tile* const> ghosts);
 
-  /// Remember positions: moved() counts from here. Fills position and present of all particles.
+  /// Remember positions: what follows counts from here. Fills position and present of all particles.
   void mark_positions();
-  /// True if an existing particle is further than `distance` (m) from where mark_positions saw it.
-  bool moved(double distance) const;
-  /// True if a bond mask of an owned tile changed since mark_positions (only rags that can break are looked at).
+  /// True if no two particles have come nearer to each other than by 2 `distance` (m) since mark_positions; false if that is not sure. What
+  /// counts is the motion beside a common rigid one, which the marks are made to follow: a rag that is carried along keeps its list.
+  bool keeps_distances(double distance);
+  /// Upper bound of how far a particle is from where it was at the last reset_path, m; as the last keeps_distances saw it.
+  double path() const { return path_ + largest_offset_; }
+  void reset_path() { path_ = largest_offset_; }
+  /// True if bonds of an owned tile broke since mark_positions.
   bool bonds_changed() const;
 
-  /// Gather positions of rows that are near others / velocities and clear loads of the same / add the loads to the owned tiles.
-  void gather_positions();
-  void gather_motion();
-  void scatter_loads() const;
+  /// Gather positions and velocities of rows that are near others.
+  void gather();
+  /// Clear the loads of rows that are near others or walls / add them to the owned tile that was given to assign as number i.
+  void clear_loads();
+  void add_loads(std::size_t i) const;
 
   int size() const { return static_cast<int>(position.size()); }
   int rag_of(int p) const { return rows[row_of[p]].tile->rag; }
-  bool owned(int p) const { return rows[row_of[p]].owned != nullptr; }
+  bool owned(int p) const { return is_owned[p]; }
   int place(int p) const { return rows[row_of[p]].place + p - rows[row_of[p]].first; }
   std::int64_t id(int p) const { return rows[row_of[p]].id + p - rows[row_of[p]].first; }
   /// True if p < q are neighbours on the lattice of one rag with a whole bond between them.
@@ -65,7 +72,8 @@ class ContactParticles {
   std::vector<int> row_of;                 // [n]
   std::vector<ParticlePosition> position;  // [n] m; of near rows, or of all right after mark_positions
   std::vector<ParticleMotion> motion;      // [n] m/s, rad/s; of near rows
-  std::vector<ParticleLoad> load;          // [n] N, N m; of near rows
+  std::vector<ParticleLoad> load;          // [n] N, N m; of rows near others or walls
+  std::vector<char> is_owned;              // [n]
   std::vector<char> present;               // [n] exists with a finite position
   std::int64_t n_not_finite = 0;           // existing particles without
 
@@ -74,14 +82,19 @@ class ContactParticles {
     const Tile* tile;
     int rag, column, row, nx, ny;
     bool owned;
-    double bonds;  // sum of the bond masks at mark_positions
-    bool operator==(const Piece&) const = default;
+    int n_breaks;  // at mark_positions
   };
-  double bond_count(const Piece& piece) const;
+  struct Offsets {  // from the marks to the present positions, m
+    Vec3 lower, upper;
+  };
+  Offsets offsets() const;
+  bool follow_marks();
 
   const std::vector<Rag>* rags_;
   std::vector<Piece> pieces_;
+  std::vector<std::vector<int>> rows_of_;               // [owned tiles] of `rows`
   std::vector<double> marked_x_, marked_y_, marked_z_;  // [n] m
+  double path_ = 0, largest_offset_ = 0;                // m
 };
 
 }  // namespace snag

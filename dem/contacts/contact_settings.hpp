@@ -15,7 +15,7 @@ struct ContactSettings {
   double wall_friction = 0.5;
   double wall_rolling_friction = 0;
   double wall_stiffness_factor = 1;  // multiplies E* and G* of contacts with walls
-  double skin_over_radius = 0.3;     // of the largest particle
+  double skin_over_radius = 0.5;     // of the largest particle
   double impact_speed = 5;           // m/s, for stable_step
 
   /// Records of the table; they refer to this object.

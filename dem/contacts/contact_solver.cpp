@@ -64,7 +64,6 @@ struct ContactSolver::State {
   PairForces forces;
   std::optional<WallContacts> walls;
   ContactMeasures measures;
-  std::vector<WallLoad> no_loads;
   std::vector<WallTouch> no_touches;
 
   // The touching pairs by their lower and by their higher id, made when the first tile is packed after a step.
@@ -84,8 +83,8 @@ void ContactSolver::set_time(double time) { state_->time = time; }
 
 void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) {
   const bool same_tiles = particles.holds(owned, ghosts);
-  if (same_tiles && !unpacked && !particles.moved(0.5 * skin) && !particles.bonds_changed()) {
-    if (walls && walls->due(time)) walls->list(particles, time);
+  if (same_tiles && !unpacked && !particles.bonds_changed() && particles.keeps_distances(0.5 * skin)) {
+    if (walls && walls->due(time, particles.path())) walls->list(particles, time), particles.reset_path();
     return;
   }
   list.store(list.touching(particles));
@@ -94,21 +93,28 @@ void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<
   if (settings.between_particles) list.build(particles);
   if (walls && unpacked) walls->sort_unpacked();
   if (walls) walls->list(particles, time);
+  particles.reset_path();
   unpacked = false;
   measures.n_not_finite = particles.n_not_finite;
   ++measures.n_lists;
 }
 
 void ContactSolver::add_forces(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step) {
+  evaluate(owned, ghosts, step);
+  for (std::size_t i = 0; i < owned.size(); ++i) add_to_tile(i);
+}
+
+void ContactSolver::add_to_tile(std::size_t i) const { state_->particles.add_loads(i); }
+
+void ContactSolver::evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step) {
   State& s = *state_;
   s.update_lists(owned, ghosts);
   s.slips_sorted = false;
   s.measures.n_contacts = 0;
+  s.particles.clear_loads();
   if (!s.list.pairs.empty()) {
-    s.particles.gather_positions();
-    s.particles.gather_motion();
+    s.particles.gather();
     const PairMeasures pairs = s.forces.add(s.particles, s.list, step);
-    s.particles.scatter_loads();
     s.measures.n_contacts = pairs.n_contacts;
     s.measures.max_overlap_over_radius = std::max(s.measures.max_overlap_over_radius, pairs.max_overlap_over_radius);
   }
@@ -243,7 +249,6 @@ void ContactSolver::unpack(const Tile& tile, std::span<const double> values) {
 }
 
 const ContactMeasures& ContactSolver::measures() const { return state_->measures; }
-const std::vector<WallLoad>& ContactSolver::wall_loads() const { return state_->walls ? state_->walls->loads : state_->no_loads; }
 const std::vector<WallTouch>& ContactSolver::wall_touches() const { return state_->walls ? state_->walls->touched : state_->no_touches; }
 
 void ContactSolver::mark_line(const MarkedLine& line) {
@@ -256,16 +261,10 @@ std::vector<Vec3> ContactSolver::forces(std::span<const Tile> tiles) const {
   for (const Tile& tile : tiles) at_place[&tile].resize(tile.exists.size());
   for (const ParticleRow& row : s.particles.rows) {
     const auto found = at_place.find(row.tile);
-    if (s.list.pairs.empty() || !row.near || found == at_place.end()) continue;
+    if (!(row.near || row.at_wall) || found == at_place.end()) continue;
     for (int i = 0; i < row.count; ++i) {
       const ParticleLoad& load = s.particles.load[row.first + i];
       found->second[row.place + i] = {load.fx, load.fy, load.fz};
-    }
-  }
-  if (s.walls) {
-    for (const WallForce& wall : s.walls->forces) {
-      const auto found = at_place.find(s.particles.rows[s.particles.row_of[wall.particle]].tile);
-      if (found != at_place.end()) found->second[s.particles.place(wall.particle)] += wall.force;
     }
   }
   std::vector<Vec3> all;
@@ -279,7 +278,6 @@ void ContactSolver::reset_measures() {
   std::fill(s.measures.max_wall_overlap_over_radius.begin(), s.measures.max_wall_overlap_over_radius.end(), 0.0);
   if (!s.walls) return;
   std::fill(s.walls->max_overlap_over_radius.begin(), s.walls->max_overlap_over_radius.end(), 0.0);
-  for (WallLoad& load : s.walls->loads) load.particle_time = load.normal_impulse = 0, load.impulse = {};
   for (WallTouch& touch : s.walls->touched) touch.since_reset = 0;
 }
 

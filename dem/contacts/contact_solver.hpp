@@ -23,14 +23,6 @@ namespace snag {
 
 class WallSet;
 
-/// What one rag did to one wall part since the last reset, on this rank: sum over ranks.
-struct WallLoad {
-  double particle_time = 0;   // s, summed over the particles that touch
-  Vec3 impulse;               // N s, of the rag on the wall, fixed frame
-  double normal_impulse = 0;  // N s, sum of magnitudes of the normal part
-  std::int64_t touching = 0;  // particles that touch now
-};
-
 /// Where a particle touches walls: a wall that moves, one at rest near the marked line, any other at rest.
 enum class WallPlace { moving, marked, other };
 inline constexpr int n_wall_places = 3;
@@ -75,6 +67,10 @@ class ContactSolver {
   /// not read; of ghosts the 13 state fields and `exists` are. Any tile that has a particle within 2 r_max of an owned one must be among
   /// owned or ghosts. Not collective; does not throw.
   void add_forces(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step);
+  /// The same in two parts, for a caller that takes the tiles one by one while they are in the cache: evaluate all, then add what the
+  /// particles of the owned tile number i feel.
+  void evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step);
+  void add_to_tile(std::size_t i) const;
 
   /// Distance between particle centres within which tiles must be present as ghosts: 2 r_max + skin, m. Ghosts chosen so stay good until a
   /// particle moved skin()/2.
@@ -93,8 +89,6 @@ class ContactSolver {
   void unpack(const Tile& tile, std::span<const double> values);
 
   const ContactMeasures& measures() const;
-  /// [n_rags][parts of the WallSet], row by row.
-  const std::vector<WallLoad>& wall_loads() const;
   /// Contacts with walls at rest near this line are told apart from now on.
   void mark_line(const MarkedLine& line);
   /// [n_rags][n_wall_places], row by row; empty without walls.
@@ -102,7 +96,7 @@ class ContactSolver {
   /// Sum of its contacts' forces on each particle of these owned tiles at the last add_forces, N; tile by tile in the order of
   /// for_particles. Zero for tiles that were not there then.
   std::vector<Vec3> forces(std::span<const Tile> tiles) const;
-  /// Start maxima, times and impulses anew.
+  /// Start maxima and counts anew.
   void reset_measures();
 
  private:

@@ -113,10 +113,16 @@ void PairForces::evaluate(ContactParticles& particles, ContactList& list, double
   if (b.n == 0) return;
   b.laws(step);
   double deepest = 0;
+  const double f1 = b.pair->arm_1, f2 = b.pair->arm_2;
+  int first = list.pairs[b.index[0]].p;  // pairs of one particle follow each other: its load is kept at hand
+  ParticleLoad on_1 = particles.load[first];
   for (int c = 0; c < b.n; ++c) {
     const auto [p, q] = list.pairs[b.index[c]];
-    ParticleLoad &on_1 = particles.load[p], &on_2 = particles.load[q];
-    const double f1 = b.pair->arm_1, f2 = b.pair->arm_2;
+    if (p != first) {
+      particles.load[first] = on_1;
+      first = p, on_1 = particles.load[p];
+    }
+    ParticleLoad& on_2 = particles.load[q];
     on_1.fx += b.force[0][c], on_1.fy += b.force[1][c], on_1.fz += b.force[2][c];
     on_2.fx -= b.force[0][c], on_2.fy -= b.force[1][c], on_2.fz -= b.force[2][c];
     on_1.tx += f1 * b.arm_torque[0][c] + b.rolling[0][c];
@@ -129,6 +135,7 @@ void PairForces::evaluate(ContactParticles& particles, ContactList& list, double
     deepest = std::max(deepest, b.overlap[c]);
     measures_.n_contacts += particles.owned(p);
   }
+  particles.load[first] = on_1;
   measures_.max_overlap_over_radius = std::max(measures_.max_overlap_over_radius, deepest / b.pair->smaller_radius);
   b.n = 0;
 }

@@ -3,7 +3,8 @@
 //   overlap = min(r - s, 2 r),  n = -e,  contact point c = x - s e
 //   u = v + w x s n - u_wall(c),  force F on the particle by hertz_mindlin, torque s n x F + M,  -F on the wall
 //
-// The law is evaluated in the frame of the wall, where the slip is kept: so slip turns with a turning wall.
+// The slip is kept in the frame of the wall: so it turns with a turning wall. Laws are evaluated in blocks of contacts, so that they
+// vectorise; loads are added in the order of the contacts.
 #include "dem/contacts/wall_contacts.hpp"
 
 #include <algorithm>
@@ -13,28 +14,73 @@
 namespace snag {
 
 namespace {
-constexpr double allowance_over_radius = 4;  // how far a moving wall may come before the list is made anew: longer lists against rarer ones
+// How far a moving wall may come, and a particle may go, before the list is made anew: longer lists against rarer ones.
+constexpr double allowance_over_radius = 4, path_over_radius = 1;
+constexpr int block_size = 64;  // contacts
+constexpr int lanes = 8;        // doubles of the widest vector: every contact goes through the same instructions
+}  // namespace
+
+struct WallContacts::Block {
+  struct Place {
+    int particle, body;
+    std::int64_t id;
+    Vec3 direction;  // frame of the wall
+  };
+  int n = 0;
+  const ContactPair* pair = nullptr;
+  Place place[block_size];
+  // in: normal, relative velocity at the contact, relative rotation, slip, distance; out: force, torque, slip
+  alignas(64) double normal[3][block_size] = {}, velocity[3][block_size] = {}, spin[3][block_size] = {}, slip[3][block_size] = {};
+  alignas(64) double distance[block_size] = {}, force[3][block_size] = {}, torque[3][block_size] = {};
+
+  static void set(double (&field)[3][block_size], int c, const Vec3& v) { field[0][c] = v.x, field[1][c] = v.y, field[2][c] = v.z; }
+  static Vec3 get(const double (&field)[3][block_size], int c) { return {field[0][c], field[1][c], field[2][c]}; }
+  [[gnu::always_inline]] void law(const ContactPair& kind, int c, double step);
+  void laws(double step);
+};
+
+// One contact, apart from its loop, as in pair_forces.cpp.
+inline void WallContacts::Block::law(const ContactPair& kind, int c, double step) {
+  const Vec3 e{normal[0][c], normal[1][c], normal[2][c]};
+  const ContactMotion contact{std::min(kind.reach - distance[c], 2 * kind.reach), e,
+                              {velocity[0][c], velocity[1][c], velocity[2][c]},
+                              {slip[0][c], slip[1][c], slip[2][c]}};
+  const ContactForce result = hertz_mindlin(kind.law, contact, step);
+  const Vec3 relative{spin[0][c], spin[1][c], spin[2][c]};
+  const Vec3 M = cross(distance[c] * e, result.force) +
+                 rolling_friction(kind.rolling, result.normal, relative - dot(relative, e) * e, step);
+  force[0][c] = result.force.x, force[1][c] = result.force.y, force[2][c] = result.force.z;
+  torque[0][c] = M.x, torque[1][c] = M.y, torque[2][c] = M.z;
+  slip[0][c] = result.slip.x, slip[1][c] = result.slip.y, slip[2][c] = result.slip.z;
 }
 
+void WallContacts::Block::laws(double step) {
+  const ContactPair kind = *pair;
+  const int padded = (n + lanes - 1) / lanes * lanes;
+#pragma omp simd
+  for (int c = 0; c < padded; ++c) law(kind, c, step);
+}
+
+WallContacts::~WallContacts() = default;
+WallContacts::WallContacts(WallContacts&&) noexcept = default;
+
 WallContacts::WallContacts(const std::vector<Rag>& rags, const ContactSettings& settings, const WallSet& walls)
-    : rags_(&rags), walls_(&walls) {
+    : rags_(&rags), walls_(&walls), block_(std::make_unique<Block>()) {
   for (const Rag& rag : rags) {
     largest_radius_ = std::max(largest_radius_, rag.radius);
     pairs.push_back(wall_pair(rag, settings));
   }
-  skin_ = settings.skin_over_radius * largest_radius_;
   for (const WallBody& body : walls.bodies()) {
     surfaces_.push_back(body.triangles.empty() ? TriangleSurface() : TriangleSurface(body.triangles, reach(body).near, reach(body).far));
     fastest_.push_back(fastest(body));
   }
   poses_.resize(walls.bodies().size());
   max_overlap_over_radius.assign(rags.size(), 0);
-  loads.assign(rags.size() * walls.parts().size(), {});
   touched.assign(rags.size() * n_wall_places, {});
 }
 
 WallContacts::Reach WallContacts::reach(const WallBody& body) const {
-  return {largest_radius_, largest_radius_ + skin_ + (body.motion.moves() ? allowance_over_radius * largest_radius_ : 0)};
+  return {largest_radius_, (1 + path_over_radius + (body.motion.moves() ? allowance_over_radius : 0)) * largest_radius_};
 }
 
 double WallContacts::fastest(const WallBody& body) const {
@@ -45,7 +91,8 @@ double WallContacts::fastest(const WallBody& body) const {
   return norm(body.motion.velocity) + std::abs(body.motion.speed) * (arm + reach(body).far);
 }
 
-bool WallContacts::due(double time) const {
+bool WallContacts::due(double time, double path) const {
+  if (path > path_over_radius * largest_radius_) return true;
   for (std::size_t b = 0; b < fastest_.size(); ++b)
     if (!walls_->bodies()[b].triangles.empty() && fastest_[b] * std::abs(time - listed_) > allowance_over_radius * largest_radius_)
       return true;
@@ -56,22 +103,25 @@ bool WallContacts::near(std::size_t b, const Vec3& x, double radius) const {
   const WallBody& body = walls_->bodies()[b];
   if (!body.planes.empty() && body.motion.moves()) return true;  // planes have no end: a turning one has no greatest speed
   for (const WallPlane& plane : body.planes)
-    if (dot(x - plane.point, plane.normal) < radius + skin_) return true;
+    if (dot(x - plane.point, plane.normal) < radius + path_over_radius * largest_radius_) return true;
   return !body.triangles.empty() && surfaces_[b].may_be_near(body.motion.moves() ? poses_[b].in_wall(x) : x);
 }
 
-void WallContacts::list(const ContactParticles& particles, double time) {
+void WallContacts::list(ContactParticles& particles, double time) {
   listed_ = time;
   candidates_.clear();
   for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
-  for (const ParticleRow& row : particles.rows) {
+  for (ParticleRow& row : particles.rows) {
+    row.at_wall = false;
     if (!row.owned) continue;
+    const std::size_t before = candidates_.size();
     for (int i = 0; i < row.count; ++i) {
       if (!particles.present[row.first + i]) continue;
       const Vec3 x = row.tile->vector(Tile::x, row.place + i);
       for (std::size_t b = 0; b < poses_.size(); ++b)
         if (near(b, x, (*rags_)[row.tile->rag].radius)) candidates_.push_back({row.first + i, static_cast<int>(b)});
     }
+    row.at_wall = candidates_.size() > before;
   }
 }
 
@@ -82,12 +132,11 @@ void WallContacts::sort_unpacked() {
   beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
 }
 
-void WallContacts::add(const ContactParticles& particles, double time, double step) {
+void WallContacts::add(ContactParticles& particles, double time, double step) {
   step_ = step, n_contacts = 0;
   for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
-  for (WallLoad& load : loads) load.touching = 0;
   for (WallTouch& touch : touched) touch.now = 0;
-  forces.clear();
+  block_->n = 0, block_->pair = nullptr;
   old_slips_.swap(slips), slips.clear();
   old_beyond_.swap(beyond), beyond.clear();
   old_end_ = 0;
@@ -105,10 +154,10 @@ void WallContacts::add(const ContactParticles& particles, double time, double st
     while (old_end_ < old_slips_.size() && old_slips_[old_end_].id == p.id) ++old_end_;
     used_.assign(old_end_ - old_begin_, 0);
     select_touches();
-    Tile& tile = *particles.rows[particles.row_of[p.number]].owned;
-    for (const Touch& touch : acting_) add_force(p, touch, tile, particles.place(p.number));
+    for (const Touch& touch : acting_) put(particles, p, touch);
     count_touches(p);
   }
+  evaluate(particles);
   keep_beyond(particles, std::numeric_limits<std::int64_t>::max(), next_beyond);
 }
 
@@ -127,7 +176,7 @@ void WallContacts::find_touches(const Particle& p, int b) {
   for (std::size_t k = 0; k < body.planes.size(); ++k) {
     const WallPlane& plane = body.planes[k];
     const double s = dot(X - plane.point, plane.normal);
-    if (s < radius) touches_.push_back({s, moves ? poses_[b].turned(plane.normal) : plane.normal, b, static_cast<int>(k), plane.part});
+    if (s < radius) touches_.push_back({s, moves ? poses_[b].turned(plane.normal) : plane.normal, b, static_cast<int>(k)});
   }
   if (body.triangles.empty()) return;
   for (int t : surfaces_[b].near(X)) {
@@ -137,7 +186,7 @@ void WallContacts::find_touches(const Particle& p, int b) {
     Touch& touch = touches_.emplace_back();
     touch.distance = seen.distance, touch.feature = seen.feature, touch.node = seen.node;
     touch.direction = moves ? poses_[b].turned(seen.direction) : seen.direction;
-    touch.body = b, touch.triangle = t, touch.part = surfaces_[b].part(t);
+    touch.body = b, touch.triangle = t;
   }
 }
 
@@ -182,33 +231,42 @@ Vec3 WallContacts::old_slip(int body, const Vec3& direction) {
   return old_slips_[found].slip;
 }
 
-void WallContacts::add_force(const Particle& p, const Touch& touch, Tile& tile, int place) {
-  const ContactPair& pair = pairs[p.rag];
+void WallContacts::put(ContactParticles& particles, const Particle& p, const Touch& touch) {
+  Block& block = *block_;
+  if (block.n == block_size || block.pair != &pairs[p.rag]) {
+    evaluate(particles);
+    block.pair = &pairs[p.rag];
+  }
   const WallPose& pose = poses_[touch.body];
   const bool moves = walls_->bodies()[touch.body].motion.moves();
-  const double s = touch.distance, radius = pair.reach;
+  const double s = touch.distance, radius = pairs[p.rag].reach;
   const Vec3 n = -touch.direction, arm = s * n;
-  const Vec3 direction = moves ? pose.turned_back(touch.direction) : touch.direction;
-  const Vec3 u = p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{});
-
-  const ContactMotion contact{std::min(radius - s, 2 * radius), -direction, moves ? pose.turned_back(u) : u,
-                              old_slip(touch.body, direction)};
-  const ContactForce result = hertz_mindlin(pair.law, contact, step_);
-  const Vec3 F = moves ? pose.turned(result.force) : result.force;
-  const Vec3 spin = p.w - pose.spin;
-  const Vec3 torque = cross(arm, F) + rolling_friction(pair.rolling, result.normal, spin - dot(spin, n) * n, step_);
-  tile.set_vector(Tile::fx, place, tile.vector(Tile::fx, place) + F);
-  tile.set_vector(Tile::tx, place, tile.vector(Tile::tx, place) + torque);
-
-  slips.push_back({p.id, touch.body, direction, result.slip});
-  forces.push_back({p.number, F});
-  ++n_contacts;
+  const Vec3 direction = moves ? pose.turned_back(touch.direction) : touch.direction, slip = old_slip(touch.body, direction);
+  const int c = block.n++;
+  block.place[c] = {p.number, touch.body, p.id, direction};
+  block.distance[c] = s;
+  Block::set(block.normal, c, n);
+  Block::set(block.velocity, c, p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{}));
+  Block::set(block.spin, c, p.w - pose.spin);
+  Block::set(block.slip, c, moves ? pose.turned(slip) : slip);
   max_overlap_over_radius[p.rag] = std::max(max_overlap_over_radius[p.rag], (radius - s) / radius);
-  WallLoad& load = loads[p.rag * walls_->parts().size() + touch.part];
-  load.particle_time += step_;
-  load.impulse -= step_ * F;
-  load.normal_impulse += step_ * std::abs(result.normal);
-  ++load.touching;
+  ++n_contacts;
+}
+
+void WallContacts::evaluate(ContactParticles& particles) {
+  Block& block = *block_;
+  if (block.n == 0) return;
+  block.laws(step_);
+  for (int c = 0; c < block.n; ++c) {
+    const Block::Place& place = block.place[c];
+    ParticleLoad& load = particles.load[place.particle];
+    load.fx += block.force[0][c], load.fy += block.force[1][c], load.fz += block.force[2][c];
+    load.tx += block.torque[0][c], load.ty += block.torque[1][c], load.tz += block.torque[2][c];
+    const Vec3 slip = Block::get(block.slip, c);
+    slips.push_back(
+        {place.id, place.body, place.direction, walls_->bodies()[place.body].motion.moves() ? poses_[place.body].turned_back(slip) : slip});
+  }
+  block.n = 0;
 }
 
 WallPlace WallContacts::place_of(const Touch& touch, const Vec3& centre) const {

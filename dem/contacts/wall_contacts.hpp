@@ -10,6 +10,7 @@
 //     front of them, so the back of a thin plate does nothing. Overlap: r - distance (up to 2 r, where the centre is r beyond).
 // The slip of a contact belongs to the particle, the wall and the direction (frame of the wall): it slides over from triangle to triangle.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,22 +33,19 @@ struct WallSlip {
   bool operator==(const WallSlip&) const = default;
 };
 
-/// Force of one contact with a wall on a particle.
-struct WallForce {
-  int particle = 0;  // number in ContactParticles
-  Vec3 force;        // N
-};
-
 class WallContacts {
  public:
   WallContacts(const std::vector<Rag>& rags, const ContactSettings& settings, const WallSet& walls);
+  ~WallContacts();
+  WallContacts(WallContacts&&) noexcept;
 
-  /// True if the list does not hold for this time: a moving wall has come too far.
-  bool due(double time) const;
-  /// List the owned particles that may touch a wall until one has moved by the skin or due() says so. Positions are those of now.
-  void list(const ContactParticles& particles, double time);
-  /// Add forces and torques to the owned tiles; advance slips by `step` (s); count into measures and loads.
-  void add(const ContactParticles& particles, double time, double step);
+  /// True if the list does not hold for this time: a moving wall has come too far, or a particle that has gone `path` (m) since then.
+  bool due(double time, double path) const;
+  /// List the owned particles that may touch a wall until due() says that it is out of date, and mark their rows. Positions are those of
+  /// now.
+  void list(ContactParticles& particles, double time);
+  /// Add forces and torques to the loads; advance slips by `step` (s); count into measures.
+  void add(ContactParticles& particles, double time, double step);
 
   /// Bring slips and ids that were appended from outside into order.
   void sort_unpacked();
@@ -58,9 +56,7 @@ class WallContacts {
 
   std::int64_t n_contacts = 0;                  // now
   std::vector<double> max_overlap_over_radius;  // [n_rags] since reset
-  std::vector<WallLoad> loads;                  // [n_rags][n_parts] since reset
   std::vector<WallTouch> touched;               // [n_rags][n_wall_places]
-  std::vector<WallForce> forces;                // now
   std::optional<MarkedLine> marked;
 
   std::vector<ContactPair> pairs;  // [n_rags]
@@ -72,7 +68,7 @@ class WallContacts {
   struct Touch {          // nearest point of one triangle or plane; small, because many are sorted
     double distance = 0;  // m, negative beyond the wall
     Vec3 direction;       // fixed frame
-    int body = 0, triangle = 0, part = 0;
+    int body = 0, triangle = 0;
     WallFeature feature = WallFeature::face;
     std::array<int, 2> node{-1, -1};
   };
@@ -92,7 +88,8 @@ class WallContacts {
   void find_touches(const Particle& p, int body);
   void select_touches();
   bool repeats(const Touch& touch, std::size_t before) const;
-  void add_force(const Particle& p, const Touch& touch, Tile& tile, int place);
+  void put(ContactParticles& particles, const Particle& p, const Touch& touch);
+  void evaluate(ContactParticles& particles);
   WallPlace place_of(const Touch& touch, const Vec3& centre) const;
   void count_touches(const Particle& p);
   Vec3 old_slip(int body, const Vec3& direction);
@@ -101,7 +98,9 @@ class WallContacts {
 
   const std::vector<Rag>* rags_;
   const WallSet* walls_;
-  double skin_ = 0, largest_radius_ = 0, step_ = 0;
+  struct Block;
+  std::unique_ptr<Block> block_;
+  double largest_radius_ = 0, step_ = 0;
   std::vector<TriangleSurface> surfaces_;  // [bodies]
   std::vector<WallPose> poses_;            // [bodies]
   std::vector<double> fastest_;            // [bodies] m/s, of the wall's material

@@ -114,11 +114,13 @@ TEST(ContactSolver, BondedNeighboursDoNotTouch) {
 
   // Between columns 2 and 3 (two tiles, both hold the mask) and within a tile.
   pieces.tiles[0]->bond_x[pieces.tiles[0]->index(2, 1)] = pieces.tiles[1]->bond_x[pieces.tiles[1]->index(-1, 1)] = 0;
+  ++pieces.tiles[0]->n_breaks, ++pieces.tiles[1]->n_breaks;
   contacts.add_forces(tiles, {}, 1e-6);
   EXPECT_EQ(contacts.measures().n_contacts, 1);
   EXPECT_LT(pieces.get(0, Tile::fx, 2, 1).x, 0);
   EXPECT_GT(pieces.get(1, Tile::fx, 0, 1).x, 0);
   pieces.tiles[0]->bond_y[pieces.tiles[0]->index(1, 0)] = 0;
+  ++pieces.tiles[0]->n_breaks;
   contacts.add_forces(tiles, {}, 1e-6);
   EXPECT_EQ(contacts.measures().n_contacts, 2);
 
