@@ -1,7 +1,5 @@
 #include "base/case_file.hpp"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -14,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/parameter_reading.hpp"
 #include "base/parameter_text.hpp"
+#include "base/sha256.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
 
@@ -55,19 +54,6 @@ std::string place_of(const std::string& file, int line) {
   return line == line_of_override ? (file == "--set" ? file : file + ", --set") : file + ":" + std::to_string(line);
 }
 
-std::string sha256_of(std::string_view text) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned int length = 0;
-  EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr);
-  std::string hexadecimal;
-  for (unsigned int i = 0; i < length; ++i) {
-    constexpr char digits[] = "0123456789abcdef";
-    hexadecimal += digits[digest[i] >> 4];
-    hexadecimal += digits[digest[i] & 15];
-  }
-  return hexadecimal;
-}
-
 std::filesystem::path beside(const std::filesystem::path& case_file, const std::string& relative) {
   const std::filesystem::path given(relative);
   return given.is_absolute() ? given : case_file.parent_path() / given;
@@ -79,7 +65,7 @@ CaseNode::Resolved resolved_entry(const std::string& key, const Parameter& param
   if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text};
   const auto path = std::filesystem::absolute(beside(case_file, **file)).lexically_normal();
   const auto content = file_text(path);
-  return {key, toml_text(path.string()), content ? sha256_of(*content) : text};
+  return {key, toml_text(path.string()), content ? snag::sha256(*content) : text};
 }
 
 bool is_table_array(const toml::array& array) {
@@ -346,7 +332,7 @@ std::string CaseFile::resolved() const {
 std::string CaseFile::sha256() const {
   std::string text;
   write_resolved(*root_, false, &CaseNode::Resolved::identity, text);
-  return sha256_of(text);
+  return snag::sha256(text);
 }
 
 std::filesystem::path CaseFile::path(const std::string& relative) const { return beside(file_, relative); }

@@ -1,0 +1,89 @@
+#pragma once
+// What a diagnosis says: where the gap lies, which effect causes it, how far it shrinks; and verdict.json.
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace snag {
+
+/// One cell of "where": an observable in a window of time at an operating point.
+struct GapCell {
+  std::string observable, region = "all", point;
+  std::array<double, 2> window{};          // s; both NaN for scalars of a replicate
+  double measured = 0, simulated = 0;      // means over the window, SI (events: fractions)
+  double u_num = 0, u_input = 0, u_D = 0;  // standard uncertainties: numerics, inputs (flow field included), data (bias and scatter/n)
+  double u_S = 0;                          // scatter of the simulation over the number of runs, as a standard uncertainty
+  double u_val = 0;                        // of the difference
+  double z = 0;                            // (simulated - measured)/u_val; of exact tests the normal score of their p
+  double p = 1;                            // two-sided
+  std::string test = "z";                  // z | binomial | negative_binomial | log_rank
+  bool withheld = false, significant = false, onset = false, blind = false;
+};
+
+/// Posterior of the strength of an effect.
+struct EffectEstimate {
+  double mean = 0, sd = 0;
+  std::map<std::string, double> per_point{};  // fitted to one operating point alone
+  double cochran_p = 1;                       // that the operating points agree
+  bool absorbing = false;                     // more than 3 prior standard deviations off: it takes up something else
+  std::string unit = "1";
+};
+
+/// 1 - excess gap after / before, on withheld operating points, with the 95 % interval.
+struct Shrinkage {
+  double mean = 0, low = 0, high = 0;
+};
+
+/// Mean squares over the cells of the withheld points, in units of u_D^2.
+struct GapBars {
+  bool computable = false;  // at least three withheld points
+  double before = 0, after = 0, floor = 0, remainder = 0;
+};
+
+/// What the experiment could tell before any data were looked at.
+struct Identifiability {
+  std::map<std::string, double> detectability{};                   // d_k: prior-mean signature over its uncertainty; below 3 it is blind
+  std::map<std::string, std::map<std::string, double>> cosines{};  // between nuisance-projected signatures
+  std::vector<std::vector<std::string>> ties{};
+  std::map<std::string, std::string> blind{};  // effect -> why this base case or these data cannot show it
+  std::string next_experiment;
+};
+
+/// A posterior predictive check of the first hypothesis.
+struct PredictiveCheck {
+  std::string name;  // chi2 | lag1_autocorrelation | max_abs_z | energy_distance
+  double value = 0, p = 1;
+};
+
+struct Verdict {
+  std::string name;                    // of the experiment
+  std::string verdict;                 // effects | none | outside | tie | blind
+  std::vector<std::string> effects{};  // of the first hypothesis that names effects; for outside: the best effect, partial and no cause
+  std::string wording;                 // attributed | suspected | undecided | outside | blind | no gap beyond u_val
+  std::vector<std::string> tie{};      // hypotheses that share the verdict of a tie
+  std::map<std::string, double> probability{};
+  std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, nats, relative to none
+  std::map<std::string, double> screening{};      // the same by signatures only
+  std::map<std::string, double> leave_one_out{};  // log predictive density, one operating point left out at a time, relative to none
+  std::map<std::string, EffectEstimate> parameters{};
+  std::map<std::string, double> nuisances{};  // fitted deviations under the first hypothesis, in standard uncertainties; name@points
+  std::vector<PredictiveCheck> checks{};
+  std::vector<std::string> notes{};  // guards that spoke, in sentences
+  double sham_rate = 0;              // of sham effects that a screening would have chosen
+  std::vector<GapCell> where{};
+  std::map<std::string, Shrinkage> shrinkage{};           // of the chosen effect, by hypothesis
+  std::map<std::string, Shrinkage> shrinkage_rejected{};  // of the others that were fitted
+  Shrinkage shrinkage_regression;                         // of a correction without physics
+  GapBars gap;
+  Identifiability identifiability;
+  double temperature = 1;  // that tempered the probabilities
+  int runs = 0;
+  std::string data_sha256, withheld_sha256;
+};
+
+/// The content of verdict.json.
+std::string verdict_json(const Verdict& verdict);
+
+}  // namespace snag
