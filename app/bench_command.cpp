@@ -1,4 +1,4 @@
-// snag bench flow [--peer] --out DIR
+// snag bench flow|dem [--peer] --out DIR
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -11,19 +11,33 @@ namespace snag {
 Action add_bench(CLI::App& app) {
   struct Options : FlowBenchOptions {
     std::string target;
+    std::filesystem::path folder;
+    bool quick = false;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "bench", "Time Snag on this machine, on the ranks it is started on; writes bench.json. flow: a sliding step of a pump");
-  command->add_option("WHAT", options->target, "What to time: flow")->required();
-  command->add_option("--out", options->out, "Output folder (default results/bench-flow); a mesh that is there is used again");
-  command->add_flag("--peer", options->peer, "Time OpenFOAM too, on the same mesh and ranks (Debian package openfoam)");
-  command->add_option("--level", options->level, "Mesh: coarse (30 thousand cells) or medium (200 thousand, default)");
-  command->add_option("--steps", options->n_steps, "Steps that are timed (default 8)");
+      "bench",
+      "Time Snag on this machine, on the ranks it is started on; writes bench.json. flow: a sliding step of a pump; dem: "
+      "particle-steps of cloth, on one rank and on all");
+  command->add_option("WHAT", options->target, "What to time: flow, dem")->required();
+  command->add_option("--out", options->folder,
+                      "Output folder (default results/bench-flow, results/bench-dem); a mesh that is there is used again");
+  command->add_flag(
+      "--peer", options->peer,
+      "Time another program too: OpenFOAM on the same mesh and ranks (Debian package openfoam), LAMMPS on a sheet of the same "
+      "size (Debian package lammps)");
+  command->add_option("--level", options->level, "flow: mesh coarse (30 thousand cells) or medium (200 thousand, default)");
+  command->add_option("--steps", options->n_steps, "flow: steps that are timed (default 8)");
+  command->add_flag("--quick", options->quick, "dem: the small cases only");
   return [options] {
-    if (options->target == "dem") return bench_dem({.out = options->out, .peer = options->peer});
+    if (options->target == "dem") {
+      DemBenchOptions dem{.peer = options->peer, .quick = options->quick};
+      if (!options->folder.empty()) dem.out = options->folder;
+      return bench_dem(dem);
+    }
     if (options->target != "flow")
-      throw Error(ExitCode::usage, "snag bench " + options->target + ": there is no such benchmark; there is: flow");
+      throw Error(ExitCode::usage, "snag bench " + options->target + ": there is no such benchmark; there are: flow, dem");
+    if (!options->folder.empty()) options->out = options->folder;
     return bench_flow(*options);
   };
 }

@@ -30,8 +30,9 @@ void for_whole_bonds(const Tile& tile, bool all, const F& f) {
 template <class F>
 void for_bonds(const Tile& tile, const BondLaws& laws, bool all, const F& f) {
   for_whole_bonds(tile, all, [&](int a, int b) {
-    f(a, b, b == a + 1 ? bond_force<0, false>(laws[0], bond_end<0>(tile, a), bond_end<0>(tile, b))
-                       : bond_force<1, false>(laws[1], bond_end<1>(tile, a), bond_end<1>(tile, b)));
+    f(a, b,
+      b == a + 1 ? bond_force<0, false>(laws[0], bond_end<0>(tile, a), bond_end<0>(tile, b))
+                 : bond_force<1, false>(laws[1], bond_end<1>(tile, a), bond_end<1>(tile, b)));
   });
 }
 

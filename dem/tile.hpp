@@ -1,8 +1,8 @@
 #pragma once
 // Particles live in lattice tiles: a piece of cloth (sheet, disc, fibre, single sphere) is a masked rectangular lattice, cut into tiles of
-// at most max_tile_columns x max_tile_rows particles. A tile is stored with a ring of one particle around it (copies of its neighbours), field by field, row by row,
-// so that bonds are implicit neighbours k -> k + 1 (along the row, "x") and k -> k + stride (between rows, "y"), and every loop runs over
-// contiguous rows and vectorises.
+// at most max_tile_columns x max_tile_rows particles. A tile is stored with a ring of one particle around it (copies of its neighbours),
+// field by field, row by row, so that bonds are implicit neighbours k -> k + 1 (along the row, "x") and k -> k + stride (between rows,
+// "y"), and every loop runs over contiguous rows and vectorises.
 //
 // A bond between two tiles is computed by both, from the same numbers in the same order: so forces need no way back, and results do not
 // depend on the ranks.

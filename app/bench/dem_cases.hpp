@@ -1,5 +1,6 @@
 #pragma once
-// The cloth that snag bench dem times: the calibrated cloth of 1 mm particles with damping, rotation friction, breakage, contacts and walls.
+// The cloth that snag bench dem times: the calibrated cloth of 1 mm particles with damping, rotation friction, breakage, contacts and
+// walls.
 #include <mpi.h>
 
 #include <memory>

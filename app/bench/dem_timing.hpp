@@ -2,8 +2,6 @@
 // Clocks of snag bench dem.
 #include <mpi.h>
 
-#include <functional>
-
 #include "app/bench/dem_cases.hpp"
 
 namespace snag {
@@ -28,9 +26,5 @@ struct DemTiming {
 
 /// Times `n_repeats` times about `particle_steps` of a case, after as many sub-steps to settle. Collective over the system's ranks.
 DemTiming timed(DemBenchCase& bench, double particle_steps, int n_repeats);
-
-/// Work of the first rank of all while the others sleep: a barrier of MPI would keep their processors busy. An error is one of all ranks.
-/// Collective over all ranks.
-void first_rank_alone(const std::function<void()>& work);
 
 }  // namespace snag

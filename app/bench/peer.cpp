@@ -21,25 +21,6 @@ namespace {
 const MPI_Comm world = MPI_COMM_WORLD;
 constexpr auto nap = std::chrono::milliseconds(100);
 
-/// The first rank works while the others sleep: a barrier of MPI would keep their processors busy. An error is one of all ranks.
-template <class Work>
-void first_rank_alone(const Work& work) {
-  std::exception_ptr failure;
-  if (rank_of(world) == 0) {
-    try {
-      work();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  }
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibarrier(world, &request);
-  for (int done = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done;) std::this_thread::sleep_for(nap);
-  together(world, [&] {
-    if (failure) std::rethrow_exception(failure);
-  });
-}
-
 std::string written(double value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
@@ -73,6 +54,42 @@ bool in_path(const std::string& program) {
 }
 
 }  // namespace
+
+void first_rank_alone(const std::function<void()>& work) {
+  std::exception_ptr failure;
+  if (rank_of(world) == 0) {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(world, &request);
+  for (int done = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done;) std::this_thread::sleep_for(nap);
+  together(world, [&] {
+    if (failure) std::rethrow_exception(failure);
+  });
+}
+
+std::optional<PeerSheet> run_peer_sheet(const std::filesystem::path& folder, int n_columns, int n_rows, int n_steps) {
+  if (!in_path("lmp")) return {};
+  const auto log = folder / "log.txt";
+  std::error_code failure;
+  std::filesystem::remove_all(folder, failure);
+  std::filesystem::create_directories(folder, failure);
+  write_atomically(folder / "lammps.py", lammps_script);
+  const int code = run_command({"/usr/bin/python3", (folder / "lammps.py").string(), "--out", folder.string(), "--columns",
+                                std::to_string(n_columns), "--rows", std::to_string(n_rows), "--steps", std::to_string(n_steps)},
+                               log, "install python3");
+  if (code != 0) throw Error(ExitCode::io, "LAMMPS ended with code " + std::to_string(code) + "; " + log.string() + " says more");
+  try {
+    const auto found = nlohmann::json::parse(file_text(folder / "peer.json").value_or(""));
+    return PeerSheet{found.at("program"), found.at("million_particle_steps_per_s")};
+  } catch (const nlohmann::json::exception& wrong) {
+    throw Error(ExitCode::io, "LAMMPS has left no result (" + std::string(wrong.what()) + "); " + log.string() + " says more");
+  }
+}
 
 void require_peer() {
   together(world, [] {

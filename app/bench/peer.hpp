@@ -2,6 +2,8 @@
 // The other program that a benchmark is held against: OpenFOAM of the Debian package, by the script app/bench/openfoam.py, which travels
 // inside the program.
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,19 @@ struct PeerFlow {
   std::vector<double> wall, cpu;  // s of each step, on the clock and of one rank's processor
   PeerEquation momentum, pressure, k, epsilon;
 };
+
+/// The first rank works while the others sleep: a barrier of MPI would keep their processors busy. An error is one of all ranks.
+/// Collective.
+void first_rank_alone(const std::function<void()>& work);
+
+/// What LAMMPS did with a sheet of bonded spheres, on one processor.
+struct PeerSheet {
+  std::string program;
+  double million_particle_steps_per_s = 0;  // of processor time
+};
+/// By the script app/bench/lammps.py in `folder`; none where the Debian package lammps is not installed. The first rank only; throws
+/// Error(io).
+std::optional<PeerSheet> run_peer_sheet(const std::filesystem::path& folder, int n_columns, int n_rows, int n_steps);
 
 /// Throws Error(usage) that names the package where the program is missing. Collective.
 void require_peer();

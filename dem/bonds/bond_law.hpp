@@ -170,11 +170,12 @@ template <int direction, bool damped>
 /// strength (extreme fibre of a beam, Potyondy and Cundall 2004), and no longer than twice the contact radius.
 [[gnu::always_inline]] inline bool bond_holds(const BondLaw& law, const BondForce& bond) {
   // Squares are compared: no roots.
-  const double bending = law.normal_strength - bond.tension * law.per_area;                        // what is left for it, Pa
+  const double bending = law.normal_strength - bond.tension * law.per_area;  // what is left for it, Pa
   const double shear = law.shear_strength - std::fabs(bond.torsion_moment) * law.per_torsion_modulus;
   const double bending_squared = bond.bending_squared * (law.per_bending_modulus * law.per_bending_modulus);
   const double shear_squared = bond.shear_squared * (law.per_area * law.per_area);
-  return (bending > 0) & (bending_squared < bending * bending) & (shear > 0) & (shear_squared < shear * shear) & (bond.length < law.longest);
+  return (bending > 0) & (bending_squared < bending * bending) & (shear > 0) & (shear_squared < shear * shear) &
+         (bond.length < law.longest);
 }
 
 }  // namespace snag

@@ -12,8 +12,8 @@ bool ContactParticles::holds(std::span<Tile* const> owned, std::span<const Tile*
   if (pieces_.size() != owned.size() + ghosts.size()) return false;
   const auto same = [this](std::size_t i, const Tile* tile, bool mine) {
     const Piece& p = pieces_[i];
-    return p.tile == tile && p.owned == mine && p.rag == tile->rag && p.column == tile->column && p.row == tile->row &&
-           p.nx == tile->nx && p.ny == tile->ny;
+    return p.tile == tile && p.owned == mine && p.rag == tile->rag && p.column == tile->column && p.row == tile->row && p.nx == tile->nx &&
+           p.ny == tile->ny;
   };
   for (std::size_t i = 0; i < owned.size(); ++i)
     if (!same(i, owned[i], true)) return false;
@@ -142,7 +142,8 @@ bool ContactParticles::follow_marks() {
 }
 
 bool ContactParticles::bonds_changed() const {
-  return std::any_of(pieces_.begin(), pieces_.end(), [](const Piece& piece) { return piece.owned && piece.tile->n_breaks != piece.n_breaks; });
+  return std::any_of(pieces_.begin(), pieces_.end(),
+                     [](const Piece& piece) { return piece.owned && piece.tile->n_breaks != piece.n_breaks; });
 }
 
 bool ContactParticles::bonded(int p, int q) const {

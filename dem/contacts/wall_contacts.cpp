@@ -42,13 +42,14 @@ struct WallContacts::Block {
 // One contact, apart from its loop, as in pair_forces.cpp.
 inline void WallContacts::Block::law(const ContactPair& kind, int c, double step) {
   const Vec3 e{normal[0][c], normal[1][c], normal[2][c]};
-  const ContactMotion contact{std::min(kind.reach - distance[c], 2 * kind.reach), e,
+  const ContactMotion contact{std::min(kind.reach - distance[c], 2 * kind.reach),
+                              e,
                               {velocity[0][c], velocity[1][c], velocity[2][c]},
                               {slip[0][c], slip[1][c], slip[2][c]}};
   const ContactForce result = hertz_mindlin(kind.law, contact, step);
   const Vec3 relative{spin[0][c], spin[1][c], spin[2][c]};
-  const Vec3 M = cross(distance[c] * e, result.force) +
-                 rolling_friction(kind.rolling, result.normal, relative - dot(relative, e) * e, step);
+  const Vec3 M =
+      cross(distance[c] * e, result.force) + rolling_friction(kind.rolling, result.normal, relative - dot(relative, e) * e, step);
   force[0][c] = result.force.x, force[1][c] = result.force.y, force[2][c] = result.force.z;
   torque[0][c] = M.x, torque[1][c] = M.y, torque[2][c] = M.z;
   slip[0][c] = result.slip.x, slip[1][c] = result.slip.y, slip[2][c] = result.slip.z;

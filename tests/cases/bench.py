@@ -64,8 +64,22 @@ class Bench(harness.CaseTest):
         self.assertIsNone(values["flow.momentum"]["peer"], "the peer does not tell the time of each equation")
         self.assertEqual(len(json.loads((run.folder / "peer" / "peer.json").read_text())["wall_s"]), 2)
 
+    def test_dem(self):
+        """The cases on one rank, the same sheet on both, and the limits."""
+        run = self.bench("dem", "--quick", ranks=2)
+        records = json.loads((run.folder / "bench.json").read_text())
+        values = {record["name"]: record for record in records}
+        self.assertEqual(len(values), len(records), "no name twice")
+        for name in ("flat", "stack", "stack_moving", "flat_4k"):
+            self.assertEqual(values[f"dem.{name}"]["ranks"], 1)
+            self.assertGreater(values[f"dem.{name}"]["value"], 0)
+            self.assertGreater(values[f"dem.{name}"]["limit"], values[f"dem.{name}"]["value"], "faster than the machine allows")
+        self.assertAlmostEqual(values["dem.stack_contacts"]["value"], 5.91, delta=0.05)
+        self.assertEqual(values["dem.flat_on_2"]["ranks"], 2)
+        self.assertGreater(values["dem.flat_speedup"]["value"], 0)
+
     def test_refusals(self):
-        self.assertIn("there is: flow", self.bench("dem", code=2).stderr)
+        self.assertIn("there are: flow, dem", self.bench("mesh", code=2).stderr)
         self.assertIn("known: coarse, medium", self.bench("flow", "--level", "huge", code=2).stderr)
         self.assertIn("at least 1", self.bench("flow", "--steps", "0", code=2).stderr)
 

@@ -188,6 +188,26 @@ TEST(RagRanks, RanksWithoutCloth) {
   EXPECT_NEAR(s.end_to_end, 0, 0);
 }
 
+TEST(RagRanks, SheetWiderThanATile) {
+  // Requirement: bonds between tiles that lie side by side give the same motion on any number of ranks.
+  const auto shaken = [](MPI_Comm comm) {
+    RagPiece sheet = cloth(max_tile_columns + 12, 2 * max_tile_rows + 3);
+    sheet.spin = {40, 20, 100};
+    RagSystem rags(comm, {}, {sheet});
+    for (Tile& tile : rags.tiles())
+      for (int j = 0; j < tile.ny; ++j)
+        for (int i = 0; i < tile.nx; ++i)
+          tile.field(Tile::vz)[tile.index(i, j)] += std::sin(0.3 * (tile.column + i)) * std::cos(0.4 * (tile.row + j));
+    rags.advance(300 * rags.stable_step());
+    return rag_states(rags)[0];
+  };
+  ASSERT_EQ(tile_grid(max_tile_columns + 12, 2 * max_tile_rows + 3).columns, 2);
+  const RagState alone = shaken(MPI_COMM_SELF), spread = shaken(MPI_COMM_WORLD);
+  EXPECT_GT(alone.bond_energy, 0.01 * alone.kinetic_energy);
+  EXPECT_NEAR(spread.kinetic_energy / alone.kinetic_energy, 1, 1e-12);
+  EXPECT_NEAR(spread.bond_energy / alone.bond_energy, 1, 1e-12);
+}
+
 TEST(RagRanks, LostBondIsNoticed) {
   // Requirement: a bond that vanishes without being counted as broken ends the run with the invariant's exit code on every rank.
   ThrownCloth run(MPI_COMM_WORLD);
