@@ -41,8 +41,8 @@ void add_form_error(const PointSummary& point, const Eigen::VectorXd& part, Eige
   for (int i = 0; i < point.n_gaussian; ++i) {
     for (int j = 0; j < point.n_gaussian; ++j) {
       if (point.rows[i].observable != point.rows[j].observable) continue;
-      const double apart = i == j ? 0 : (time_of(point.rows[i]) - time_of(point.rows[j])) / length;
-      C(i, j) += size[i] * size[j] * std::exp(-0.5 * apart * apart);
+      const double apart = i == j ? 0 : std::sqrt(3.0) * std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / length;
+      C(i, j) += size[i] * size[j] * (1 + apart) * std::exp(-apart);  // Matern 3/2: errors of form have a tail of faster ones
     }
   }
 }
