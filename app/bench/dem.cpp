@@ -145,7 +145,11 @@ ExitCode bench_dem(const DemBenchOptions& options) {
   limit.computing = 1e-6 * rate / (2 * operations_per_bond + operations_per_particle);
   limit.memory = 1e-6 * bandwidth / n / bytes_per_particle;
   first_rank_alone([&] {
-    std::filesystem::create_directories(options.out);
+    std::error_code failure;
+    std::filesystem::create_directories(options.out, failure);
+    if (failure)
+      throw Error(ExitCode::io,
+                  options.out.string() + ": the output folder cannot be made (" + failure.message() + "); choose another --out");
     single_rank(findings, limit, options.quick);
     if (!options.peer) return;
     log::info("bench: LAMMPS");
