@@ -68,6 +68,7 @@ class Simulation {
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
   void push_with_water(int rag);
+  void remove_rags();
   void check_inside();
 
   MPI_Comm comm_;

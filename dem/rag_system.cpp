@@ -36,7 +36,7 @@ RagSystem::RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<Rag
   }
   broken_.assign(rags_.size(), 0);
   owner_.assign(n_tiles, -1);
-  inserted_.assign(rags_.size(), 0);
+  presence_.assign(rags_.size(), Presence::waiting);
   for (std::size_t r = 0; r < pieces_.size(); ++r)
     if (pieces_[r].insert_time <= 0 && !pieces_[r].with_water) add_tiles(static_cast<int>(r));
   set_limit();
@@ -58,11 +58,24 @@ void RagSystem::add_tiles(int rag) {
   }
   numbers_.insert(numbers_.begin() + place, numbers.begin(), numbers.end());
   tiles_.insert(tiles_.begin() + place, std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
-  inserted_[rag] = 1;
+  presence_[rag] = Presence::present;
 }
 
 void RagSystem::insert(int rag) {
   add_tiles(rag);
+  set_pointers();
+  find_ghosts();
+  halo_->exchange();
+}
+
+void RagSystem::remove(int rag) {
+  const int first = grids_[rag].first_tile, end = first + grids_[rag].n_tiles();
+  const auto from = std::lower_bound(numbers_.begin(), numbers_.end(), first) - numbers_.begin();
+  const auto to = std::lower_bound(numbers_.begin(), numbers_.end(), end) - numbers_.begin();
+  numbers_.erase(numbers_.begin() + from, numbers_.begin() + to);
+  tiles_.erase(tiles_.begin() + from, tiles_.begin() + to);
+  std::fill(owner_.begin() + first, owner_.begin() + end, -1);
+  presence_[rag] = Presence::removed;
   set_pointers();
   find_ghosts();
   halo_->exchange();
