@@ -17,6 +17,7 @@ Action add_check(CLI::App& app);
 Action add_mesh(CLI::App& app);
 Action add_study(CLI::App& app);
 Action add_bench(CLI::App& app);
+Action add_observe(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_manual(CLI::App& app);
 
