@@ -1,0 +1,16 @@
+#pragma once
+// How far the gap shrinks on operating points that were withheld from the fit:
+//
+//   G = max(0, mean over the rows of the withheld points of (E^2 - u_noise^2)/u_D^2),   shrinkage = 1 - G_after/G_before
+//
+// u_noise^2 = u_D^2 + u_num^2 + scatter_S/N_S + u_input^2: what remains when nothing is missing. Before: the base model with its shared
+// nuisances as the training points have them. After: the same with the effect as fitted. Shrinkage alone never proves a cause.
+#include "diagnosis/attribution.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace snag {
+
+/// Fills the four bars and the shrinkage of the chosen fit, of the rejected ones and of a regression without physics.
+void measure_shrinkage(Responses& model, const Attribution& attribution, int chosen, Verdict& verdict);
+
+}  // namespace snag
