@@ -1,5 +1,6 @@
 #include "coupling/coupled_solver.hpp"
 
+#include "dem/lattice.hpp"
 #include "dem/tile_particles.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
@@ -149,11 +150,34 @@ std::vector<double> CoupledSolver::record() const {
 void CoupledSolver::save(CheckpointWriter& writer) const {
   const double last_step = kernel_field_ ? kernel_field_->last_step() : 0;
   writer.shared("coupling/last_step", std::span(&last_step, 1));
+  const int n = load_->memory();
+  if (n == 0) return;
+  std::vector<std::int64_t> ids;
+  std::vector<double> values;
+  for (const Tile& tile : rags_.tiles())
+    for_particles(tile, [&](int k, int i, int j) {
+      ids.push_back(particle_id(rags_.rags()[tile.rag], tile, i, j));
+      for (int f = 0; f < n; ++f) values.push_back(tile.memory.empty() ? 0 : tile.memory[f * tile.exists.size() + k]);
+    });
+  writer.rows("coupling/memory", ids, values, n);
 }
 
 void CoupledSolver::load(CheckpointReader& reader) {
   const double last_step = reader.shared("coupling/last_step").at(0);
   if (kernel_field_) kernel_field_->set_last_step(last_step);
+  if (const int n = load_->memory(); n > 0) {
+    std::vector<std::int64_t> ids;
+    for (const Tile& tile : rags_.tiles())
+      for_particles(tile, [&](int, int i, int j) { ids.push_back(particle_id(rags_.rags()[tile.rag], tile, i, j)); });
+    const std::vector<double> values = reader.rows("coupling/memory", ids, n);
+    const double* row = values.data();
+    for (Tile& tile : rags_.tiles()) {
+      tile.memory.assign(n * tile.exists.size(), 0.0);
+      for_particles(tile, [&](int k, int, int) {
+        for (int f = 0; f < n; ++f) tile.memory[f * tile.exists.size() + k] = *row++;
+      });
+    }
+  }
   mesh_moved();  // the water was loaded before: a turning zone is not where it was when the kernel was made
 }
 

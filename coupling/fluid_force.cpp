@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/words.hpp"
+#include "dem/lattice.hpp"
 
 namespace snag {
 
@@ -23,40 +24,80 @@ Registry<FluidForce>& fluid_forces() {
   return registry;
 }
 
+std::int64_t Particles::id(int column, int row) const { return particle_id(rag, tile, column, row); }
+
+namespace {
+
+/// The sphere in the middle of a tile of 3 x 3, with the neighbours that it has.
+Tile tile_of_sphere(const SphereState& state) {
+  Tile tile;
+  tile.allocate(3, 3);
+  const auto mark = [](AlignedDoubles& marks, int place) { marks[static_cast<std::size_t>(place)] = 1; };
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) {
+      const bool row = i == 1 || norm(state.next_in_row) > 0, column = j == 1 || norm(state.next_row) > 0;
+      const int k = tile.index(i, j);
+      tile.set_vector(Tile::x, k, state.position + (i - 1) * state.next_in_row + (j - 1) * state.next_row);
+      tile.set_vector(Tile::vx, k, state.velocity);
+      tile.set_vector(Tile::wx, k, state.angular_velocity);
+      if (!row || !column) continue;
+      mark(tile.exists, k), mark(tile.free, k);
+      if (i < 2 && norm(state.next_in_row) > 0) mark(tile.bond_x, k);
+      if (j < 2 && norm(state.next_row) > 0) mark(tile.bond_y, k);
+    }
+  return tile;
+}
+
+/// Fields of a tile that hold the same number everywhere.
+struct UniformFields {
+  explicit UniformFields(std::size_t size_) : size(size_) { values.reserve(64 * size); }
+  double* field(double value) {
+    values.resize(values.size() + size, value);
+    return values.data() + values.size() - size;
+  }
+  VectorArray vector(const Vec3& v) { return {field(v.x), field(v.y), field(v.z)}; }
+  VectorSum sum(const Vec3& v = {}) { return {field(v.x), field(v.y), field(v.z)}; }
+  std::size_t size;
+  std::vector<double> values;
+};
+
+}  // namespace
+
 SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   const double d = state.diameter, volume = std::numbers::pi / 6 * d * d * d;
   Rag rag;
+  rag.n_columns = rag.n_rows = 3;
   rag.radius = d / 2, rag.hydrodynamic_diameter = d, rag.hydrodynamic_volume = volume, rag.mass = state.particle_density * volume;
   rag.inertia = 0.1 * rag.mass * d * d;
+  const Tile tile = tile_of_sphere(state);
 
-  Tile tile;
-  tile.allocate(1, 1);
-  const int k = tile.index(0, 0);
-  tile.exists[k] = 1;
-  tile.set_vector(Tile::x, k, state.position);
-  tile.set_vector(Tile::vx, k, state.velocity);
-  tile.set_vector(Tile::wx, k, state.angular_velocity);
-
-  // Arrays of the tile's size, of which place k is used.
-  std::vector<double> values;
-  values.reserve(26 * tile.field_size);
-  const auto array = [&values, &tile, k](double value) {
-    double* first = values.data() + values.size();
-    values.resize(values.size() + tile.field_size);
-    first[k] = value;
-    return first;
-  };
-  const auto vector = [&array](const Vec3& v) { return VectorArray{array(v.x), array(v.y), array(v.z)}; };
-  const auto sum = [&array] { return VectorSum{array(0), array(0), array(0)}; };
+  UniformFields fields(tile.field_size);
   const auto& G = state.velocity_gradient;
+  const VectorSum velocity = fields.sum(state.fluid_velocity);
   const FluidSamples fluid{.density = state.fluid_density,
                            .dynamic_viscosity = state.dynamic_viscosity,
-                           .velocity = vector(state.fluid_velocity),
-                           .velocity_gradient = {vector(G[0]), vector(G[1]), vector(G[2])},
-                           .pressure_gradient = vector(state.pressure_gradient),
-                           .material_acceleration = vector(state.material_acceleration)};
-  const Forces forces{sum(), sum(), array(0), array(0)};
-  force.add(fluid, Particles(rag, tile), forces);
+                           .velocity = {velocity.x, velocity.y, velocity.z},
+                           .velocity_gradient = {fields.vector(G[0]), fields.vector(G[1]), fields.vector(G[2])},
+                           .pressure_gradient = fields.vector(state.pressure_gradient),
+                           .material_acceleration = fields.vector(state.material_acceleration),
+                           .turbulent_kinetic_energy = fields.field(state.turbulent_kinetic_energy),
+                           .dissipation_rate = fields.field(state.dissipation_rate),
+                           .turbulent_kinetic_energy_gradient = fields.vector(state.turbulent_kinetic_energy_gradient),
+                           .solid_fraction = fields.field(state.solid_fraction),
+                           .wall_distance = fields.field(state.wall_distance),
+                           .wall_normal = fields.vector(state.wall_normal)};
+  const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity};
+  const Card card = force.card();
+  std::vector<double> memory(static_cast<std::size_t>(card.memory) * tile.field_size);
+  Particles particles(rag, tile);
+  particles.step = state.step;
+  particles.memory = memory.data(), particles.memory_stride = tile.field_size;
+  const bool changes_drag = card.role == Role::other_drag || card.role == Role::drag_change;
+  const auto drag = fluid_forces().make("schiller_naumann", "sphere");
+  if (changes_drag) drag->add(fluid, particles, forces);
+  force.add(fluid, particles, forces);
+  if (card.role == Role::fluid) drag->add(fluid, particles, forces);
+  const int k = tile.index(1, 1);
   const auto at = [k](const VectorSum& v) { return Vec3{v.x[k], v.y[k], v.z[k]}; };
   return {at(forces.force), at(forces.torque), forces.slope[k], forces.added_mass[k]};
 }

@@ -3,10 +3,13 @@
 //
 // A force is evaluated for a whole tile at once (dem/tile.hpp), place k = begin .. end - 1; places without a particle hold harmless numbers
 // and what is written there is not used. So every force is one loop over contiguous arrays that vectorises.
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/parameter.hpp"
+#include "base/prior.hpp"
 #include "base/registry.hpp"
 #include "base/vec3.hpp"
 #include "dem/rag.hpp"
@@ -29,21 +32,32 @@ struct VectorSum {
 /// Fields that a force needs at the particles beside the velocity; what nobody needs is not averaged.
 struct SampleSet {
   bool velocity_gradient = false, pressure_gradient = false, material_acceleration = false;
+  bool turbulence = false, solid_fraction = false, wall = false;
   SampleSet operator|(const SampleSet& b) const {
-    return {velocity_gradient || b.velocity_gradient, pressure_gradient || b.pressure_gradient,
-            material_acceleration || b.material_acceleration};
+    return {velocity_gradient || b.velocity_gradient,
+            pressure_gradient || b.pressure_gradient,
+            material_acceleration || b.material_acceleration,
+            turbulence || b.turbulence,
+            solid_fraction || b.solid_fraction,
+            wall || b.wall};
   }
 };
 
-/// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Fields that no force asked for
-/// are zero.
+/// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Of the fields only the velocity
+/// and what the force's card asks for may be read.
 struct FluidSamples {
-  double density = 0;                            // rho, kg/m3
-  double dynamic_viscosity = 0;                  // mu, Pa s
-  VectorArray velocity;                          // u, m/s
-  std::array<VectorArray, 3> velocity_gradient;  // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
-  VectorArray pressure_gradient;                 // Pa/m
-  VectorArray material_acceleration;             // Du/Dt, m/s2
+  double density = 0;                                  // rho, kg/m3
+  double dynamic_viscosity = 0;                        // mu, Pa s
+  VectorArray velocity;                                // u, m/s
+  std::array<VectorArray, 3> velocity_gradient;        // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
+  VectorArray pressure_gradient;                       // Pa/m
+  VectorArray material_acceleration;                   // Du/Dt, m/s2
+  const double* turbulent_kinetic_energy = nullptr;    // k, m2/s2
+  const double* dissipation_rate = nullptr;            // epsilon, m2/s3
+  VectorArray turbulent_kinetic_energy_gradient = {};  // m/s2
+  const double* solid_fraction = nullptr;              // volume of particles over volume, 1
+  const double* wall_distance = nullptr;               // of the particle's centre from the nearest wall, m; far away a large number
+  VectorArray wall_normal = {};                        // unit, from that wall to the particle
 };
 
 /// The particles of a tile. All particles of a rag have the same size and mass; neighbours of k in the sheet are k +- 1 and k +-
@@ -57,14 +71,30 @@ struct Particles {
   double diameter;                                   // d of the drag law, m
   double mass;                                       // m, kg
   double volume;                                     // V_h, hydrodynamic, m3
+  double step = 0;                                   // h, of the sub-step, s
+  double* memory =
+      nullptr;  // Card::memory numbers of each particle that stay with it: number i of place k is memory[i * memory_stride + k];
+  std::size_t memory_stride = 0;               // zero at birth
+  std::int64_t id(int column, int row) const;  // of the particle in this column and row of the tile
 };
 
 /// What a force adds to. FluidLoad solves (m + added_mass) a = (F + all other forces) phi, phi by the slope (coupling/fluid_load.hpp).
 struct Forces {
-  VectorSum force;     // N
-  VectorSum torque;    // N m
-  double* slope;       // dF/dw, w = u - v: growth of the force with the fluid's velocity, N s/m, >= 0
-  double* added_mass;  // kg; the force then holds added_mass Du/Dt
+  VectorSum force;                 // N
+  VectorSum torque;                // N m
+  double* slope;                   // dF/dw, w = u - v: growth of the force with the fluid's velocity, N s/m, >= 0
+  double* added_mass;              // kg; the force then holds added_mass Du/Dt
+  double* torque_slope = nullptr;  // dT/d(omega_fluid - omega), N m s, >= 0
+  VectorSum fluid_velocity = {};   // m/s, what all others see: for Role::fluid only
+};
+
+/// What a model changes; models act in this order, those of one role in the order of their names.
+enum class Role {
+  fluid,        // the fluid velocity that the others see
+  drag,         // adds drag
+  other_drag,   // takes the place of a share of the drag that `force` and `slope` hold by then
+  drag_change,  // changes the drag that `force` and `slope` hold by then; force = slope w, unless a model before made it anisotropic
+  force         // adds a force
 };
 
 /// What a model is, for the manual.
@@ -73,23 +103,34 @@ struct Card {
   bool reacts_on_fluid = true;  // the water feels the opposite force
   SampleSet samples = {};
   bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
+  Role role = Role::force;
+  int memory = 0;                   // numbers kept for each particle
+  std::optional<Prior> prior = {};  // of a candidate of the diagnosis
 };
 
 /// State of one sphere in a fluid, for reference cases and tests.
 struct SphereState {
-  double fluid_density = 998.2, dynamic_viscosity = 1.003e-3;     // kg/m3, Pa s
-  Vec3 fluid_velocity, pressure_gradient, material_acceleration;  // m/s, Pa/m, m/s2
-  Mat3 velocity_gradient{};                                       // 1/s
-  double diameter = 2e-3, particle_density = 1020;                // m, kg/m3
-  Vec3 position, velocity, angular_velocity;                      // m, m/s, rad/s
+  double fluid_density = 998.2, dynamic_viscosity = 1.003e-3;                     // kg/m3, Pa s
+  Vec3 fluid_velocity, pressure_gradient, material_acceleration;                  // m/s, Pa/m, m/s2
+  Mat3 velocity_gradient{};                                                       // 1/s
+  double diameter = 2e-3, particle_density = 1020;                                // m, kg/m3
+  Vec3 position, velocity, angular_velocity;                                      // m, m/s, rad/s
+  double turbulent_kinetic_energy = 0, dissipation_rate = 0, solid_fraction = 0;  // m2/s2, m2/s3, 1
+  Vec3 turbulent_kinetic_energy_gradient;                                         // m/s2
+  double wall_distance = 1e9;                                                     // m
+  Vec3 wall_normal{0, 0, 1};
+  Vec3 next_in_row, next_row;  // to the bonded neighbours on both sides, that move with the sphere; zero: none; m
+  double step = 1e-3;          // s
 };
 
 /// A force known from outside this code: an exact limit or a published number.
 struct ReferenceCase {
   std::string what, source;
   SphereState state;
-  Vec3 force;            // N
-  double tolerance = 0;  // of |force|, 1
+  Vec3 force;                             // N; of a model that changes the fluid or the drag: together with schiller_naumann
+  double tolerance = 0;                   // of |force| (or |torque|), 1
+  std::optional<Vec3> torque = {};        // N m
+  std::optional<double> added_mass = {};  // kg
 };
 
 class FluidForce {

@@ -1,20 +1,38 @@
 #include "coupling/fluid_load.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace snag {
 
 namespace {
 enum Sum { impulse_x, impulse_y, impulse_z, sensitivity_sum, n_sums };
-enum Array { reacting_force = 0, slope_sum = 3, silent_force = 4, added_mass_sum = 7, torque_sum = 8, relaxation = 11, n_arrays };
+enum Array {
+  reacting_force = 0,
+  slope_sum = 3,
+  silent_force = 4,
+  added_mass_sum = 7,
+  torque_sum = 8,
+  torque_slope_sum = 11,
+  relaxation = 12,
+  seen_velocity = 13,
+  n_arrays = 16
+};
+
+/// Mean of the relaxation over a sub-step.
+inline double mean_relaxation(double theta) { return (1 + theta / 6) / (1 + theta * (2.0 / 3 + theta / 6)); }
 }  // namespace
 
-FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::vector<Rag>& rags)
-    : forces_(forces), field_(field), rags_(rags) {
-  for (const auto& force : forces_) {
-    const Card card = force->card();
+FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::vector<Rag>& rags) : field_(field), rags_(rags) {
+  std::vector<std::pair<Card, const FluidForce*>> cards;
+  for (const auto& force : forces) cards.emplace_back(force->card(), force.get());
+  std::sort(cards.begin(), cards.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.first.role, a.first.name) < std::tie(b.first.role, b.first.name); });
+  for (const auto& [card, force] : cards) {
     needed_ = needed_ | card.samples;
-    reacts_.push_back(card.reacts_on_fluid);
+    forces_.push_back({force, card.reacts_on_fluid, card.role, memory_});
+    memory_ += card.memory;
+    changes_fluid_ = changes_fluid_ || card.role == Role::fluid;
     all_react_ = all_react_ && card.reacts_on_fluid;
     torque_ = torque_ || card.gives_torque, added_mass_ = added_mass_ || card.gives_added_mass;
   }
@@ -41,8 +59,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
     const int first = tile.index(0, j), end = first + tile.nx;
 #pragma omp simd
     for (int k = first; k < end; ++k) {
-      const double theta = step * slope[k] / (m + added_mass[k]);
-      const double mean = (1 + theta / 6) / (1 + theta * (2.0 / 3 + theta / 6));
+      const double mean = mean_relaxation(step * slope[k] / (m + added_mass[k]));
       Q[k] += exists[k] * step * slope[k] * (free[k] > 0 ? mean : 1);
       phi[k] = free[k] > 0 ? mean * m / (m + added_mass[k]) : 1;  // m a over the sum of all forces
     }
@@ -57,33 +74,52 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
       }
     }
   }
-  if (torque_) add_torque(tile);
+  if (torque_) add_torque(tile, step);
 }
 
 /// All forces on the particles of a tile.
-void FluidLoad::evaluate(std::size_t index, const Tile& tile, double step) {
-  const Particles particles(rags_[tile.rag], tile);
+void FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
+  Particles particles(rags_[tile.rag], tile);
+  particles.step = step;
+  particles.memory_stride = tile.exists.size();
+  if (memory_ > 0 && tile.memory.empty()) tile.memory.assign(memory_ * tile.exists.size(), 0.0);
   const auto clear = [&](int f, int count) {
     for (int i = f; i < f + count; ++i) std::fill(array(i) + particles.begin, array(i) + particles.end, 0.0);
   };
   clear(reacting_force, 4);  // with the slope
   if (!all_react_) clear(silent_force, 3);
   if (added_mass_) clear(added_mass_sum, 1);
-  if (torque_) clear(torque_sum, 3);
+  if (torque_) clear(torque_sum, 4);  // with the slope
   const auto vector = [&](int f) { return VectorSum{array(f), array(f + 1), array(f + 2)}; };
-  const Forces reacting{vector(reacting_force), vector(torque_sum), array(slope_sum), array(added_mass_sum)};
-  const Forces silent{vector(silent_force), vector(torque_sum), array(slope_sum), array(added_mass_sum)};
+  Forces reacting{vector(reacting_force), vector(torque_sum), array(slope_sum), array(added_mass_sum), array(torque_slope_sum)};
+  Forces silent = reacting;
+  silent.force = vector(silent_force);
   // The middle of the sub-step is where the integrator evaluates forces.
-  const FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
-  for (std::size_t i = 0; i < forces_.size(); ++i) forces_[i]->add(fluid, particles, reacts_[i] ? reacting : silent);
+  FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
+  if (changes_fluid_) {
+    reacting.fluid_velocity = vector(seen_velocity);
+    const double* from[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
+    for (int i = 0; i < 3; ++i) std::copy(from[i] + particles.begin, from[i] + particles.end, array(seen_velocity + i) + particles.begin);
+    fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
+  }
+  for (const Member& member : forces_) {
+    particles.memory = tile.memory.data() + member.memory_begin * particles.memory_stride;
+    member.force->add(fluid, particles, member.reacts ? reacting : silent);
+  }
 }
 
-void FluidLoad::add_torque(Tile& tile) {
+void FluidLoad::add_torque(Tile& tile, double step) {
+  const double over_inertia = step / rags_[tile.rag].inertia;
+  const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(torque_slope_sum);
   for (int j = 0; j < tile.ny; ++j)
     for (int i = 0; i < 3; ++i) {
       const double* T = array(torque_sum + i);
       double* t = tile.field(Tile::tx + i);
-      for (int k = tile.index(0, j); k < tile.index(tile.nx, j); ++k) t[k] += tile.exists[k] > 0 ? T[k] : 0;
+#pragma omp simd
+      for (int k = tile.index(0, j); k < tile.index(tile.nx, j); ++k) {
+        const double phi = free[k] > 0 ? mean_relaxation(over_inertia * slope[k]) : 1;
+        t[k] = exists[k] > 0 ? (t[k] + T[k]) * phi : t[k];
+      }
     }
 }
 

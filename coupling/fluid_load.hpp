@@ -11,6 +11,7 @@
 // much lighter than its drag takes the fluid's velocity within one sub-step, without ringing. F_other must be complete: bonds, contacts and
 // walls come before the fluid. Particles that a clamp holds (Tile::free = 0) feel the force without relaxing: phi = 1. Forces that do not
 // react on the fluid (weight and buoyancy) act on the particle and are left out of J.
+// Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I).
 // Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
 #include <memory>
 
@@ -30,6 +31,8 @@ class FluidLoad final : public TileForce {
 
   /// Samples the fluid and sets all sums to zero. Collective.
   void begin_step(std::span<const Tile> tiles);
+  /// Numbers that the forces keep for each particle (Tile::memory).
+  int memory() const { return memory_; }
   void add(std::size_t index, Tile& tile, double step) override;
 
   /// J of the particle at place k of a tile, N s.
@@ -42,20 +45,27 @@ class FluidLoad final : public TileForce {
   double max_stiffness(std::span<const Tile> tiles) const;
 
  private:
-  void evaluate(std::size_t index, const Tile& tile, double step);
-  void add_torque(Tile& tile);
+  void evaluate(std::size_t index, Tile& tile, double step);
+  void add_torque(Tile& tile, double step);
   double* array(int f) { return scratch_.data() + f * scratch_size_; }
 
-  const FluidForces& forces_;
+  /// A force with what its card says.
+  struct Member {
+    const FluidForce* force;
+    bool reacts;
+    Role role;
+    int memory_begin;
+  };
+  std::vector<Member> forces_;  // in the order in which they act
   FluidField& field_;
   const std::vector<Rag>& rags_;
   SampleSet needed_;
-  std::vector<bool> reacts_;                                     // by force
-  bool all_react_ = true, torque_ = false, added_mass_ = false;  // what the forces give
-  std::vector<double> elapsed_;                                  // since the start of the step, by tile, s
-  TileArrays sums_;                                              // J, Q
-  AlignedDoubles scratch_;                                       // [n_arrays][scratch_size_]; fields that no force writes stay zero
-  std::size_t scratch_size_ = 0;                                 // places of the largest tile
+  bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false;  // what the forces give
+  int memory_ = 0;
+  std::vector<double> elapsed_;   // since the start of the step, by tile, s
+  TileArrays sums_;               // J, Q
+  AlignedDoubles scratch_;        // [n_arrays][scratch_size_]; fields that no force writes stay zero
+  std::size_t scratch_size_ = 0;  // places of the largest tile
 };
 
 }  // namespace snag

@@ -67,6 +67,8 @@ struct Tile {
   AlignedDoubles free;    // [(ny + 2) * stride] 1: obeys the forces; 0: keeps its velocity (held by a clamp, or absent)
   // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
   AlignedDoubles bond_x, bond_y;
+  // [n][(ny + 2) * stride] what a force from outside keeps for each particle: moved and stored with it; empty if none
+  AlignedDoubles memory;
 
   /// Sizes the arrays for nx x ny particles: everything zero, unit quaternions, nothing exists.
   void allocate(int tile_nx, int tile_ny);

@@ -24,6 +24,10 @@ SphereState slanted_state() {
   s.pressure_gradient = {900, -400, 2000};
   s.material_acceleration = {2, -5, 3};
   s.position = {0.1, 0.2, 0.3};
+  s.turbulent_kinetic_energy = 0.02, s.dissipation_rate = 0.3, s.solid_fraction = 0.2;
+  s.turbulent_kinetic_energy_gradient = {0.3, -0.1, 0.2};
+  s.wall_distance = 1.7e-3, s.wall_normal = unit({1, -2, 2});
+  s.next_in_row = {1.2e-3, 1.5e-3, -0.4e-3}, s.next_row = {0.3e-3, -0.5e-3, 1.9e-3};
   return s;
 }
 
@@ -71,6 +75,11 @@ TEST(Forces, ReferenceCases) {
       const auto load = load_on_sphere(force, reference.state);
       const double scale = std::max(norm(reference.force), 1e-30);
       expect_near(load.force, reference.force, reference.tolerance * scale + 1e-18, reference.what);
+      if (reference.torque)
+        expect_near(load.torque, *reference.torque, reference.tolerance * norm(*reference.torque), reference.what + ": torque");
+      if (reference.added_mass) {
+        EXPECT_NEAR(load.added_mass, *reference.added_mass, reference.tolerance * *reference.added_mass) << reference.what;
+      }
     }
   });
 }
@@ -94,8 +103,10 @@ TEST(Forces, Rotation) {
     const SphereState s = slanted_state();
     const auto straight = load_on_sphere(force, s);
     SphereState t = s;
-    for (auto member : {&SphereState::fluid_velocity, &SphereState::pressure_gradient, &SphereState::material_acceleration,
-                        &SphereState::position, &SphereState::velocity, &SphereState::angular_velocity})
+    for (auto member :
+         {&SphereState::fluid_velocity, &SphereState::pressure_gradient, &SphereState::material_acceleration, &SphereState::position,
+          &SphereState::velocity, &SphereState::angular_velocity, &SphereState::turbulent_kinetic_energy_gradient,
+          &SphereState::wall_normal, &SphereState::next_in_row, &SphereState::next_row})
       t.*member = turn * (s.*member);
     t.velocity_gradient = turned(s.velocity_gradient);
     for (const auto& parameter : force.parameters())
@@ -104,6 +115,55 @@ TEST(Forces, Rotation) {
     expect_near(load.force, turn * straight.force, 1e-12 * norm(straight.force), "force");
     expect_near(load.torque, turn * straight.torque, 1e-12 * norm(straight.torque), "torque");
     EXPECT_NEAR(load.slope, straight.slope, 1e-12 * straight.slope);
+  });
+}
+
+/// The load of schiller_naumann alone.
+SphereLoad base_load(const SphereState& s) { return load_on_sphere(*fluid_forces().make("schiller_naumann", "test"), s); }
+
+/// Sets theta, the number at the key of the prior.
+void set_strength(FluidForce& force, const std::string& name, double theta) {
+  const std::string key = force.card().prior->key, table = (name == "gravity" ? name : "coupling." + name) + ".";
+  ASSERT_EQ(key.rfind(table, 0), 0u) << key;
+  for (const auto& parameter : force.parameters()) {
+    if (key_with_unit(parameter) != key.substr(table.size())) continue;
+    auto* target = std::get_if<double*>(&parameter.target);
+    ASSERT_NE(target, nullptr) << key;
+    EXPECT_TRUE(theta >= parameter.minimum && theta <= parameter.maximum) << key << " = " << theta;
+    **target = theta;
+    return;
+  }
+  FAIL() << key << " is no key of " << name;
+}
+
+// Requirement: a candidate of the diagnosis at strength zero is the base model to the bit, and at its prior mean it is not, where the state
+// has all it can need; all of the range of its prior is allowed by its key, in each of its forms.
+TEST(Forces, CandidatesAreTheBaseModelAtZero) {
+  for_each_force([](FluidForce& force, const std::string& name) {
+    if (!force.card().prior || name == "gravity") return;  // the strength of gravity is a vector
+    const Prior prior = *force.card().prior;
+    EXPECT_TRUE(prior.minimum <= prior.mean && prior.mean <= prior.maximum && prior.sd > 0 && prior.minimum <= 0 && prior.maximum >= 0);
+    std::vector<std::string> forms{""};
+    for (const auto& parameter : force.parameters())
+      if (parameter.key == "form") forms = parameter.choices;
+    for (const std::string& form : forms) {
+      SCOPED_TRACE(form);
+      for (const auto& parameter : force.parameters())
+        if (parameter.key == "form") **std::get_if<std::string*>(&parameter.target) = form;
+      const bool on_drag = force.card().role != Role::force;
+      const SphereState s = slanted_state();
+      const SphereLoad base = on_drag ? base_load(s) : SphereLoad{};
+      for (const double extreme : {prior.minimum, prior.maximum}) set_strength(force, name, extreme);
+      set_strength(force, name, 0);
+      const SphereLoad none = load_on_sphere(force, s);
+      EXPECT_EQ(none.force, base.force);
+      EXPECT_EQ(none.torque, base.torque);
+      EXPECT_EQ(none.slope, base.slope);
+      EXPECT_EQ(none.added_mass, base.added_mass);
+      set_strength(force, name, prior.mean);
+      const SphereLoad there = load_on_sphere(force, s);
+      EXPECT_TRUE(norm(there.force - base.force) > 0 || norm(there.torque) > 0);
+    }
   });
 }
 

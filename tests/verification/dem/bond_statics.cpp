@@ -31,31 +31,77 @@ struct LoadedChain {
   std::int64_t last;
 };
 
+/// Two particles bonded lengthwise (0) or crosswise (1).
+RagPiece pair_along(int direction) { return direction == 0 ? cloth(2, 1) : cloth(1, 2); }
+constexpr std::array<Tile::Field, 2> along{Tile::x, Tile::y};
+
 TEST(BondStatics, TwoParticlesElongateByForceOverStiffness) {
-  // Requirement: elongation F/(S_n A), to 1e-9 of it.
-  RagPiece pair = cloth(2, 1);
-  pair.rag.bond_damping = 0.5;
-  const double stiffness = pair.rag.bond[0].normal_stiffness * pi * 1e-6, F = 0.4;
-  LoadedChain chain(pair, {F, 0, 0}, {}, 3e4, 0.02);
-  EXPECT_NEAR((chain.tip().x - 2e-3) / (F / stiffness), 1, 1e-9);
+  // Requirement: elongation F/(S_n A) in both directions, to 1e-9 of it.
+  for (const int direction : {0, 1}) {
+    RagPiece pair = pair_along(direction);
+    pair.rag.bond_damping = 0.5;
+    const double stiffness = pair.rag.bond[direction].normal_stiffness * pi * 1e-6, F = 0.4;
+    Vec3 force;
+    force[direction] = F;
+    RagSystem rags(MPI_COMM_SELF, {}, {pair});
+    rags.clamp([](std::int64_t id) { return id == 0; });
+    rags.set_damping_rate(3e4);
+    EachParticle load(rags, [&](Tile& tile, int k, std::int64_t id) {
+      add_drag(rags, tile, k, 3e4);
+      if (id == 1) add_to(tile, Tile::fx, k, force);
+    });
+    rags.advance(0.02, &load);
+    const Vec3 end = position(rags, 1) - position(rags, 0);
+    EXPECT_NEAR((end[direction] - 2e-3) / (F / stiffness), 1, 1e-9);
+  }
 }
 
 TEST(BondStatics, BondBreaksAtItsStrength) {
-  // Requirement: under pure tension a bond holds below sigma_c A and breaks above, once and for good.
+  // Requirement: under pure tension a bond holds below sigma_c A and breaks above, once and for good, in both directions.
+  for (const int direction : {0, 1})
+    for (const double excess : {-1e-6, 1e-6}) {
+      RagPiece pair = pair_along(direction);
+      pair.rag.breakage = true;
+      RagSystem rags(MPI_COMM_SELF, {}, {pair});
+      rags.clamp([](std::int64_t) { return true; });
+      const BondProperties& bond = pair.rag.bond[direction];
+      const double strain = bond.normal_strength / bond.normal_stiffness / 2e-3 * (1 + excess);
+      const auto [tile, k] = find(rags, 1);
+      double& place = tile->field(along[direction])[k];
+      place += 2e-3 * strain;
+      rags.advance(1e-5);
+      EXPECT_EQ(rags.check()[0].broken, excess > 0 ? 1 : 0);
+      place -= 2e-3 * strain;
+      rags.advance(1e-5);
+      EXPECT_EQ(rags.check()[0].broken, excess > 0 ? 1 : 0);
+      EXPECT_EQ(direction == 0 ? tile->bond_x[k - 1] : tile->bond_y[k - tile->stride], excess > 0 ? 0.0 : 1.0);
+    }
+}
+
+TEST(BondStatics, BondBreaksAtItsShearStrength) {
+  // Requirement: an end moved sideways by s strains the bond by a shear force of S_t A s (both ends unturned, to first order in s/l0) and
+  // breaks it where that exceeds the shear strength times A; twist by an angle psi where S_t J psi r/J does.
   for (const double excess : {-1e-6, 1e-6}) {
     RagPiece pair = cloth(2, 1);
     pair.rag.breakage = true;
+    pair.rag.bond[0].normal_strength = 0;
+    const double strength = 0.02 * pair.rag.bond[0].tangential_stiffness * 1e-3;  // Pa: an angle of 0.02, a displacement of 0.02 r
+    pair.rag.bond[0].shear_strength = strength;
+    {
+      RagSystem rags(MPI_COMM_SELF, {}, {pair});
+      rags.clamp([](std::int64_t) { return true; });
+      const auto [tile, k] = find(rags, 1);
+      tile->field(Tile::y)[k] += 0.02e-3 * (1 + excess);
+      rags.advance(1e-5);
+      EXPECT_EQ(rags.check()[0].broken, excess > 0 ? 1 : 0);
+    }
     RagSystem rags(MPI_COMM_SELF, {}, {pair});
     rags.clamp([](std::int64_t) { return true; });
-    const double strain = pair.rag.bond[0].normal_strength / pair.rag.bond[0].normal_stiffness / 2e-3 * (1 + excess);
     const auto [tile, k] = find(rags, 1);
-    tile->field(Tile::x)[k] += 2e-3 * strain;
+    const double half = 0.01 * (1 + excess);
+    tile->field(Tile::qw)[k] = std::cos(half), tile->field(Tile::qx)[k] = std::sin(half);
     rags.advance(1e-5);
     EXPECT_EQ(rags.check()[0].broken, excess > 0 ? 1 : 0);
-    tile->field(Tile::x)[k] -= 2e-3 * strain;
-    rags.advance(1e-5);
-    EXPECT_EQ(rags.check()[0].broken, excess > 0 ? 1 : 0);
-    EXPECT_EQ(tile->bond_x[k - 1], excess > 0 ? 0.0 : 1.0);
   }
 }
 

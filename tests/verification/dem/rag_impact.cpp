@@ -6,6 +6,8 @@
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_measures.hpp"
 #include "dem/walls.hpp"
+#include "tests/unit/dem/wall_pieces.hpp"
+#include "tests/verification/dem/pieces.hpp"
 
 namespace snag {
 namespace {
@@ -36,6 +38,27 @@ TEST(RagImpact, CrumplingOnlyLosesEnergy) {
   EXPECT_GT(rags.contacts()->measures().max_overlap_over_radius, 0);
   EXPECT_EQ(rags.contacts()->measures().beyond_walls[0], 0);
   EXPECT_EQ(rags.check()[0].whole, rags.rags()[0].n_bonds);
+}
+
+TEST(RagImpact, SheetSlidesToRest) {
+  // Requirement: a sheet thrown along a floor of triangles slides v^2/(2 mu g) far, as on a plane: within 1 % of it, and stays there.
+  WallSet floor;
+  floor.add_surface("floor", test::sheet(9, 7, [](double u, double v) { return Vec3{0.1 * u - 0.02, 0.06 * v - 0.03, 0}; }));
+  const double speed = 0.3, mu = 0.3, g = 9.81;
+  RagPiece piece = testing_pieces::cloth(8, 6);
+  piece.rag.bond_damping = 0.5;
+  piece.centre = {0, 0, 1e-3}, piece.velocity = {speed, 0, 0};
+  RagSystem rags(MPI_COMM_SELF, {}, {piece});
+  ContactSettings settings;
+  settings.wall_friction = mu, settings.wall_restitution = 0.3;
+  rags.set_contacts(std::make_unique<ContactSolver>(settings, rags.rags(), &floor));
+  rags.set_gravity({0, 0, -g});
+  const double start = rag_states(rags)[0].centre.x;
+  rags.advance(1.5 * speed / (mu * g));
+  const double stop = rag_states(rags)[0].centre.x;
+  EXPECT_NEAR((stop - start) / (speed * speed / (2 * mu * g)), 1, 0.01);
+  rags.advance(0.05);
+  EXPECT_NEAR(rag_states(rags)[0].centre.x, stop, 1e-6);
 }
 
 TEST(RagMeasures, KnowAFlatSheet) {

@@ -1,0 +1,28 @@
+#pragma once
+// What makes a model a candidate of the diagnosis: one number theta, its key in the case file, and what is known of it beforehand.
+#include <string>
+#include <vector>
+
+namespace snag {
+
+/// theta = 0 is the base model to the bit. A force is switched on by its name in [coupling] forces with theta at `key`.
+struct Prior {
+  std::string key;                    // of theta in the case file: "coupling.added_mass.coefficient"; tables that repeat without number
+  std::string meaning;                // of theta, in words
+  std::string unit = "1";             // of theta
+  double mean = 0, sd = 1;            // of theta, given that the effect is there
+  double minimum = 0, maximum = 1e9;  // physical range of theta
+  bool random = false;                // runs with another seed (key `seed` of the same table) give another result
+  bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
+  /// What the case must have: "wall", "gradient" (of the velocity), "acceleration" (of water or particle), "turbulence" (k and epsilon),
+  /// "sheet" (neighbours in two directions), "bonds", "solid_fraction" (of a computed flow), "gravity", "contact", "several" (particles).
+  std::vector<std::string> needs = {};
+};
+
+/// A named effect that is not a force.
+struct Candidate {
+  std::string name;
+  Prior prior;
+};
+
+}  // namespace snag

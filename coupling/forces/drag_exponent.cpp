@@ -1,0 +1,47 @@
+// Drag with another dependence on velocity:   C_d -> C_d (max(Re, 1)/Re_ref)^theta,   Re = rho |w| d/mu
+//
+// Below Re = 1, where drag is linear whatever the body, the factor stays what it is at Re = 1, so that it is finite at rest.
+#include <algorithm>
+
+#include "coupling/drag_change.hpp"
+
+namespace snag {
+namespace {
+
+constexpr double least_reynolds = 1;
+
+struct DragExponent final : FluidForce {
+  static constexpr const char* name = "drag_exponent";
+  double exponent = 0, reference_reynolds = 100;
+
+  Card card() const override {
+    return {.name = name,
+            .equation = "C_d -> C_d (max(Re, 1)/Re_ref)^theta",
+            .source = "power law about a reference state",
+            .valid_for = "any drag law",
+            .role = Role::drag_change,
+            .prior = Prior{.key = "coupling.drag_exponent.exponent",
+                           .meaning = "change of the exponent of Re in the drag coefficient",
+                           .mean = 0.2,
+                           .sd = 0.2,
+                           .minimum = -1,
+                           .maximum = 1}};
+  }
+  std::vector<Parameter> parameters() override {
+    return {{"exponent", &exponent, "1", -1, 1, Basis::assumed, "theta; 0: the drag law as it is."},
+            {"reference_reynolds", &reference_reynolds, "1", 1e-6, 1e7, Basis::assumed, "Re_ref, where the drag law is right."}};
+  }
+  void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
+    if (exponent == 0) return;  // a power of zero is 1 only to the last digits
+    const double theta = exponent, per_reference = 1 / reference_reynolds;
+    multiply_drag(fluid, particles, forces,
+                  [=](int, const DragState& s) { return pow(per_reference * std::max(s.reynolds, least_reynolds), theta); });
+  }
+  std::vector<ReferenceCase> reference_cases() const override {
+    return {drag_at(100, 1.087, 0.02, "standard drag curve, Clift, Grace and Weber (1978), at the reference state")};
+  }
+};
+[[maybe_unused]] const bool registered = fluid_forces().add<DragExponent>();
+
+}  // namespace
+}  // namespace snag
