@@ -221,11 +221,18 @@ double last_time(const std::vector<Slot>& slots, double end) {
   return last;
 }
 
+void kick(RagSystem& rags, const OutsideForce& outside, double time, double dt) {
+  for (Tile& tile : rags.tiles())
+    for_particles(tile, [&](int k, int, int) {
+      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, tile.vector(Tile::x, k)));
+    });
+}
+
 }  // namespace
 
 bool is_observable_of_particles(const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
-std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor) {
+std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside) {
   std::vector<Slot> slots = slots_of(asked);
   Simulation run(file, MPI_COMM_SELF);
   if (!run.rags || run.mesh)
@@ -239,6 +246,7 @@ std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& aske
   observer.look(0);
   for (std::int64_t n = 0; n < n_steps && static_cast<double>(n) * dt < last * (1 - 1e-9); ++n) {
     run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
+    if (outside) kick(*run.rags, outside, (static_cast<double>(n) + 0.5) * dt, dt);
     observer.look(static_cast<double>(n + 1) * dt);
   }
   return observer.values();

@@ -1,6 +1,6 @@
 #pragma once
 // One run of a case for what a measurement would tell of it: no output, no files, on this rank alone.
-#include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -19,9 +19,13 @@ struct Asked {
 /// True for the names above.
 bool is_observable_of_particles(const std::string& name);
 
+/// Acceleration of a particle beside all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
+using OutsideForce = std::function<Vec3(double time, const Vec3& place)>;
+
 /// Runs a case without a mesh up to the last time that is asked for (its end, if a number of the whole run is asked for). NaN where there
 /// is no answer: a time beyond the end of the case, a retention time of a piece that stays. `step_factor`: of the time step, which is
 /// rounded to a whole number of steps, and of the sub-step, as far as that is stable. Throws Error.
-std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor = 1);
+std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor = 1,
+                            const OutsideForce& outside = {});
 
 }  // namespace snag
