@@ -153,6 +153,7 @@ void Simulation::couple(const CaseFile& file) {
     file.root().table("gravity").read({{"acceleration", &acceleration, "m/s2", -1e4, 1e4, Basis::assumed, "Acceleration of gravity."}});
     rags->set_gravity(acceleration);
   }
+  if (coupled) coupled->set_walls(walls);
 }
 
 void Simulation::step() {

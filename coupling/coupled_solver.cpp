@@ -24,7 +24,7 @@ void CoupledSolver::step(double dt) {
   timed(seconds_.coupling, [&] {
     if (owner_) rags_.migrate([this](const std::vector<Vec3>& centres) { return owner_->owner_of(centres); });
     if (prescribed_field_) prescribed_field_->set_time(rags_.time());
-    load_->begin_step(rags_.tiles());  // weights w_bc; fluid -> particles, consistent
+    load_->begin_step(rags_.tiles(), rags_.time());  // weights w_bc; fluid -> particles, consistent
   });
   timed(seconds_.rags, [&] { rags_.advance(dt, load_.get()); });  // in sub-steps; sums the impulse of the fluid on each particle
   timed(seconds_.coupling, [&] { give(dt); });                    // particles -> fluid, conservative: solid fraction, reaction, drag
@@ -40,7 +40,7 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
-  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_);
+  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
   exchange_ = std::make_unique<Exchange>(*kernel_, flow);
 }

@@ -37,6 +37,8 @@ class CoupledSolver {
   /// Rags in a prescribed flow, one-way.
   CoupledSolver(Coupling coupling, RagSystem& rags, const PrescribedFlow& flow);
 
+  /// Walls for forces that need them; `walls` must outlive the solver.
+  void set_walls(const WallSet& walls) { load_->set_walls(walls); }
   /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit on both sides. Collective.
   /// Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost.
   void step(double dt);

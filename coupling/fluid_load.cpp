@@ -16,7 +16,9 @@ enum Array {
   torque_slope_sum = 11,
   relaxation = 12,
   seen_velocity = 13,
-  n_arrays = 16
+  wall_distance = 16,
+  wall_normal = 17,
+  n_arrays = 20
 };
 
 /// Mean of the relaxation over a sub-step.
@@ -38,7 +40,12 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
   }
 }
 
-void FluidLoad::begin_step(std::span<const Tile> tiles) {
+void FluidLoad::set_walls(const WallSet& walls) {
+  if (needed_.wall) nearest_wall_.emplace(walls, rags_);
+}
+
+void FluidLoad::begin_step(std::span<const Tile> tiles, double time) {
+  time_ = time;
   field_.sample(tiles, needed_);
   elapsed_.assign(tiles.size(), 0.0);
   sums_.reset(tiles, n_sums);
@@ -101,6 +108,14 @@ void FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
     const double* from[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
     for (int i = 0; i < 3; ++i) std::copy(from[i] + particles.begin, from[i] + particles.end, array(seen_velocity + i) + particles.begin);
     fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
+  }
+  if (needed_.wall) {
+    if (nearest_wall_)
+      nearest_wall_->find(particles, time_ + elapsed_[index] + 0.5 * step, array(wall_distance), vector(wall_normal));
+    else
+      std::fill(array(wall_distance) + particles.begin, array(wall_distance) + particles.end, 1e9);
+    fluid.wall_distance = array(wall_distance);
+    fluid.wall_normal = {array(wall_normal), array(wall_normal + 1), array(wall_normal + 2)};
   }
   for (const Member& member : forces_) {
     particles.memory = tile.memory.data() + member.memory_begin * particles.memory_stride;

@@ -17,6 +17,7 @@
 
 #include "coupling/fluid_field.hpp"
 #include "coupling/fluid_force.hpp"
+#include "coupling/nearest_wall.hpp"
 #include "coupling/particle_list.hpp"
 #include "dem/rag_system.hpp"
 
@@ -29,8 +30,12 @@ class FluidLoad final : public TileForce {
   /// All arguments must outlive the load; `rags` are those that Tile::rag counts.
   FluidLoad(const FluidForces& forces, FluidField& field, const std::vector<Rag>& rags);
 
-  /// Samples the fluid and sets all sums to zero. Collective.
-  void begin_step(std::span<const Tile> tiles);
+  /// Walls for forces that need them; `walls` must outlive the load.
+  void set_walls(const WallSet& walls);
+  /// What the forces need of the fluid.
+  const SampleSet& needed() const { return needed_; }
+  /// Samples the fluid at `time` (s) and sets all sums to zero. Collective.
+  void begin_step(std::span<const Tile> tiles, double time);
   /// Numbers that the forces keep for each particle (Tile::memory).
   int memory() const { return memory_; }
   void add(std::size_t index, Tile& tile, double step) override;
@@ -62,6 +67,8 @@ class FluidLoad final : public TileForce {
   SampleSet needed_;
   bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false;  // what the forces give
   int memory_ = 0;
+  std::optional<NearestWall> nearest_wall_;
+  double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s
   TileArrays sums_;               // J, Q
   AlignedDoubles scratch_;        // [n_arrays][scratch_size_]; fields that no force writes stay zero

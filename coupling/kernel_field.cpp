@@ -2,10 +2,22 @@
 
 #include <numeric>
 
+#include "base/error.hpp"
+
 namespace snag {
 
 namespace {
-enum Field { velocity = 0, gradient = 3, pressure_gradient = 12, acceleration = 15, n_fields = 18 };
+enum Field {
+  velocity = 0,
+  gradient = 3,
+  pressure_gradient = 12,
+  acceleration = 15,
+  k = 18,
+  epsilon = 19,
+  k_gradient = 20,
+  solid = 23,
+  n_fields = 24
+};
 }
 
 void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
@@ -23,13 +35,13 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   add(flow_.velocity.data(), 3, velocity);
   if (needed.velocity_gradient) add(flow_.velocity_gradient.data(), 9, gradient);
   if (needed.pressure_gradient) add(flow_.pressure_gradient.data(), 3, pressure_gradient);
-  if (needed.material_acceleration) {
-    acceleration_.resize(flow_.mesh.n_cells);
-    const double rate = last_step_ > 0 ? 1 / last_step_ : 0;
-    for (int c = 0; c < flow_.mesh.n_cells; ++c)
-      acceleration_[c] = rate * (flow_.velocity[c] - flow_.velocity_old[c]) + flow_.velocity_gradient[c] * flow_.velocity[c];
-    add(acceleration_.data(), 3, acceleration);
+  if (needed.material_acceleration) set_acceleration(), add(acceleration_.data(), 3, acceleration);
+  if (needed.turbulence) {
+    set_turbulence_gradient();
+    add(flow_.turbulent_kinetic_energy.data(), 1, k), add(flow_.dissipation_rate.data(), 1, epsilon);
+    add(k_gradient_.data(), 3, k_gradient);
   }
+  if (needed.solid_fraction) set_solid_fraction(tiles), add(solid_.data(), 1, solid);
   const std::vector<double> values = kernel_.average(fields);
 
   arrays_.reset(tiles, n_fields);
@@ -39,6 +51,37 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
       arrays_.field(particles_.tile(b), field_of_component[j])[particles_.place(b)] = values[b * components + j];
 }
 
+void KernelField::set_acceleration() {
+  acceleration_.resize(flow_.mesh.n_cells);
+  const double rate = last_step_ > 0 ? 1 / last_step_ : 0;
+  for (int c = 0; c < flow_.mesh.n_cells; ++c)
+    acceleration_[c] = rate * (flow_.velocity[c] - flow_.velocity_old[c]) + flow_.velocity_gradient[c] * flow_.velocity[c];
+}
+
+/// At boundaries k of the cell counts: the slope towards a wall is that on the side of the fluid.
+void KernelField::set_turbulence_gradient() {
+  const Mesh& mesh = flow_.mesh;
+  const std::vector<double>& value = flow_.turbulent_kinetic_energy;
+  if (value.empty())
+    throw Error(ExitCode::usage,
+                "[coupling] forces: turbulent_dispersion needs k and epsilon, but this flow has none; give [turbulence] model = "
+                "\"k_epsilon\", or remove the force");
+  k_gradient_.assign(mesh.n_cells, {});
+  for (int f = 0; f < mesh.n_faces; ++f) {
+    const int owner = mesh.owner[f], neighbour = f < mesh.n_interior ? mesh.neighbour[f] : -1;
+    const double at_face = neighbour < 0 ? value[owner] : mesh.weight[f] * value[owner] + (1 - mesh.weight[f]) * value[neighbour];
+    if (owner < mesh.n_cells) k_gradient_[owner] += at_face / mesh.cell_volume[owner] * mesh.face_vector[f];
+    if (neighbour >= 0 && neighbour < mesh.n_cells) k_gradient_[neighbour] -= at_face / mesh.cell_volume[neighbour] * mesh.face_vector[f];
+  }
+}
+
+void KernelField::set_solid_fraction(std::span<const Tile> tiles) {
+  std::vector<double> volume(particles_.size());
+  for (std::size_t b = 0; b < volume.size(); ++b) volume[b] = rags_[tiles[particles_.tile(b)].rag].hydrodynamic_volume;
+  solid_.assign(flow_.mesh.n_cells, 0.0);
+  kernel_.spread(volume, 1, solid_);
+}
+
 FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
   const auto vector = [&](int f) { return VectorArray{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
   return {.density = flow_.density,
@@ -46,7 +89,11 @@ FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
           .velocity = vector(velocity),
           .velocity_gradient = {vector(gradient), vector(gradient + 3), vector(gradient + 6)},
           .pressure_gradient = vector(pressure_gradient),
-          .material_acceleration = vector(acceleration)};
+          .material_acceleration = vector(acceleration),
+          .turbulent_kinetic_energy = arrays_.field(index, k),
+          .dissipation_rate = arrays_.field(index, epsilon),
+          .turbulent_kinetic_energy_gradient = vector(k_gradient),
+          .solid_fraction = arrays_.field(index, solid)};
 }
 
 }  // namespace snag

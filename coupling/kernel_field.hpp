@@ -1,6 +1,7 @@
 #pragma once
 // The water of the flow solver at the particles: kernel averages, frozen over the sub-steps of one fluid step.
 //
+//   solid fraction: volumes of the particles spread by the kernel and averaged back; grad k by Gauss over the faces of the cells
 //   Du/Dt = (u^n - u^(n-1))/dt + G u      from the last step's length dt; before the first step the flow counts as steady
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
@@ -11,7 +12,8 @@ namespace snag {
 
 class KernelField final : public FluidField {
  public:
-  KernelField(const Flow& flow, Kernel& kernel) : flow_(flow), kernel_(kernel) {}
+  /// `rags`: those that Tile::rag counts.
+  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags) : flow_(flow), kernel_(kernel), rags_(rags) {}
   /// Length of the step that led to the present state, s; 0: none yet.
   void set_last_step(double dt) { last_step_ = dt; }
   double last_step() const { return last_step_; }
@@ -21,11 +23,18 @@ class KernelField final : public FluidField {
   const ParticleList& particles() const { return particles_; }
 
  private:
+  void set_acceleration();
+  void set_turbulence_gradient();
+  void set_solid_fraction(std::span<const Tile> tiles);
+
   const Flow& flow_;
   Kernel& kernel_;
+  const std::vector<Rag>& rags_;
   double last_step_ = 0;
   ParticleList particles_;
   std::vector<Vec3> acceleration_;  // Du/Dt of the owned cells, m/s2
+  std::vector<Vec3> k_gradient_;    // of the owned cells, m/s2
+  std::vector<double> solid_;       // of the owned cells
   TileArrays arrays_;
 };
 

@@ -36,6 +36,12 @@ class TileArrays {
     for (std::size_t t = 0; t < tiles.size(); ++t) values_[t].assign(static_cast<std::size_t>(n_fields) * tiles[t].exists.size(), 0.0);
     n_fields_ = n_fields;
   }
+  /// Of the right size, whatever they hold.
+  void fit(std::span<const Tile> tiles, int n_fields) {
+    bool fits = n_fields == n_fields_ && tiles.size() == values_.size();
+    for (std::size_t t = 0; fits && t < tiles.size(); ++t) fits = values_[t].size() == n_fields * tiles[t].exists.size();
+    if (!fits) reset(tiles, n_fields);
+  }
   double* field(std::size_t tile, int f) { return values_[tile].data() + f * (values_[tile].size() / n_fields_); }
   const double* field(std::size_t tile, int f) const { return values_[tile].data() + f * (values_[tile].size() / n_fields_); }
 

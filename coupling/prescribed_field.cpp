@@ -1,5 +1,6 @@
 #include "coupling/prescribed_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -9,7 +10,17 @@ namespace snag {
 namespace {
 
 constexpr double water_viscosity = 1.003e-3;  // Pa s, at 20 degrees Celsius
-enum Field { velocity = 0, gradient = 3, pressure_gradient = 12, acceleration = 15, n_fields = 18 };
+enum Field {
+  velocity = 0,
+  gradient = 3,
+  pressure_gradient = 12,
+  acceleration = 15,
+  k = 18,
+  epsilon = 19,
+  k_gradient = 20,
+  solid = 23,
+  n_fields = 24
+};
 
 }  // namespace
 
@@ -25,7 +36,12 @@ Section PrescribedFlow::section() {
        {"gradient", &gradient, "1/s", -1e6, 1e6, Basis::assumed, "Velocity gradient, row i: du_i/dx, du_i/dy, du_i/dz."},
        {"amplitude", &amplitude, "m/s", -1e3, 1e3, Basis::assumed, "Amplitude of the oscillating part."},
        {"omega", &omega, "1/s", 0, 1e6, Basis::assumed, "Angular frequency of the oscillating part."},
-       {"phase", &phase, "rad", -10, 10, Basis::assumed, "Phase of the oscillating part at t = 0."}}};
+       {"phase", &phase, "rad", -10, 10, Basis::assumed, "Phase of the oscillating part at t = 0."},
+       {"turbulent_kinetic_energy", &turbulent_kinetic_energy, "m2/s2", 0, 1e4, Basis::assumed,
+        "k at the origin, of turbulence that the formula does not hold."},
+       {"turbulent_kinetic_energy_gradient", &turbulent_kinetic_energy_gradient, "m/s2", -1e4, 1e4, Basis::assumed,
+        "Gradient of k; where k would be negative it is zero."},
+       {"dissipation_rate", &dissipation_rate, "m2/s3", 0, 1e6, Basis::assumed, "epsilon of that turbulence."}}};
 }
 
 double PrescribedFlow::viscosity() const {
@@ -37,7 +53,7 @@ double PrescribedFlow::viscosity() const {
 
 void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   needed_ = needed;
-  arrays_.reset(tiles, n_fields);
+  arrays_.fit(tiles, n_fields);
 }
 
 FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed) {
@@ -49,19 +65,26 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
     rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(angle);
   }
   const auto vector = [&](int f) { return VectorSum{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
-  const auto set = [](const VectorSum& to, int k, const Vec3& v) { to.x[k] = v.x, to.y[k] = v.y, to.z[k] = v.z; };
+  const auto set = [](const VectorSum& to, int p, const Vec3& v) { to.x[p] = v.x, to.y[p] = v.y, to.z[p] = v.z; };
   const VectorSum u_at = vector(velocity), p_at = vector(pressure_gradient), a_at = vector(acceleration);
   const std::array G_at{vector(gradient), vector(gradient + 3), vector(gradient + 6)};
   const Mat3& G = flow_.gradient;
-  for (int k = tile.index(0, 0); k < tile.index(tile.nx, tile.ny - 1); ++k) {
-    const Vec3 u = uniform + G * tile.vector(Tile::x, k);
-    set(u_at, k, u);
+  for (int p = tile.index(0, 0); p < tile.index(tile.nx, tile.ny - 1); ++p) {
+    const Vec3 u = uniform + G * tile.vector(Tile::x, p);
+    set(u_at, p, u);
     if (needed_.velocity_gradient)
-      for (int i = 0; i < 3; ++i) set(G_at[i], k, G[i]);
+      for (int i = 0; i < 3; ++i) set(G_at[i], p, G[i]);
+    if (needed_.turbulence) {
+      const Vec3& slope = flow_.turbulent_kinetic_energy_gradient;
+      const double here = flow_.turbulent_kinetic_energy + dot(slope, tile.vector(Tile::x, p));
+      arrays_.field(index, k)[p] = std::max(here, 0.0);
+      arrays_.field(index, epsilon)[p] = flow_.dissipation_rate;
+      set(vector(k_gradient), p, here > 0 ? slope : Vec3{});
+    }
     if (!needed_.material_acceleration && !needed_.pressure_gradient) continue;
     const Vec3 acceleration_here = rate + G * u;
-    set(a_at, k, acceleration_here);
-    set(p_at, k, -flow_.density * acceleration_here);
+    set(a_at, p, acceleration_here);
+    set(p_at, p, -flow_.density * acceleration_here);
   }
   const auto array = [](const VectorSum& v) { return VectorArray{v.x, v.y, v.z}; };
   return {.density = flow_.density,
@@ -69,7 +92,11 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
           .velocity = array(u_at),
           .velocity_gradient = {array(G_at[0]), array(G_at[1]), array(G_at[2])},
           .pressure_gradient = array(p_at),
-          .material_acceleration = array(a_at)};
+          .material_acceleration = array(a_at),
+          .turbulent_kinetic_energy = arrays_.field(index, k),
+          .dissipation_rate = arrays_.field(index, epsilon),
+          .turbulent_kinetic_energy_gradient = array(vector(k_gradient)),
+          .solid_fraction = arrays_.field(index, solid)};
 }
 
 }  // namespace snag

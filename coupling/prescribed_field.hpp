@@ -2,6 +2,7 @@
 // A flow that is given as a formula and feels nothing: single spheres and fibres without a mesh.
 //
 //   u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(omega_i t + phase_i)
+//   k(x) = max(k_0 + x . grad k, 0),   epsilon uniform
 //   Du/Dt = du/dt + G u,    grad p = -rho Du/Dt + mu lap u = -rho Du/Dt      (beside the hydrostatic)
 //
 // Evaluated where the particles are at every sub-step.
@@ -18,6 +19,8 @@ struct PrescribedFlow {
   Vec3 velocity;                                                 // m/s
   Mat3 gradient{};                                               // 1/s
   Vec3 amplitude, omega, phase;                                  // m/s, rad/s, rad
+  double turbulent_kinetic_energy = 0, dissipation_rate = 0;     // k at the origin, m2/s2; epsilon, m2/s3
+  Vec3 turbulent_kinetic_energy_gradient;                        // m/s2
 
   Section section();
   /// Throws Error(usage) if both viscosities are given.

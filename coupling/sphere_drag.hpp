@@ -7,13 +7,14 @@
 // written with C_d Re = 24 f(Re), finite at rest, so that no law divides 0/0. K is also the slope for the implicit step (secant).
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "coupling/fluid_force.hpp"
 #include "coupling/vector_math.hpp"
 
 namespace snag {
 
-/// `drag_times_Re(Re)` is C_d Re.
+/// `drag_times_Re(Re)` or, where it depends on more of the particle p than that, `drag_times_Re(Re, p)` is C_d Re.
 template <class Law>
 void add_sphere_drag(const FluidSamples& fluid, const Particles& particles, const Forces& forces, const Law& drag_times_Re) {
   const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter;
@@ -27,7 +28,12 @@ void add_sphere_drag(const FluidSamples& fluid, const Particles& particles, cons
   for (int p = particles.begin; p < particles.end; ++p) {
     const double wx = u.x[p] - v.x[p], wy = u.y[p] - v.y[p], wz = u.z[p] - v.z[p];
     const double Re = rho * std::sqrt(wx * wx + wy * wy + wz * wz) * d / mu;
-    const double K = K_factor * drag_times_Re(Re);
+    const double K = K_factor * [&] {
+      if constexpr (std::is_invocable_v<Law, double, int>)
+        return drag_times_Re(Re, p);
+      else
+        return drag_times_Re(Re);
+    }();
     force.x[p] += K * wx, force.y[p] += K * wy, force.z[p] += K * wz;
     slope[p] += K;
   }

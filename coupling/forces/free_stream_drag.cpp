@@ -16,7 +16,8 @@ struct FreeStreamDrag final : FluidForce {
     return {.name = name,
             .equation = "F = 1/2 rho C_d A |w| w; C_d = 24/Re (Re <= 0.5), 24/Re (1 + 0.15 Re^0.687) (Re <= 1000), 0.44",
             .source = "Jensen (2018) Eq. 5.1",
-            .valid_for = "isolated sphere, Re < 2e5"};
+            .valid_for = "isolated sphere, Re < 2e5",
+            .role = Role::drag};
   }
   std::vector<Parameter> parameters() override {
     return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."}};

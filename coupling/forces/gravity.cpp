@@ -19,7 +19,14 @@ struct Gravity final : FluidForce {
             .equation = "F = (m - rho V_h) g",
             .source = "Archimedes",
             .valid_for = "fluid of uniform density",
-            .reacts_on_fluid = false};
+            .reacts_on_fluid = false,
+            .prior = Prior{.key = "gravity.acceleration_m_s2",
+                           .meaning = "acceleration of gravity: the vector is (0, 0, -theta)",
+                           .unit = "m/s2",
+                           .mean = 9.81,
+                           .sd = 4,
+                           .minimum = 0,
+                           .maximum = 20}};
   }
   std::vector<Parameter> parameters() override {
     return {{"acceleration", &acceleration, "m/s2", -1000, 1000, Basis::literature, "g; weight and buoyancy act where it is given."}};

@@ -1,0 +1,54 @@
+// Drag in a suspension of void fraction epsilon = 1 - solid fraction:
+//
+//   F = 1/2 rho C_d A epsilon^(2 - beta) |w| w,   C_d = (0.63 + 4.8/Re_s^(1/2))^2,   Re_s = epsilon rho |w| d/mu
+//   beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_s)^2/2)
+//
+// Source: di Felice (1994), Int. J. Multiphase Flow 20, 153-159; C_d of Dallavalle (1948).
+#include <algorithm>
+
+#include "coupling/sphere_drag.hpp"
+
+namespace snag {
+namespace {
+
+struct DiFelice final : FluidForce {
+  static constexpr const char* name = "di_felice";
+  double drag_factor = 1;
+
+  Card card() const override {
+    return {.name = name,
+            .equation = "F = 1/2 rho C_d A epsilon^(2 - beta) |w| w, C_d = (0.63 + 4.8/Re_s^(1/2))^2",
+            .source = "di Felice (1994)",
+            .valid_for = "spheres, void fraction 0.4 to 1, all Re; solid fraction of a computed flow",
+            .samples = {.solid_fraction = true},
+            .role = Role::drag};
+  }
+  std::vector<Parameter> parameters() override {
+    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."}};
+  }
+  void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
+    const double factor = drag_factor;
+    const double* solid = fluid.solid_fraction;
+    add_sphere_drag(fluid, particles, forces, [=](double Re, int p) {
+      const double epsilon = 1 - solid[p], Re_s = epsilon * Re, root = 0.63 * std::sqrt(Re_s) + 4.8;
+      const double x = 1.5 - log(std::max(Re_s, 1e-12)) / std::numbers::ln10;
+      const double beta = 3.7 - 0.65 * exp(-0.5 * x * x);
+      return factor * root * root * pow(epsilon, 1 - beta);
+    });
+  }
+  std::vector<ReferenceCase> reference_cases() const override {
+    SphereState dense = stokes_limit().state;
+    dense.solid_fraction = 0.5;
+    return {drag_at(1e-6, 24e6, 0.05, "Stokes (1851): F = 3 pi mu d w; the law of Dallavalle is 4 % below"),
+            drag_at(100, 1.087, 0.14, "standard drag curve, Clift, Grace and Weber (1978)"),
+            {.what = "suspension of half solids in creeping flow",
+             .source = "Richardson and Zaki (1954): hindered settling with n = 4.65 to 4.8, F ~ epsilon^(2 - n)",
+             .state = dense,
+             .force = std::pow(0.5, 2 - 4.7) * stokes_limit().force,
+             .tolerance = 0.08}};
+  }
+};
+[[maybe_unused]] const bool registered = fluid_forces().add<DiFelice>();
+
+}  // namespace
+}  // namespace snag

@@ -1,0 +1,70 @@
+// Shelter by neighbours in the cloth:   F = (1 - theta s) F_drag
+//
+//   form "bonded"   s: whole bonds of the particle over 4, whatever the direction of the flow
+//   form "wake"     s: largest cosine, squared, between the slip and a bond that comes from upstream: a neighbour ahead takes the flow
+//
+// Source: drag in rows and arrays is below that of a single body by up to three quarters: Hoerner (1965), chapter 8; Zukauskas (1972).
+// The form of s is a model.
+#include <algorithm>
+
+#include "coupling/lattice_directions.hpp"
+
+namespace snag {
+namespace {
+
+struct Shielding final : FluidForce {
+  static constexpr const char* name = "shielding";
+  double shelter = 0.5;
+  std::string form = "bonded";
+
+  Card card() const override {
+    return {.name = name,
+            .equation = "F = (1 - theta s) F_drag",
+            .source = "Hoerner (1965), chapter 8; form assumed",
+            .valid_for = "particles of a cloth or fibre under the drag of single spheres",
+            .role = Role::drag_change,
+            .prior = Prior{.key = "coupling.shielding.shelter",
+                           .meaning = "share of drag lost in full shelter",
+                           .mean = 0.5,
+                           .sd = 0.25,
+                           .minimum = 0,
+                           .maximum = 0.95,
+                           .needs = {"bonds"}}};
+  }
+  std::vector<Parameter> parameters() override {
+    return {{"shelter", &shelter, "1", 0, 1, Basis::assumed, "theta: share of drag that a particle in full shelter loses."},
+            setting("form", &form, "bonded: by the number of neighbours; wake: by a neighbour upstream.", {"bonded", "wake"})};
+  }
+  void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
+    const bool wake = form == "wake";
+    const double theta = shelter;
+    const VectorArray u = fluid.velocity, v = particles.velocity, x = particles.position;
+    const double *along = particles.tile.bond_x.data(), *across = particles.tile.bond_y.data();
+    const int stride = particles.tile.stride;
+    const VectorSum force = forces.force;
+    double* slope = forces.slope;
+    const LatticeDirections lattice(particles);
+#pragma omp simd
+    for (int p = particles.begin; p < particles.end; ++p) {
+      const Vec3 w = direction(u[p] - v[p]);
+      const auto from = [&](double bond, int neighbour) {
+        const double c = std::max(dot(direction(x[p] - x[neighbour]), w), 0.0);
+        return bond * c * c;
+      };
+      const double row = std::max(from(along[p - 1], p - 1), from(along[p], p + 1));
+      const double column = std::max(from(across[p - stride], p - stride), from(across[p], p + stride));
+      const double s = wake ? std::max(row, column) : 0.25 * lattice.count(p), f = 1 - theta * s;
+      force.x[p] *= f, force.y[p] *= f, force.z[p] *= f;
+      slope[p] *= f;
+    }
+  }
+  std::vector<ReferenceCase> reference_cases() const override {
+    auto alone = stokes_limit();
+    alone.what = "a sphere alone has no shelter";
+    return {alone};
+  }
+};
+[[maybe_unused]] const bool registered = fluid_forces().add<Shielding>();
+
+}  // namespace
+}  // namespace snag

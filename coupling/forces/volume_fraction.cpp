@@ -1,0 +1,63 @@
+// Hindrance by the solids around:   F = epsilon^(-theta) F_drag,   epsilon = 1 - solid fraction at the particle
+//
+//   form "power"    epsilon^(-theta)
+//   form "linear"   1 + theta (1 - epsilon): its leading order
+//
+// For a drag law of single spheres in a computed two-way flow. Water that the particles displace is not taken out of continuity. Source:
+// Richardson and Zaki (1954), Trans. Inst. Chem. Eng. 32, 35-53; di Felice (1994), Int. J. Multiphase Flow 20, 153-159: exponent about
+// 2.7 on the slip in the gaps in creeping flow.
+#include <algorithm>
+
+#include "coupling/drag_change.hpp"
+
+namespace snag {
+namespace {
+
+struct VolumeFraction final : FluidForce {
+  static constexpr const char* name = "volume_fraction";
+  double exponent = 2.7;
+  std::string form = "power";
+
+  Card card() const override {
+    return {.name = name,
+            .equation = "F = epsilon^(-theta) F_drag",
+            .source = "Richardson and Zaki (1954), di Felice (1994)",
+            .valid_for = "many particles, void fraction above 0.4",
+            .samples = {.solid_fraction = true},
+            .role = Role::drag_change,
+            .prior = Prior{.key = "coupling.volume_fraction.exponent",
+                           .meaning = "exponent of the void fraction in the drag",
+                           .mean = 2.7,
+                           .sd = 1.3,
+                           .minimum = 0,
+                           .maximum = 10,
+                           .acts_on_water = true,
+                           .needs = {"solid_fraction", "several"}}};
+  }
+  std::vector<Parameter> parameters() override {
+    return {{"exponent", &exponent, "1", 0, 10, Basis::literature, "theta; 0: single particles."},
+            setting("form", &form, "power: of the void fraction; linear: its leading order.", {"power", "linear"})};
+  }
+  void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
+    if (exponent == 0) return;  // a power of zero is 1 only to the last digits
+    const double theta = exponent;
+    const bool power = form == "power";
+    const double* solid = fluid.solid_fraction;
+    multiply_drag(fluid, particles, forces, [=](int p, const DragState&) {
+      const double grown = pow(std::max(1 - solid[p], 0.1), -theta);  // folds closer than the kernel resolves count as 0.9
+      return power ? grown : 1 + theta * solid[p];
+    });
+  }
+  std::vector<ReferenceCase> reference_cases() const override {
+    auto dense = stokes_limit();
+    dense.what = "suspension of a fifth solids in creeping flow";
+    dense.source = "Richardson and Zaki (1954): hindered settling with n = 4.65 to 4.8, F ~ epsilon^(2 - n)";
+    dense.state.solid_fraction = 0.2;
+    dense.force = std::pow(0.8, 2 - 4.7) * dense.force, dense.tolerance = 0.02;
+    return {dense};
+  }
+};
+[[maybe_unused]] const bool registered = fluid_forces().add<VolumeFraction>();
+
+}  // namespace
+}  // namespace snag

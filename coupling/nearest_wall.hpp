@@ -1,0 +1,29 @@
+#pragma once
+// Distance and direction of the nearest wall of each particle: planes and boxes at any distance, triangles within 10 diameters.
+#include <span>
+
+#include "coupling/fluid_force.hpp"
+#include "dem/wall_triangles.hpp"
+#include "dem/walls.hpp"
+
+namespace snag {
+
+class NearestWall {
+ public:
+  /// `walls` must outlive this.
+  NearestWall(const WallSet& walls, const std::vector<Rag>& rags);
+  /// For the places of the particles at this time: distance of the centre, m (1e9: none near; negative beyond the wall), and unit normal
+  /// from the wall to the particle.
+  void find(const Particles& particles, double time, double* distance, const VectorSum& normal) const;
+
+ private:
+  void find_plane(const Particles& particles, const WallPlane& plane, const WallPose& pose, double* distance,
+                  const VectorSum& normal) const;
+  void find_triangle(const Particles& particles, std::size_t body, const WallPose& pose, double* distance, const VectorSum& normal) const;
+
+  const WallSet& walls_;
+  double reach_ = 0;                       // m
+  std::vector<TriangleSurface> surfaces_;  // [bodies]
+};
+
+}  // namespace snag

@@ -1,0 +1,84 @@
+#pragma once
+// The fit of one hypothesis (none, one effect, two) to the training points, and its Laplace evidence:
+//
+//   Phi = 1/2 |rho|^2 + 1/2 |nu|^2 + 1/2 |t|^2,   rho = C^-1/2 (y - f(theta, nu)),   t = (theta - mean)/sd
+//   log Z = log of the integral of exp(-Phi) over nu and the physical range of theta - 1/2 log |2 pi C|
+//
+// C = data + numerics (from two time steps) + scatter of the runs/N + form error of each effect; the last three at the fitted state.
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "diagnosis/linear_model.hpp"
+#include "diagnosis/response.hpp"
+
+namespace snag {
+
+/// The covariances of the points with their factors.
+struct Whitening {
+  std::vector<Eigen::LLT<Eigen::MatrixXd>> factor;  // by training point, Gaussian rows
+  double log_determinant = 0;                       // of 2 pi C, over all of them
+};
+
+/// What is known of the model at one state: everything that the covariance and the linear model of a hypothesis need.
+struct Linearization {
+  State state;
+  std::vector<Response> responses;                  // by training point
+  std::vector<Eigen::VectorXd> numerical_error;     // f(2 dt) - f(dt), by training point
+  std::vector<std::vector<Response>> by_nuisance;   // [nuisance][training point] after half a standard uncertainty; empty: not there
+  std::vector<std::vector<Eigen::VectorXd>> parts;  // [effect of the hypothesis][training point]: what it adds to f
+};
+inline constexpr double nuisance_step = 0.5;  // standard uncertainties
+
+struct Hypothesis {
+  std::vector<int> effects;  // indices of Simulator::effects, in alphabetical order of their names
+};
+/// "none", "added_mass", "added_mass+lift".
+std::string name_of(const Hypothesis& hypothesis, const std::vector<Effect>& effects);
+
+struct Fit {
+  Hypothesis hypothesis;
+  Linearization at;  // the fitted state; its responses are those of the runs there
+  Whitening whitening;
+  LinearModel linear;          // around the fitted state: strengths in prior standard deviations, then nuisances
+  LinearSolution solution;     // of it; d is what a last step would change
+  std::vector<int> first_row;  // of each training point in rho, and the end
+  double log_evidence = 0;
+  Eigen::VectorXd theta, theta_sd;
+  Eigen::VectorXd residual;  // rho at the optimum of the linear model
+};
+
+class Fitter {
+ public:
+  explicit Fitter(Responses& model);
+
+  const Linearization& base() const { return base_; }
+  /// The state's responses, numerical error and derivatives by nuisances.
+  Linearization linearize(const State& state, const Hypothesis& hypothesis);
+  Whitening whiten(const Linearization& at) const;
+  /// Residual over all training points.
+  Eigen::VectorXd residual(const std::vector<Response>& responses, const Whitening& whitening) const;
+  /// Derivative of the residual by the nuisances of a linearization.
+  Eigen::MatrixXd nuisance_columns(const Linearization& at, const Whitening& whitening) const;
+  std::vector<int> first_rows() const;
+  /// Fit from a start of the strengths. Runs: about 10 a training point and effect.
+  Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start);
+
+ private:
+  State state_of(const Hypothesis& hypothesis, const Eigen::VectorXd& t, const Eigen::VectorXd& nuisances) const;
+  Linearization start_from_base(const State& state);
+  std::vector<Eigen::VectorXd> numerical_error(const State& state, const std::vector<Response>& responses);
+  Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
+                                 const Whitening& whitening);
+  void descend(Fit& fit, Eigen::VectorXd& x, int iterations);
+  double objective(const Fit& fit, const Eigen::VectorXd& x, const std::vector<Response>& responses) const;
+
+  Responses& model_;
+  Linearization base_;
+};
+
+/// Covariance of the Gaussian rows of one point.
+Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& response, const Eigen::VectorXd& numerical_error,
+                                 const std::vector<const Eigen::VectorXd*>& parts);
+
+}  // namespace snag

@@ -1,0 +1,34 @@
+#pragma once
+// A linear model with Gaussian priors, some parameters within bounds:
+//
+//   Phi(d) = 1/2 |rho + J d|^2 + 1/2 |d - prior|^2,   lower <= d_i <= upper for the first n_bounded parameters
+//
+// and its evidence, the integral of exp(-Phi) over d and its prior. Every parameter has unit prior variance.
+#include <Eigen/Dense>
+
+namespace snag {
+
+struct LinearModel {
+  Eigen::VectorXd rho;           // whitened residual at d = 0
+  Eigen::MatrixXd J;             // its derivative, bounded parameters first
+  Eigen::VectorXd prior;         // means of the priors of d
+  Eigen::VectorXd lower, upper;  // of the bounded ones, at most two
+};
+
+struct LinearSolution {
+  Eigen::VectorXd d;           // where Phi is least
+  double objective = 0;        // Phi there
+  double log_evidence = 0;     // without the terms of the covariance that whitened rho
+  Eigen::MatrixXd precision;   // J^T J + 1
+  Eigen::MatrixXd covariance;  // its inverse
+};
+
+LinearSolution solve(const LinearModel& model);
+/// The same from J^T J, J^T rho and |rho|^2.
+LinearSolution solve(const Eigen::MatrixXd& JtJ, const Eigen::VectorXd& Jt_rho, double rho_square, const Eigen::VectorXd& prior,
+                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+
+/// log of the integral of exp(-g x - a x^2/2) from lower to upper, a > 0; also far in the tails.
+double log_truncated_gaussian(double g, double a, double lower, double upper);
+
+}  // namespace snag

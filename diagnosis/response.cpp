@@ -1,0 +1,212 @@
+#include "diagnosis/response.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+bool random_effects_may_show(const Simulator& simulator) {
+  const auto& effects = simulator.effects();
+  return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return e.random && e.blind.empty(); });
+}
+
+// Value of a row in one run; NaN if the run has no such number. Along a path the last number before a gap stands in for it.
+double row_value(const Row& row, const Observable& observable, const RunResult& run) {
+  const double period = angle_period(observable);
+  double sum = 0, last = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < row.slots.size(); ++k) {
+    double value = run.values[row.slots[k]];
+    if (observable.kind == Observable::Kind::lognormal) value = value > 0 ? std::log(value) : std::numeric_limits<double>::quiet_NaN();
+    if (std::isnan(value)) value = last;
+    last = value;
+    if (observable.kind == Observable::Kind::angle && !row.means.empty()) value = row.means[k] + wrapped(value - row.means[k], period);
+    sum += row.weights[k] * value;
+  }
+  return sum;
+}
+
+// Mean over the slots of the variance between runs.
+double variance_between(const Row& row, const Observable& observable, std::span<const RunResult> runs) {
+  double variance = 0;
+  for (std::size_t k = 0; k < row.slots.size(); ++k) {
+    double first = 0, mean = 0, square = 0;
+    int n = 0;
+    for (const RunResult& run : runs) {
+      double value = run.failure.empty() ? run.values[row.slots[k]] : std::numeric_limits<double>::quiet_NaN();
+      if (observable.kind == Observable::Kind::lognormal) value = std::log(value);
+      if (!std::isfinite(value)) continue;
+      if (n == 0) first = value;
+      const double d = observable.kind == Observable::Kind::angle ? wrapped(value - first, angle_period(observable)) : value - first;
+      mean += d, square += d * d, ++n;
+    }
+    if (n > 1) variance += row.weights[k] * std::max(0.0, square - mean * mean / n) / (n - 1);
+  }
+  return variance;
+}
+
+}  // namespace
+
+Responses::Responses(const Experiment& experiment, Simulator& simulator)
+    : experiment_(experiment), simulator_(simulator), points_(summarize(experiment, simulator, random_effects_may_show(simulator))) {
+  for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) (experiment.points[p].withheld ? withheld_ : training_).push_back(p);
+  std::set<std::string> told;
+  for (const Nuisance& n : simulator.nuisances()) {
+    if (n.u > 0) nuisances_.push_back({n.name, n.u, n.points, -1});
+    told.insert(n.name);
+  }
+  std::vector<int> all(experiment.points.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+  for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
+    const Observable& observable = experiment.observables[o];
+    if (observable.bias_u > 0 && !told.contains(observable.calibration_group))
+      nuisances_.push_back({"bias of " + observable.id, 1, all, o});
+  }
+  find_randomness();
+  leave_out_rows_without_answer();
+}
+
+bool Responses::acts_at(int nuisance, int point) const {
+  const auto& points = nuisances_[nuisance].points;
+  return std::find(points.begin(), points.end(), point) != points.end();
+}
+
+int Responses::n_seeds(const State& state) const {
+  if (base_is_random_) return seeds_of_random_;
+  const bool random =
+      std::any_of(state.effects.begin(), state.effects.end(), [&](const auto& e) { return e.second != 0 && effects()[e.first].random; });
+  return random ? seeds_of_random_ : 1;
+}
+
+std::vector<RunRequest> Responses::requests_of(const Request& request) const {
+  RunRequest run;
+  run.point = request.point, run.step_factor = request.step_factor;
+  for (const auto& [k, theta] : request.state.effects)
+    if (theta != 0) run.effects[effects()[k].name] = theta;
+  for (std::size_t j = 0; j < nuisances_.size(); ++j) {
+    const double deviation = request.state.nuisances[static_cast<Eigen::Index>(j)];
+    if (deviation != 0 && nuisances_[j].bias_observable < 0 && acts_at(static_cast<int>(j), request.point))
+      run.nuisances[nuisances_[j].name] += deviation * nuisances_[j].u;
+  }
+  std::vector<RunRequest> runs(n_seeds(request.state), run);
+  for (std::size_t s = 0; s < runs.size(); ++s) runs[s].seed = experiment_.seed + s;
+  return runs;
+}
+
+Response Responses::response(const Request& request, std::span<const RunResult> results) const {
+  const PointSummary& point = points_[request.point];
+  const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
+  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}, n_seeds, false};
+  Eigen::MatrixXd values(n, n_seeds);
+  for (int i = 0; i < n; ++i) {
+    const Row& row = point.rows[i];
+    const Observable& observable = experiment_.observables[row.observable];
+    double sum = 0, square = 0;
+    int counted = 0;
+    for (int s = 0; s < n_seeds; ++s) {
+      values(i, s) = results[s].failure.empty() ? row_value(row, observable, results[s]) : std::numeric_limits<double>::quiet_NaN();
+      if (std::isfinite(values(i, s))) sum += values(i, s), ++counted;
+    }
+    const double mean = counted > 0 ? sum / counted : std::numeric_limits<double>::quiet_NaN();
+    for (int s = 0; s < n_seeds; ++s) {
+      if (std::isfinite(values(i, s)))
+        square += (values(i, s) - mean) * (values(i, s) - mean);
+      else
+        values(i, s) = mean;
+    }
+    response.value[i] = row.kind == Row::Kind::spread ? variance_between(row, observable, results) : mean;
+    response.scatter[i] = counted > 1 ? square / (counted - 1) : 0;
+  }
+  for (std::size_t j = 0; j < nuisances_.size(); ++j) {
+    if (nuisances_[j].bias_observable < 0) continue;
+    const double bias =
+        request.state.nuisances[static_cast<Eigen::Index>(j)] * experiment_.observables[nuisances_[j].bias_observable].bias_u;
+    for (int i = 0; i < n; ++i)
+      if (point.rows[i].observable == nuisances_[j].bias_observable && point.rows[i].kind != Row::Kind::spread) response.value[i] += bias;
+  }
+  if (n_seeds > 1) response.paths = values.topRows(point.n_gaussian).colwise() - values.topRows(point.n_gaussian).rowwise().mean();
+  response.failed = std::all_of(results.begin(), results.end(), [](const RunResult& r) { return !r.failure.empty(); });
+  return response;
+}
+
+std::vector<Response> Responses::run(const std::vector<Request>& requests) {
+  std::vector<RunRequest> runs;
+  std::vector<std::size_t> begin{0};
+  for (const Request& request : requests) {
+    for (RunRequest& run : requests_of(request)) runs.push_back(std::move(run));
+    begin.push_back(runs.size());
+  }
+  const std::vector<RunResult> results = simulator_.run(runs);
+  std::vector<Response> responses;
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    responses.push_back(response(requests[i], std::span(results).subspan(begin[i], begin[i + 1] - begin[i])));
+  return responses;
+}
+
+std::vector<Response> Responses::run(const State& state, const std::vector<int>& points, double step_factor) {
+  std::vector<Request> requests;
+  for (const int p : points) requests.push_back({state, p, step_factor});
+  return run(requests);
+}
+
+void Responses::find_randomness() {
+  std::vector<RunRequest> requests;
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    for (std::uint64_t s = 0; s < 2; ++s)
+      requests.push_back({.point = static_cast<int>(p), .effects = {}, .nuisances = {}, .seed = experiment_.seed + s});
+  const auto results = simulator_.run(requests);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const RunResult &a = results[2 * p], &b = results[2 * p + 1];
+    if (!a.failure.empty() && !b.failure.empty())
+      throw Error(ExitCode::usage, "point \"" + experiment_.points[p].id + "\": the base model does not run: " + a.failure);
+    for (std::size_t k = 0; k < a.values.size() && k < b.values.size(); ++k)
+      base_is_random_ = base_is_random_ || (a.values[k] != b.values[k] && !(std::isnan(a.values[k]) && std::isnan(b.values[k])));
+  }
+  // Enough seeds for a spread, few enough that some hundred states fit the budget.
+  seeds_of_random_ = std::clamp(experiment_.max_runs / (60 * static_cast<int>(points_.size())), 2, 8);
+}
+
+// Rows that the base model has no number for (it left before, it was not retained) cannot be compared.
+void Responses::leave_out_rows_without_answer() {
+  std::vector<int> all(points_.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+  const auto answers = run(base(), all);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    PointSummary& point = points_[p];
+    std::vector<Row> rows;
+    std::vector<int> kept;
+    for (int i = 0; i < static_cast<int>(point.rows.size()); ++i) {
+      if (!std::isfinite(answers[p].value[i])) continue;
+      if (i < point.n_gaussian) kept.push_back(i);
+      rows.push_back(std::move(point.rows[i]));
+    }
+    Eigen::MatrixXd covariance(kept.size(), kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      for (std::size_t j = 0; j < kept.size(); ++j) covariance(i, j) = point.covariance(kept[i], kept[j]);
+    point.rows = std::move(rows), point.covariance = std::move(covariance), point.n_gaussian = static_cast<int>(kept.size());
+  }
+}
+
+Eigen::VectorXd residual(const PointSummary& point, const Response& response, const Eigen::LLT<Eigen::MatrixXd>& covariance) {
+  const int n = static_cast<int>(point.rows.size()), g = point.n_gaussian;
+  // A number that the run should have but lacks counts as five standard uncertainties off.
+  constexpr double missing = 5;
+  Eigen::VectorXd r(n);
+  for (int i = 0; i < n; ++i) {
+    const Row& row = point.rows[i];
+    const double model = response.value[i];
+    if (!std::isfinite(model))
+      r[i] = is_gaussian(row) ? missing * row.u : missing;
+    else
+      r[i] = is_gaussian(row) ? row.value - model : deviance_residual(row, model, response.n_runs, response.scatter[i]);
+  }
+  if (g > 0) r.head(g) = covariance.matrixL().solve(r.head(g)).eval();
+  return r;
+}
+
+}  // namespace snag

@@ -1,0 +1,84 @@
+#pragma once
+// Runs of the model, brought to the rows of the data: what a state of the model (strengths of effects, deviations of nuisances) answers at
+// each operating point.
+#include <Eigen/Dense>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/summary.hpp"
+
+namespace snag {
+
+/// The model with some effects and some deviations of its inputs.
+struct State {
+  std::vector<std::pair<int, double>> effects{};  // index into Simulator::effects, theta
+  Eigen::VectorXd nuisances;                      // in standard uncertainties, by index of Nuisances
+};
+
+/// What the runs of a state say at one point.
+struct Response {
+  Eigen::VectorXd value;    // by row: on the scale of Row::value (spread: variance over the seeds)
+  Eigen::VectorXd scatter;  // by row: variance of one run
+  Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
+  int n_runs = 1;
+  bool failed = false;
+};
+
+/// One deviation that is free in every hypothesis.
+struct FreeNuisance {
+  std::string name;
+  double u = 0;              // relative (calibration groups: 1)
+  std::vector<int> points;   // that share it
+  int bias_observable = -1;  // an additive bias of this observable, which needs no runs; -1: an input of the simulator
+};
+
+class Responses {
+ public:
+  Responses(const Experiment& experiment, Simulator& simulator);
+
+  const Experiment& experiment() const { return experiment_; }
+  const std::vector<Effect>& effects() const { return simulator_.effects(); }
+  const std::vector<FreeNuisance>& nuisances() const { return nuisances_; }
+  const std::vector<PointSummary>& points() const { return points_; }
+  const std::vector<int>& training() const { return training_; }
+  const std::vector<int>& withheld() const { return withheld_; }
+  /// The base model answers with another result for another seed.
+  bool base_is_random() const { return base_is_random_; }
+  /// Seeds a state is run with.
+  int n_seeds(const State& state) const;
+  int n_runs() const { return simulator_.n_runs(); }
+  /// Runs that [budget] still allows.
+  int runs_left() const { return experiment_.max_runs - simulator_.n_runs(); }
+  State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }
+  bool acts_at(int nuisance, int point) const;
+
+  struct Request {
+    State state;
+    int point = 0;
+    double step_factor = 1;
+  };
+  /// One batch of runs.
+  std::vector<Response> run(const std::vector<Request>& requests);
+  /// The same state at several points.
+  std::vector<Response> run(const State& state, const std::vector<int>& points, double step_factor = 1);
+
+ private:
+  std::vector<RunRequest> requests_of(const Request& request) const;
+  Response response(const Request& request, std::span<const RunResult> results) const;
+  void find_randomness();
+  void leave_out_rows_without_answer();
+
+  const Experiment& experiment_;
+  Simulator& simulator_;
+  std::vector<FreeNuisance> nuisances_;
+  std::vector<PointSummary> points_;
+  std::vector<int> training_, withheld_;
+  bool base_is_random_ = false;
+  int seeds_of_random_ = 8;
+};
+
+/// Residual of a response against the data: Gaussian rows whitened with the Cholesky factor of their covariance, then the others.
+Eigen::VectorXd residual(const PointSummary& point, const Response& response, const Eigen::LLT<Eigen::MatrixXd>& covariance);
+
+}  // namespace snag
