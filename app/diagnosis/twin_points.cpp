@@ -68,7 +68,7 @@ TwinExperiment sphere(NormalNumbers& random) {
   for (const char* id : {"vx", "vz"}) twin.instruments.push_back({id, "m/s", "gaussian", 20 * noise, 0, ""});
   twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
   twin.times = sample_times(end, 16);
-  twin.inputs = {"\"flow.amplitude\" = 0.03", "\"particle.density_kg_m3\" = 0.002", "\"flow.kinematic_viscosity_m2_s\" = 0.02",
+  twin.inputs = {"\"flow.amplitude\" = 0.05", "\"particle.density_kg_m3\" = 0.002", "\"flow.kinematic_viscosity_m2_s\" = 0.02",
                  "\"drag_form\" = 0.05"};
   twin.subsets = {"all", "picture", "passage"};
   return twin;
@@ -96,7 +96,7 @@ TwinExperiment fibre(NormalNumbers& random) {
   twin.instruments.push_back({"orientation", "rad", "angle", 0.02, 0, ""});
   twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
   twin.times = sample_times(end, 12);
-  twin.inputs = {"\"flow.amplitude\" = 0.03", "\"fibre.density_kg_m3\" = 0.005", "\"fibre.youngs_modulus_Pa\" = 0.05",
+  twin.inputs = {"\"flow.amplitude\" = 0.05", "\"fibre.density_kg_m3\" = 0.005", "\"fibre.youngs_modulus_Pa\" = 0.05",
                  "\"drag_form\" = 0.05"};
   twin.subsets = {"all", "picture", "passage"};
   return twin;
@@ -121,7 +121,7 @@ TwinExperiment rag(NormalNumbers& random) {
   twin.instruments.push_back({"orientation", "rad", "angle", 0.03, 0, ""});
   twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
   twin.times = sample_times(end, 8);
-  twin.inputs = {"\"flow.amplitude\" = 0.03", "\"rag.mass_per_area_kg_m2\" = 0.02", "\"drag_form\" = 0.05"};
+  twin.inputs = {"\"flow.amplitude\" = 0.05", "\"rag.mass_per_area_kg_m2\" = 0.02", "\"drag_form\" = 0.05"};
   twin.subsets = {"all", "picture", "passage"};
   return twin;
 }
