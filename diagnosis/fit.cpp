@@ -47,6 +47,32 @@ void add_form_error(const PointSummary& point, const Eigen::VectorXd& part, Eige
   }
 }
 
+// Scatter of the runs over their number, and over the number of replicates where these are too few to show it themselves. Few seeds give
+// the size of the scatter but not its shape: it is taken as sd_i sd_j exp(-|t_i - t_j|/tau), tau from neighbouring rows.
+void add_scatter(const PointSummary& point, const Response& response, Eigen::MatrixXd& C) {
+  const double n = static_cast<double>(response.paths.cols());
+  const Eigen::MatrixXd S = response.paths * response.paths.transpose() / (n - 1);
+  constexpr int few_replicates = 3;
+  for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
+    double next = 0, own = 0, step = 0;
+    for (end = begin; end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable; ++end) {
+      if (end == begin) continue;
+      next += S(end, end - 1), own += 0.5 * (S(end, end) + S(end - 1, end - 1));
+      step += (time_of(point.rows[end]) - time_of(point.rows[end - 1])) / std::max(1, point.n_gaussian - 1);
+    }
+    const double correlation = own > 0 ? std::clamp(next / own, 0.03, 0.999) : 0.03;
+    const double tau = -(step > 0 ? step * (point.n_gaussian - 1) / std::max(1, end - begin - 1) : 1) / std::log(correlation);
+    for (int i = begin; i < end; ++i) {
+      for (int j = begin; j < end; ++j) {
+        const int replicates = std::min(point.rows[i].n_replicates, point.rows[j].n_replicates);
+        const double share = 1 / n + (replicates < few_replicates ? 1.0 / replicates : 0);
+        const double apart = i == j ? 0 : std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / tau;
+        C(i, j) += share * std::sqrt(S(i, i) * S(j, j)) * std::exp(-apart);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& response, const Eigen::VectorXd& numerical_error,
@@ -57,13 +83,7 @@ Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& resp
   const Eigen::VectorXd e = numerical_error.head(g);
   C += e * e.transpose();
   C.diagonal() += (0.1 * e).cwiseAbs2();
-  if (response.paths.cols() > 1) {
-    // Scatter of the runs: that of their mean, and half of the correlation that so few seeds show.
-    const double n = static_cast<double>(response.paths.cols());
-    const Eigen::MatrixXd S = response.paths * response.paths.transpose() / ((n - 1) * n);
-    C += 0.5 * S;
-    C.diagonal() += 0.5 * S.diagonal();
-  }
+  if (response.paths.cols() > 1) add_scatter(point, response, C);
   for (const Eigen::VectorXd* part : parts) add_form_error(point, *part, C);
   if (g > 0) C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
   return C;
@@ -129,8 +149,7 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
   }
   for (std::size_t e = 0; e < hypothesis.effects.size(); ++e) {
     at.parts.emplace_back();
-    for (std::size_t p = 0; p < training.size(); ++p)
-      at.parts[e].push_back(finite(at.responses[p].value - responses[next++].value));
+    for (std::size_t p = 0; p < training.size(); ++p) at.parts[e].push_back(finite(at.responses[p].value - responses[next++].value));
   }
   at.numerical_error = numerical_error(state, at.responses);
   return at;

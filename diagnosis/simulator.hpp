@@ -13,13 +13,13 @@ namespace snag {
 /// Something that the base model may lack. Its strength theta = 0 is the base model to the bit.
 struct Effect {
   std::string name;                   // added_mass; names of candidates are fixed
-  std::string parameter;              // what theta is: "added-mass coefficient"
+  std::string parameter{};            // what theta is: "added-mass coefficient"
   std::string unit = "1";             // of theta
   double mean = 0, sd = 1;            // prior of theta given that the effect is there
   double minimum = 0, maximum = 1e9;  // physical range of theta
   bool random = false;                // runs with another seed give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
-  std::string blind;                  // why this base case cannot show it; empty: it can
+  std::string blind{};                // why this base case cannot show it; empty: it can
 };
 
 /// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.

@@ -1,0 +1,266 @@
+#include "diagnosis/attribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/words.hpp"
+#include "diagnosis/calibration.hpp"
+#include "diagnosis/random_effects.hpp"
+#include "diagnosis/statistics.hpp"
+
+namespace snag {
+
+namespace {
+
+/// Shares of the prior. One effect is as likely as none before the data; a second one has to bring 6 nats (a surplus second effect mops up
+/// what the first leaves); a tenth is for what nobody listed.
+constexpr double prior_none = 0.4, prior_effects = 0.5, prior_outside = 0.1, nats_of_second = 6;
+/// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
+constexpr double screening_width = 10;
+constexpr int least_kept = 3, most_kept = 8, most_pairs = 5;
+constexpr double blind_detectability = 3;
+
+class Attributor {
+ public:
+  Attributor(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress)
+      : model_(model), fitter_(fitter), progress_(progress) {}
+
+  Attribution attribute() {
+    const std::vector<int> live = live_candidates(model_, result_.identifiability.blind);
+    for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
+    n_singles_ = std::max<int>(1, static_cast<int>(live.size()));
+    report("signatures", 0.05);
+    const Screening screening(model_, fitter_, candidates_, fitter_.base());
+    identify(screening);
+    result_.sham_rate = screening.sham_rate(model_.experiment().seed);
+    const std::vector<Screened> singles = screened_singles(screening);
+    report("fits", 0.15);
+    add(fitter_.fit({}, Eigen::VectorXd()));
+    fit_singles(singles);
+    for (const int k : random_) {
+      if (affordable(6 * model_.n_seeds({{{k, 1}}, fitter_.base().state.nuisances}))) add(fit_random_effect(model_, fitter_, k));
+    }
+    if (model_.experiment().pairs) fit_pairs(screening);
+    result_.outside = fit_outside(model_, fitter_);
+    result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
+    for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
+    set_probabilities(result_);
+    return std::move(result_);
+  }
+
+ private:
+  void report(const std::string& stage, double done) const {
+    if (progress_) progress_(stage, done);
+  }
+
+  // Whether this many runs a training point are still in the budget.
+  bool affordable(int runs_per_point) {
+    if (model_.runs_left() >= runs_per_point * static_cast<int>(model_.training().size())) return true;
+    const std::string note = "The budget of " + std::to_string(model_.experiment().max_runs) +
+                             " runs ended before every hypothesis was fitted; raise [budget] max_runs.";
+    if (result_.notes.empty() || result_.notes.back() != note) result_.notes.push_back(note);
+    return false;
+  }
+  int runs_of_fit(int n_effects) const {
+    const int nuisances = static_cast<int>(model_.nuisances().size()) / std::max(1, static_cast<int>(model_.training().size())) + 1;
+    return (10 + 8 * n_effects + nuisances) * model_.n_seeds(fitter_.base().state);
+  }
+
+  double log_prior(const Hypothesis& hypothesis) const {
+    if (hypothesis.effects.empty()) return std::log(prior_none);
+    return std::log(prior_effects / n_singles_) - (hypothesis.effects.size() > 1 ? nats_of_second : 0);
+  }
+
+  void add(Fit fit) {
+    result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
+    result_.weight.push_back(fit.log_evidence + log_prior(fit.hypothesis));
+    result_.fits.push_back(std::move(fit));
+  }
+
+  void identify(const Screening& screening) {
+    Identifiability& i = result_.identifiability;
+    for (const int a : candidates_) {
+      const std::string& name = model_.effects()[a].name;
+      i.detectability[name] = screening.detectability(a);
+      if (i.detectability[name] < blind_detectability)
+        i.blind[name] = "its expected signature is " + words(i.detectability[name]) + " standard uncertainties, below 3";
+      for (const int b : candidates_)
+        if (a != b) i.cosines[name][model_.effects()[b].name] = screening.cosine(a, b);
+    }
+    // Two effects are tied where what one leaves of the other's signature is not detectable.
+    std::vector<bool> grouped(candidates_.size(), false);
+    for (std::size_t a = 0; a < candidates_.size(); ++a) {
+      if (grouped[a] || i.blind.contains(model_.effects()[candidates_[a]].name)) continue;
+      std::vector<std::string> group{model_.effects()[candidates_[a]].name};
+      for (std::size_t b = a + 1; b < candidates_.size(); ++b) {
+        const std::string& other = model_.effects()[candidates_[b]].name;
+        if (grouped[b] || i.blind.contains(other)) continue;
+        const double cosine = i.cosines[group.front()][other];
+        const double least = std::min(i.detectability[group.front()], i.detectability[other]);
+        if (least * std::sqrt(std::max(0.0, 1 - cosine * cosine)) < blind_detectability) group.push_back(other), grouped[b] = true;
+      }
+      if (group.size() > 1) i.ties.push_back(group);
+    }
+  }
+
+  std::vector<Screened> screened_singles(const Screening& screening) {
+    std::vector<Screened> singles;
+    const double none = screening.screen({}).log_evidence;
+    result_.screening["none"] = 0;
+    for (const int k : candidates_) {
+      singles.push_back(screening.screen({{k}}));
+      result_.screening[model_.effects()[k].name] = singles.back().log_evidence - none;
+    }
+    const auto better = [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; };
+    std::stable_sort(singles.begin(), singles.end(), better);
+    return singles;
+  }
+
+  void fit_singles(const std::vector<Screened>& singles) {
+    for (std::size_t i = 0; i < singles.size() && i < most_kept; ++i) {
+      if (i >= least_kept && singles[i].log_evidence < singles.front().log_evidence - screening_width) break;
+      if (!affordable(runs_of_fit(1))) break;
+      report("fit of " + name_of(singles[i].hypothesis, model_.effects()), 0.15 + 0.4 * static_cast<double>(i) / most_kept);
+      add(fitter_.fit(singles[i].hypothesis, start(singles[i])));
+    }
+  }
+
+  // A strength at the edge of its range says little of where to begin: a tenth of the probe strength inside.
+  Eigen::VectorXd start(const Screened& screened) const {
+    Eigen::VectorXd theta = screened.theta;
+    for (Eigen::Index e = 0; e < theta.size(); ++e) {
+      const Effect& effect = model_.effects()[screened.hypothesis.effects[e]];
+      const double inside = 0.1 * std::abs(probe_strength(effect));
+      theta[e] = std::clamp(theta[e], std::min(effect.minimum + inside, effect.maximum), effect.maximum);
+    }
+    return theta;
+  }
+
+  // Pairs: the best single effect with every other one, screened again around its fit; and what the first screening holds for better
+  // than any single effect.
+  void fit_pairs(const Screening& first_screening) {
+    std::vector<Screened> pairs;
+    int best = 0;
+    for (int i = 1; i < static_cast<int>(result_.fits.size()); ++i) {
+      const bool fixed = !model_.effects()[result_.fits[i].hypothesis.effects[0]].random;
+      if (fixed && (best == 0 || result_.weight[i] > result_.weight[best])) best = i;
+    }
+    if (best == 0 || candidates_.size() < 2) return;
+    const auto pair_of = [&](int a, int b) {
+      Hypothesis pair{{a, b}};
+      if (model_.effects()[b].name < model_.effects()[a].name) std::swap(pair.effects[0], pair.effects[1]);
+      return pair;
+    };
+    const int of_best = result_.fits[best].hypothesis.effects[0];
+    const double gain_wanted = nats_of_second - 3;  // the linear model may be off by some nats
+    if (affordable(static_cast<int>(candidates_.size()) + runs_of_fit(2))) {
+      report("second effects", 0.6);
+      const Screening second(model_, fitter_, candidates_, result_.fits[best].at);
+      for (const int k : candidates_)
+        if (k != of_best) pairs.push_back(second.screen(pair_of(of_best, k)));
+      std::erase_if(pairs, [&](const Screened& s) { return s.log_evidence < result_.fits[best].log_evidence + gain_wanted; });
+    }
+    std::vector<Screened> others;
+    double best_single = -std::numeric_limits<double>::infinity();
+    for (const int k : candidates_) best_single = std::max(best_single, first_screening.screen({{k}}).log_evidence);
+    for (std::size_t a = 0; a < candidates_.size(); ++a) {
+      for (std::size_t b = a + 1; b < candidates_.size(); ++b) {
+        if (candidates_[a] == of_best || candidates_[b] == of_best) continue;
+        Screened screened = first_screening.screen(pair_of(candidates_[a], candidates_[b]));
+        if (screened.log_evidence > best_single + gain_wanted) others.push_back(std::move(screened));
+      }
+    }
+    const auto better = [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; };
+    std::stable_sort(pairs.begin(), pairs.end(), better), std::stable_sort(others.begin(), others.end(), better);
+    for (std::size_t i = 0; i < std::max(pairs.size(), others.size()); ++i) {
+      for (const auto* list : {&pairs, &others}) {
+        if (i >= list->size() || (list == &others && i >= most_pairs / 2) || i >= most_pairs || !affordable(runs_of_fit(2))) continue;
+        // Far below the best pair there is nothing to gain.
+        if ((*list)[i].log_evidence < list->front().log_evidence - screening_width) continue;
+        report("fit of " + name_of((*list)[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
+        add(fitter_.fit((*list)[i].hypothesis, start((*list)[i])));
+      }
+    }
+  }
+
+  Responses& model_;
+  Fitter& fitter_;
+  const std::function<void(const std::string&, double)>& progress_;
+  Attribution result_;
+  std::vector<int> candidates_, random_;
+  int n_singles_ = 1;
+};
+
+}  // namespace
+
+int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
+
+int Attribution::first_effect() const {
+  int best = 0;
+  for (int i = 1; i < static_cast<int>(weight.size()); ++i)
+    if (best == 0 || weight[i] > weight[best]) best = i;
+  return best;
+}
+
+std::vector<int> live_candidates(const Responses& model, std::map<std::string, std::string>& blind) {
+  const auto& effects = model.effects();
+  const auto& wanted = model.experiment().candidates;
+  std::vector<std::string> known;
+  for (const Effect& effect : effects) known.push_back(effect.name);
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_name(name, known);
+    throw Error(ExitCode::usage, "[model] candidates: unknown effect \"" + name + "\"" +
+                                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; known are " + joined(known));
+  }
+  std::vector<int> live;
+  for (int k = 0; k < static_cast<int>(effects.size()); ++k) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), effects[k].name) == wanted.end()) continue;
+    if (effects[k].blind.empty())
+      live.push_back(k);
+    else
+      blind[effects[k].name] = effects[k].blind;
+  }
+  std::sort(live.begin(), live.end(), [&](int a, int b) { return effects[a].name < effects[b].name; });
+  return live;
+}
+
+Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress) {
+  return Attributor(model, fitter, progress).attribute();
+}
+
+void set_probabilities(Attribution& attribution) {
+  std::vector<double> weights = attribution.weight;
+  weights.push_back(attribution.outside_weight);
+  for (double& w : weights) w /= calibration().temperature;
+  const double total = log_sum_exp(weights);
+  attribution.probability.clear();
+  for (std::size_t i = 0; i < attribution.names.size(); ++i) attribution.probability[attribution.names[i]] = std::exp(weights[i] - total);
+  attribution.probability["outside"] = std::exp(weights.back() - total);
+}
+
+double leave_one_out(const Fit& fit) {
+  double sum = 0;
+  const Eigen::VectorXd& rho = fit.linear.rho;
+  const Eigen::MatrixXd& J = fit.linear.J;
+  for (std::size_t p = 0; p + 1 < fit.first_row.size(); ++p) {
+    const int begin = fit.first_row[p], n = fit.first_row[p + 1] - begin;
+    if (n == 0) continue;
+    const auto own = J.middleRows(begin, n);
+    const auto own_rho = rho.segment(begin, n);
+    const Eigen::MatrixXd JtJ = J.transpose() * J - own.transpose() * own;
+    const Eigen::VectorXd Jt_rho = J.transpose() * rho - own.transpose() * own_rho;
+    const LinearSolution others =
+        solve(JtJ, Jt_rho, rho.squaredNorm() - own_rho.squaredNorm(), fit.linear.prior, fit.linear.lower, fit.linear.upper);
+    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + own * others.covariance * own.transpose());
+    const Eigen::VectorXd z = factor.matrixL().solve(own_rho + own * others.d);
+    const Eigen::MatrixXd &L = factor.matrixLLT(), &C = fit.whitening.factor[p].matrixLLT();
+    sum -= 0.5 * z.squaredNorm() + L.diagonal().array().log().sum() + C.diagonal().array().log().sum() +
+           0.5 * n * std::log(2 * std::numbers::pi);
+  }
+  return sum;
+}
+
+}  // namespace snag

@@ -1,0 +1,43 @@
+#pragma once
+// Which effect: screening, re-simulation of what is left, evidence, probabilities, and the cross-check by points left out.
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/outside.hpp"
+#include "diagnosis/screening.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace snag {
+
+struct Attribution {
+  std::vector<Fit> fits;              // none first
+  std::vector<std::string> names;     // of the fits
+  std::vector<double> weight;         // log evidence + log prior of each fit
+  std::vector<double> leave_one_out;  // log predictive density of each fit
+  Outside outside;
+  double outside_weight = 0;
+  std::map<std::string, double> screening{};
+  std::map<std::string, double> probability{};
+  Identifiability identifiability;
+  double sham_rate = 0;
+  std::vector<std::string> notes{};
+
+  int first() const;         // the likeliest fit
+  int first_effect() const;  // the likeliest fit that names an effect; 0 if there is none
+};
+
+/// Candidates of the experiment that this base case can show, by index; why the others cannot goes to `blind`.
+std::vector<int> live_candidates(const Responses& model, std::map<std::string, std::string>& blind);
+
+Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress);
+
+/// Probabilities from the weights, tempered by the calibration.
+void set_probabilities(Attribution& attribution);
+
+/// Log predictive density of each training point given the others, summed.
+double leave_one_out(const Fit& fit);
+
+}  // namespace snag
