@@ -7,6 +7,7 @@
 #include <cstring>
 #include <set>
 
+#include "app/diagnosis/mesh_run.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/sha256.hpp"
@@ -70,22 +71,22 @@ std::string text_of(const std::map<std::string, double>& values) {
 
 }  // namespace
 
-CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& cache)
-    : comm_(comm), observables_(experiment.observables) {
-  together(comm_, [&] {
-    for (std::size_t p = 0; p < experiment.points.size(); ++p) {
-      PointCase base(experiment.points[p].case_file);
-      for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
-      std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
-      std::vector<Asked> asked;
-      std::string fingerprint = base.sha256() + version_git;
-      for (const Slot& slot : slots) {
-        asked.push_back({observables_[static_cast<std::size_t>(slot.observable)].id, slot.time});
-        fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
-      }
-      points_.push_back({std::move(base), std::move(slots), std::move(asked), sha256(fingerprint)});
+CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder)
+    : comm_(comm), folder_(folder), observables_(experiment.observables) {
+  for (std::size_t p = 0; p < experiment.points.size(); ++p) {
+    PointCase base(experiment.points[p].case_file);
+    if (base.has_mesh() && folder_.empty())
+      throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
+    for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
+    std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
+    std::vector<Asked> asked;
+    std::string fingerprint = base.sha256() + version_git;
+    for (const Slot& slot : slots) {
+      asked.push_back({observables_[static_cast<std::size_t>(slot.observable)].id, slot.time});
+      fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }
-  });
+    points_.push_back({std::move(base), std::move(slots), std::move(asked), sha256(fingerprint)});
+  }
   BaseCase facts = points_.front().base.facts();
   std::set<std::string> everywhere(points_.front().base.forces().begin(), points_.front().base.forces().end());
   for (const Point& point : points_) {
@@ -97,7 +98,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
   }
   effects_ = library_effects(facts, {everywhere.begin(), everywhere.end()});
   find_nuisances(experiment);
-  if (!cache.empty()) read_cache(cache);
+  if (!folder_.empty()) read_cache(folder_ / "runs.tsv");
 }
 
 /// A set-point of the flow is one of its own at every point; what has the same value at several points (a fluid, a particle) is the same
@@ -146,6 +147,23 @@ RunResult CaseSimulator::done(const Job& job) const {
   return result;
 }
 
+RunResult CaseSimulator::done_together(const Job& job) const {
+  const Point& point = points_[static_cast<std::size_t>(job.request->point)];
+  const std::string name = numbered("run", job.request->point) + "_" + sha256(job.key).substr(0, 16);
+  std::vector<std::string> overrides = job.change.overrides;
+  if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
+  RunResult result;
+  try {
+    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name);
+    result.values = answers_of(folder_ / "runs" / name, point.asked);
+  } catch (const Error& failure) {
+    if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;
+    result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
+    result.failure = failure.what();
+  }
+  return result;
+}
+
 RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const {
   const auto& slots = points_[static_cast<std::size_t>(request.point)].slots;
   for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -178,8 +196,9 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   for (std::size_t j = 0; j < fresh.size(); ++j) {
     const std::size_t n = slots(fresh[j]->request->point).size(), first = bits.size();
     bits.resize(first + n, 0);
-    if (static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
-    const RunResult result = done(*fresh[j]);
+    const bool mesh = has_mesh(*fresh[j]);
+    if (!mesh && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
+    const RunResult result = mesh ? done_together(*fresh[j]) : done(*fresh[j]);
     for (std::size_t i = 0; i < n; ++i) bits[first + i] = std::bit_cast<std::uint64_t>(result.values[i]);
     std::strncpy(&failures[j * text_size], result.failure.c_str(), text_size - 1);
   }

@@ -1,8 +1,9 @@
 #pragma once
 // The simulator of a diagnosis over real runs: each request is a run of the point's case with other values, as `snag run` would do it.
 //
-// Cases without a mesh run in memory, each on one rank, the requests of a batch spread over the ranks. Runs are kept: equal ones are done
-// once, and with a folder they are there again when the diagnosis is started anew.
+// Cases without a mesh run in memory, each on one rank, the requests of a batch spread over the ranks. Cases with a mesh are whole runs,
+// one after the other on all ranks, each in a folder of its own. Runs are kept: equal ones are done once, and with a folder they are there
+// again when the diagnosis is started anew.
 #include <mpi.h>
 
 #include <filesystem>
@@ -18,9 +19,9 @@ namespace snag {
 
 class CaseSimulator final : public Simulator {
  public:
-  /// `cache`: file of the runs that were done before, and will be added to; empty: none. Collective; throws Error(usage, io) that names the
-  /// case.
-  CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& cache = {});
+  /// `folder`: holds the runs that were done before, in runs.tsv and runs/, and takes those to come; empty: nothing is kept on disk, and
+  /// cases with a mesh are refused. Collective over all ranks of the program; throws Error(usage, io) that names the case.
+  CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder = {});
 
   const std::vector<Effect>& effects() const override { return effects_; }
   const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
@@ -43,11 +44,14 @@ class CaseSimulator final : public Simulator {
   void find_nuisances(const Experiment& experiment);
   Job job_of(const RunRequest& request) const;
   RunResult done(const Job& job) const;
+  RunResult done_together(const Job& job) const;
+  bool has_mesh(const Job& job) const { return points_[static_cast<std::size_t>(job.request->point)].base.has_mesh(); }
   RunResult as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const;
   void read_cache(const std::filesystem::path& file);
   void keep(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
+  std::filesystem::path folder_;
   std::vector<Observable> observables_;
   std::vector<Point> points_;
   std::vector<Effect> effects_;

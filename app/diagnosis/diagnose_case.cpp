@@ -23,7 +23,7 @@ Verdict diagnose_file(const DiagnoseOptions& options) {
     experiment = read_experiment(options.file);
     if (first) std::filesystem::create_directories(options.out);
   });
-  CaseSimulator simulator(world, experiment, options.keep_runs ? options.out / "runs.tsv" : std::filesystem::path());
+  CaseSimulator simulator(world, experiment, options.keep_runs ? options.out : std::filesystem::path());
   std::unique_ptr<Progress> progress;
   if (first && !options.quiet) progress = std::make_unique<Progress>(experiment.name, 1);
   const Verdict verdict = diagnose(experiment, simulator, {.progress = [&](const std::string& stage, double done) {

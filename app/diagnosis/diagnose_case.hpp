@@ -9,7 +9,7 @@ namespace snag {
 
 struct DiagnoseOptions {
   std::filesystem::path file, out;
-  bool keep_runs = true;  // in DIR/runs.tsv, to go on from after a stop
+  bool keep_runs = true;  // in DIR/runs.tsv and DIR/runs, to go on from after a stop
   bool quiet = false;
 };
 

@@ -131,7 +131,8 @@ PointCase& PointCase::operator=(PointCase&&) noexcept = default;
 
 PointCase::PointCase(const std::filesystem::path& file) : file_(file), tree_(std::make_unique<Tree>()) {
   const CaseFile read = CaseFile::read(file);
-  const Simulation run(read, MPI_COMM_SELF);
+  const bool mesh = read.root().has("mesh");
+  const Simulation run(read, mesh ? MPI_COMM_WORLD : MPI_COMM_SELF);
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
@@ -209,13 +210,22 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
     for (std::string& name : forces) name = toml_text(name);
     change.overrides.push_back("coupling.forces=[" + joined(forces) + "]");
   }
-  if (run.flow_factor != 1) append(scaled("flow.velocity_m_s", run.flow_factor));
+  if (run.flow_factor != 1 && facts_.prescribed) append(scaled("flow.velocity_m_s", run.flow_factor));
   const double varying = run.flow_factor * run.varying_factor;
   if (varying != 1)
     for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s"}) append(scaled(key, varying));
+  if (run.flow_factor != 1 && !facts_.prescribed)
+    for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) append(scaled(key, run.flow_factor));
   if (run.turn != 0) turn(run.turn, change.overrides);
   change.picture_scale = run.picture_scale;
   return change;
+}
+
+std::string PointCase::with_step_factor(double factor) const {
+  const auto number = [&](const char* key) { return places_of(tree_->root, key).front().value->value<double>().value(); };
+  const double end = number("time.end_s");
+  const auto n = std::max(1.0, std::round(end / number("time.step_s") / factor));
+  return "time.step_s=" + toml_text(end / n);
 }
 
 CaseFile PointCase::with(const std::vector<std::string>& overrides) const { return CaseFile::parse(resolved_, file_.string(), overrides); }

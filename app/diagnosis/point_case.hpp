@@ -35,6 +35,9 @@ class PointCase {
   /// The case of a run with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name that is
   /// neither an effect nor a key of the case.
   CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed) const;
+  /// The override that changes the number of steps by 1/factor.
+  std::string with_step_factor(double factor) const;
+  const std::string& resolved() const { return resolved_; }
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all

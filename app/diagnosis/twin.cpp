@@ -1,6 +1,5 @@
 #include "app/diagnosis/twin.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -13,6 +12,7 @@
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
 #include "coupling/fluid_force.hpp"
+#include "diagnosis/bench/detectability.hpp"
 
 namespace snag {
 
@@ -151,9 +151,7 @@ Deviations draw_deviations(const Making& m, NormalNumbers& random) {
   return all;
 }
 
-/// Signal over uncertainty of what acts, with the nuisances' directions J (a column a standard uncertainty) projected out by their priors,
-///   d^2 = S^T C^-1 S - b^T (I + J^T C^-1 J)^-1 b,   b = J^T C^-1 S,
-/// and the rms of the gap over that of noise and inputs. Training points only.
+/// Signal over uncertainty of what acts, over the training points.
 void measure_gap(Making& m, const std::vector<Asked>& asked) {
   const std::size_t n_points = m.cases.size() - n_withheld, n = asked.size();
   std::vector<double> signal, variance;
@@ -188,18 +186,9 @@ void measure_gap(Making& m, const std::vector<Asked>& asked) {
       column[p * n + i] = instrument.bias_u;
     }
   }
-  const auto size = static_cast<Eigen::Index>(rows);
-  Eigen::MatrixXd J(size, static_cast<Eigen::Index>(shared.size()));
-  Eigen::Index c = 0;
-  for (const auto& [name, column] : shared) J.col(c++) = Eigen::Map<const Eigen::VectorXd>(column.data(), size);
-  const Eigen::Map<const Eigen::VectorXd> S(signal.data(), size), V(variance.data(), size);
-  const Eigen::VectorXd W = V.cwiseInverse();
-  const Eigen::VectorXd b = J.transpose() * W.cwiseProduct(S);
-  const Eigen::MatrixXd A = Eigen::MatrixXd::Identity(J.cols(), J.cols()) + J.transpose() * W.asDiagonal() * J;
-  m.truth.detectability = std::sqrt(std::max(0.0, S.dot(W.cwiseProduct(S)) - b.dot(A.ldlt().solve(b))));
-  // Each sample by its own floor, so that different units may be averaged.
-  const Eigen::VectorXd floor = V + J.rowwise().squaredNorm();
-  m.truth.gap_over_floor = std::sqrt(S.cwiseProduct(S).cwiseQuotient(floor).mean());
+  for (auto& [name, column] : shared) columns.push_back(std::move(column));
+  const SignalSize size = signal_size(signal, variance, columns);
+  m.truth.detectability = size.detectability, m.truth.gap_over_floor = size.gap_over_floor;
 }
 
 std::string diagnosis_text(const Making& m, int number) {

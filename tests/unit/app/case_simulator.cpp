@@ -126,7 +126,7 @@ TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
 
 /// Requirement: all ranks have the same answers; equal requests run once; a new start with the same folder runs nothing again.
 TEST_F(CaseSimulatorTest, KeepsRuns) {
-  const auto cache = folder_ / "runs.tsv";
+  const auto cache = folder_ / "kept";
   std::vector<RunRequest> requests;
   for (const double theta : {0.1, 0.2, 0.3, 0.1, 0.0}) requests.push_back({.effects = {{"added_mass", theta}}});
   std::vector<std::vector<double>> first;
