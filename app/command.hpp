@@ -16,6 +16,7 @@ Action add_run(CLI::App& app);
 Action add_check(CLI::App& app);
 Action add_mesh(CLI::App& app);
 Action add_study(CLI::App& app);
+Action add_calibrate(CLI::App& app);
 Action add_bench(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_diagnose(CLI::App& app);

@@ -1,7 +1,9 @@
 #include "diagnosis/diagnose.hpp"
 
 #include "diagnosis/attribution.hpp"
+#include "diagnosis/how_far.hpp"
 #include "diagnosis/judgement.hpp"
+#include "diagnosis/where.hpp"
 
 namespace snag {
 
@@ -12,8 +14,11 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   Responses model(experiment, simulator);
   Fitter fitter(model);
   Attribution attribution = attribute(model, fitter, options.progress);
-  judge(model, attribution, verdict);
+  const int chosen = judge(model, attribution, verdict);
   verdict.identifiability = attribution.identifiability;
+  verdict.where = gap_cells(model, fitter);
+  if (options.progress) options.progress("withheld points", 0.9);
+  measure_shrinkage(model, attribution, chosen, verdict);
   verdict.runs = simulator.n_runs();
   return verdict;
 }

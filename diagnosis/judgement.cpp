@@ -133,13 +133,12 @@ class Judge {
 
   void effects(int first) {
     const double p = v_.probability.at(a_.names[first]);
-    const int rival = static_cast<int>(std::max_element(a_.leave_one_out.begin(), a_.leave_one_out.end()) - a_.leave_one_out.begin());
+    const int rival = best_predictor(first);
     v_.effects = effect_names(model_, a_.fits[first]);
     const bool several_points = model_.training().size() > 1;
     if (p < suspected) {
       tie(shared_verdict(v_.probability));
-    } else if (several_points && rival != first && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ &&
-               related(first, rival)) {
+    } else if (several_points && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ) {
       tie({a_.names[first], a_.names[rival]});
       v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
                          " predicts operating points that were left out better.");
@@ -149,11 +148,22 @@ class Judge {
     }
   }
 
-  // A hypothesis with a second effect that the rule of 6 nats did not accept is no rival of its first effect.
-  bool related(int first, int rival) const {
-    const auto &a = a_.fits[first].hypothesis.effects, &b = a_.fits[rival].hypothesis.effects;
-    const bool contains = std::all_of(a.begin(), a.end(), [&](int k) { return std::count(b.begin(), b.end(), k) > 0; });
-    return !(contains && b.size() > a.size());
+  // The hypothesis that predicts left-out points best. One that lives on nuisances far outside their priors is no rival: predictions learn
+  // shared nuisances from the other points and do not ask how likely they are. Nor is a second effect that the rule of 6 nats refused.
+  int best_predictor(int first) const {
+    int best = first;
+    for (int i = 0; i < static_cast<int>(a_.fits.size()); ++i) {
+      const Fit& fit = a_.fits[i];
+      const auto &own = a_.fits[first].hypothesis.effects, &other = fit.hypothesis.effects;
+      const bool surplus = other.size() > own.size() &&
+                           std::all_of(own.begin(), own.end(), [&](int k) { return std::count(other.begin(), other.end(), k) > 0; });
+      const Eigen::Index bounded = fit.linear.lower.size(), m = fit.linear.J.cols() - bounded;
+      const Eigen::VectorXd nuisances = (fit.solution.d - fit.linear.prior).tail(m);
+      constexpr double far = 3;
+      const bool in_band = m == 0 || nuisances.cwiseAbs().maxCoeff() < far;
+      if (!surplus && in_band && a_.leave_one_out[i] > a_.leave_one_out[best]) best = i;
+    }
+    return best;
   }
 
   bool guards_hold(int first) {

@@ -60,8 +60,6 @@ double Outline::smallest_wave() const {
 }
 
 Outline outline(const Coverage& picture, const OutlineSettings& settings) {
-  Outline result;
-  result.area = picture.area();
   const double x_reach =
       std::max(std::abs(picture.x0 - settings.centre_x), std::abs(picture.x0 + picture.nx * picture.side - settings.centre_x));
   const double y_reach =
@@ -79,24 +77,29 @@ Outline outline(const Coverage& picture, const OutlineSettings& settings) {
     }
   }
   const int half_width = static_cast<int>(std::lround(settings.smoothing / 2 / (2 * pi) * settings.n_directions));
-  result.radius = running_mean(running_mean(radius, half_width), half_width);
-  for (int d = 0; d < settings.n_directions; ++d) {
+  return outline_from(running_mean(running_mean(radius, half_width), half_width), picture.area(), settings);
+}
+
+Outline outline_from(std::vector<double> radius, double area, const OutlineSettings& settings) {
+  Outline result;
+  result.area = area, result.radius = std::move(radius);
+  const int n = static_cast<int>(result.radius.size());
+  for (int d = 0; d < n; ++d) {
     const double prominence = std::min(fall(result.radius, d, 1), fall(result.radius, d, -1));
-    if (prominence >= settings.prominence) result.waves.push_back({2 * pi * d / settings.n_directions, result.radius[d]});
+    if (prominence >= settings.prominence) result.waves.push_back({2 * pi * d / n, result.radius[d]});
   }
   return result;
 }
 
-Coverage coverage(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, double radius, const View& view,
-                  double pixel) {
+Coverage coverage(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel) {
+  if (triangles.empty()) return {0, 0, 0, 0, pixel};
   double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
-  for (const Vec3& point : points) {
-    const double at[2] = {dot(point, view.right), dot(point, view.up)};
-    for (int c = 0; c < 2; ++c) low[c] = std::min(low[c], at[c] - radius), high[c] = std::max(high[c], at[c] + radius);
-  }
-  if (points.empty()) return {0, 0, 0, 0, pixel};
+  for (const auto& triangle : triangles)
+    for (const int node : triangle) {
+      const double at[2] = {dot(points[node], view.right), dot(points[node], view.up)};
+      for (int c = 0; c < 2; ++c) low[c] = std::min(low[c], at[c]), high[c] = std::max(high[c], at[c]);
+    }
   Coverage picture(low[0], low[1], high[0], high[1], pixel);
-  for (const Vec3& point : points) picture.fill_circle(dot(point, view.right), dot(point, view.up), radius);
   for (const auto& triangle : triangles) {
     std::array<double, 3> x, y;
     for (int a = 0; a < 3; ++a) x[a] = dot(points[triangle[a]], view.right), y[a] = dot(points[triangle[a]], view.up);

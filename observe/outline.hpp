@@ -37,9 +37,10 @@ struct OutlineSettings {
 /// The farthest covered pixel in each direction.
 Outline outline(const Coverage& picture, const OutlineSettings& settings);
 
-/// Picture of a sheet of particles: triangles between their centres and a disc of `radius` around each, so that the edge is where the
-/// cloth ends.
-Coverage coverage(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, double radius, const View& view,
-                  double pixel);
+/// The same from a curve that is smooth already, such as that of another outline.
+Outline outline_from(std::vector<double> radius, double area, const OutlineSettings& settings);
+
+/// Picture of triangles (indices into points) from far away.
+Coverage coverage(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel);
 
 }  // namespace snag

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "observe/coverage.hpp"
+#include "observe/outline.hpp"
 
 namespace snag {
 
@@ -37,22 +36,8 @@ Silhouette moments(const Coverage& picture) {
 }  // namespace
 
 Silhouette silhouette(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel) {
-  constexpr double huge = std::numeric_limits<double>::max();
-  double x_low = huge, x_high = -huge, y_low = huge, y_high = -huge;
-  for (const auto& triangle : triangles) {
-    for (const int node : triangle) {
-      const double px = dot(points[node], view.right), py = dot(points[node], view.up);
-      x_low = std::min(x_low, px), x_high = std::max(x_high, px), y_low = std::min(y_low, py), y_high = std::max(y_high, py);
-    }
-  }
   if (triangles.empty()) return {};
-  Coverage picture(x_low, y_low, x_high, y_high, pixel);
-  for (const auto& triangle : triangles) {
-    std::array<double, 3> x, y;
-    for (int a = 0; a < 3; ++a) x[a] = dot(points[triangle[a]], view.right), y[a] = dot(points[triangle[a]], view.up);
-    picture.fill_triangle(x, y);
-  }
-  return moments(picture);
+  return moments(coverage(points, triangles, view, pixel));
 }
 
 }  // namespace snag

@@ -57,8 +57,8 @@ TwinExperiment sphere(NormalNumbers& random) {
     const Flow flow = flow_of(kind, random, speed * between(0.7, 1.5));
     const double from_wall = between(0.8, 1.6) * diameter;  // of the centre
     std::string text = time_text(end, 1e-3) + fall + flow_text(flow, viscosity) + drag;
-    text += "[[particle]]\ndiameter_m = " + toml_text(diameter) + "\ndensity_kg_m3 = " + toml_text(density) + "\nposition_m = [0.0, " +
-            toml_text(kind == 0 || kind == 2 ? from_wall : 10 * diameter) + ", 0.0]\n";
+    text += "[[particle]]\ndiameter_m = " + toml_text(diameter) + "\ndensity_kg_m3 = " + toml_text(density) +
+            "\nshear_modulus_Pa = 1e4\nposition_m = [0.0, " + toml_text(kind == 0 || kind == 2 ? from_wall : 10 * diameter) + ", 0.0]\n";
     text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, 0]\nnormal = [0, 1, 0]\n";
     text += exit_text("[0.0, 0.0, -0.04]", "[0.0, 0.0, -1.0]");
     twin.cases.push_back(text);

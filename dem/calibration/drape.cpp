@@ -1,0 +1,162 @@
+#include "dem/calibration/drape.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "dem/calibration/cantilever.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "dem/tile_particles.hpp"
+#include "dem/walls.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int n_rim = 240;            // corners of the table: 0.04 mm between chord and circle of 100 mm
+constexpr double table_height = 0.2;  // m, more than the cloth hangs
+constexpr double start_speed = 0.05;  // rms of the waves it begins with, m/s
+constexpr int n_waves = 8;
+constexpr double pin_over_radius = 1.5;   // particles whose centres are within this of the axis are held: four, or one
+constexpr double fastest_impact = 1;      // that the step resolves, m/s
+constexpr double drape_tolerance = 2e-4;  // m, of the places at rest
+
+/// A round table, top at z = 0, closed at the side: normals out of the fluid, so into the table.
+WallSurface table(double radius) {
+  WallSurface surface;
+  surface.parts = {"table"};
+  const auto rim = [&](int i, double z) {
+    const double angle = 2 * pi * i / n_rim;
+    return Vec3{radius * std::cos(angle), radius * std::sin(angle), z};
+  };
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c, std::array<int, 3> index) {
+    surface.triangles.push_back({{a, b, c}, unit(cross(b - a, c - a)), 0, index, static_cast<int>(surface.triangles.size())});
+  };
+  // Nodes: the middle, the rim above, the rim below.
+  for (int i = 0; i < n_rim; ++i) {
+    const int next = (i + 1) % n_rim, a = 1 + i, b = 1 + next, c = a + n_rim, d = b + n_rim;
+    const Vec3 A = rim(i, 0), B = rim(next, 0), C = rim(i, -table_height), D = rim(next, -table_height);
+    add({}, B, A, {0, b, a});
+    add(A, B, C, {a, b, c});
+    add(B, D, C, {b, d, c});
+  }
+  return surface;
+}
+
+RagPiece flat_cloth(const DrapeTest& test, const DrapeCloth& cloth) {
+  RagPiece piece;
+  Rag& rag = piece.rag;
+  const double r = cloth.radius;
+  rag.name = "drape", rag.radius = r;
+  rag.n_columns = rag.n_rows = static_cast<int>(std::lround(test.sample_diameter / (2 * r)));
+  piece.mask_radius = test.sample_diameter / 2;
+  piece.centre = {0, 0, r};
+  rag.mass = test.mass_per_area * 4 * r * r, rag.inertia = 0.4 * rag.mass * r * r;
+  rag.bond = cloth.bond, rag.bond_damping = cloth.bond_damping, rag.rotation_friction = cloth.rotation_friction;
+  rag.shear_modulus = cloth.shear_modulus;
+  return piece;
+}
+
+/// A sum of plane waves, at most two lengths of the sheet each, along the normal.
+void begin_waves(RagSystem& rags, int seed) {
+  std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
+  const auto draw = [&] { return 2 * pi * static_cast<double>(generator() >> 11) * 0x1p-53; };
+  struct Wave {
+    double per_column, per_row, phase;
+  } waves[n_waves];
+  const Rag& rag = rags.rags()[0];
+  for (Wave& w : waves) {
+    const double a = draw(), b = draw();
+    w = {2 * a / rag.n_columns, (2 * b - 2 * pi) / rag.n_rows, draw()};
+  }
+  for (Tile& tile : rags.tiles())
+    for_particles(tile, [&](int k, int i, int j) {
+      double sum = 0;
+      for (const Wave& w : waves) sum += std::sin(w.per_column * (tile.column + i) + w.per_row * (tile.row + j) + w.phase);
+      if (tile.free[k] > 0.5) tile.set_vector(Tile::vx, k, {0, 0, start_speed * std::sqrt(2.0 / n_waves) * sum});
+    });
+}
+
+/// The table, the cloth on it and what moves it.
+class DrapeRun {
+ public:
+  DrapeRun(const DrapeTest& test, const RagPiece& piece, const DrapeCloth& cloth, double safety, int seed)
+      : rags_(MPI_COMM_SELF, DemSettings{{}, safety}, {piece}) {
+    walls_.add_surface("table", table(test.disc_diameter / 2));
+    ContactSettings contacts;
+    contacts.restitution = contacts.wall_restitution = cloth.restitution;
+    contacts.static_friction = contacts.wall_friction = cloth.static_friction;
+    contacts.rolling_friction = cloth.rolling_friction;
+    contacts.impact_speed = fastest_impact;
+    contacts.skin_over_radius = 0.5;  // never a result, only speed
+    rags_.set_contacts(std::make_unique<ContactSolver>(contacts, rags_.rags(), &walls_));
+    rags_.set_gravity({0, 0, -standard_gravity});
+    const double pin = pin_over_radius * piece.rag.radius;
+    rags_.clamp([&](std::int64_t id) {
+      const Vec3 x = piece.pose(static_cast<int>(id % piece.rag.n_columns), static_cast<int>(id / piece.rag.n_columns)).position;
+      return x.x * x.x + x.y * x.y <= pin * pin;
+    });
+    begin_waves(rags_, seed);
+  }
+  RagSystem& rags() { return rags_; }
+
+ private:
+  WallSet walls_;
+  RagSystem rags_;
+};
+
+/// Air: slows every particle at a rate.
+class Air : public TileForce {
+ public:
+  Air(const Rag& rag, double rate) : rag_(rag), rate_(rate) {}
+  void add(std::size_t, Tile& tile, double) override {
+    for_particles(tile, [&](int k, int, int) {
+      tile.set_vector(Tile::fx, k, tile.vector(Tile::fx, k) - (rate_ * rag_.mass) * tile.vector(Tile::vx, k));
+      tile.set_vector(Tile::tx, k, tile.vector(Tile::tx, k) - (rate_ * rag_.inertia) * tile.vector(Tile::wx, k));
+    });
+  }
+
+ private:
+  Rag rag_;
+  double rate_;
+};
+
+}  // namespace
+
+Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed) {
+  DrapeRun run(test, relaxing(flat_cloth(test, cloth)), cloth, 0.9, seed);
+  const double hangs = (test.sample_diameter - test.disc_diameter) / 2;
+  Drape drape;
+  drape.cost = relax(run.rags(), {.gravity = standard_gravity, .length = hangs, .tolerance = drape_tolerance});
+  drape.sheet = gather_sheet(run.rags());
+  return drape;
+}
+
+Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, double duration, double air) {
+  const RagPiece piece = flat_cloth(test, cloth);
+  DrapeRun run(test, piece, cloth, 0.8, seed);
+  run.rags().set_damping_rate(air);
+  Air slowing(piece.rag, air);
+  run.rags().advance(duration, &slowing);
+  Drape drape;
+  drape.cost = {0, run.rags().time(), run.rags().n_sub_steps()};
+  drape.sheet = gather_sheet(run.rags());
+  return drape;
+}
+
+Coverage seen_from_above(const RagSheet& sheet, double radius, double pixel) {
+  std::vector<Vec3> points = sheet.position;
+  std::vector<std::array<int, 3>> triangles = sheet.triangles;
+  for (std::size_t k = 0; k < sheet.position.size(); ++k) {
+    const auto& [w, x, y, z] = sheet.orientation[k];
+    const Vec3 along = radius * carried_direction<0>(w, x, y, z), across = radius * carried_direction<1>(w, x, y, z);
+    const int a = static_cast<int>(points.size());
+    for (const auto& [i, j] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) points.push_back(sheet.position[k] + i * along + j * across);
+    triangles.push_back({a, a + 1, a + 2}), triangles.push_back({a, a + 2, a + 3});
+  }
+  return coverage(points, triangles, View{}, pixel);
+}
+
+}  // namespace snag

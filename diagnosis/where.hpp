@@ -1,0 +1,22 @@
+#pragma once
+// Where the gap lies: cells (observable, third of the time, operating point) of E = S - D of the base model against
+//
+//   u_val^2 = u_num^2 + u_input^2 + u_D^2 + scatter_S/N_S                                              [ASME V&V 20]
+//
+// exact tests for counts and events, log-rank for censored times, and a false discovery rate of 5 % in three levels: observable, point,
+// window.
+#include <vector>
+
+#include "diagnosis/fit.hpp"
+#include "diagnosis/verdict.hpp"
+
+namespace snag {
+
+/// Cells of the training points.
+std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter);
+
+/// Marks cells as significant: an observable where its combined p (Simes) passes at rate 0.05 among the observables, a point within it
+/// among its points, a window within that among its windows. Then the onset: the first significant window of a path with |z| > 3.
+void mark_significant(std::vector<GapCell>& cells);
+
+}  // namespace snag
