@@ -139,6 +139,10 @@ void RagSystem::evaluate_contacts() {
 void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
+    if (rags_[tile.rag].n_bonds == 0) {
+      std::fill_n(tile.field(Tile::fx), (Tile::n_fields - Tile::fx) * tile.field_size, 0.0);
+      continue;
+    }
     halo_->fill_ring(i);  // here, where the tile is about to be in the cache
     broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
   }
