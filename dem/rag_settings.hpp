@@ -42,6 +42,7 @@ struct RagSettings {
   double insert_time = 0;   // s
   bool with_water = false;  // the water's mean velocity is added to `velocity`
   // bonds
+  std::string passport;                  // file of a calibration; "": as `properties` says
   std::string properties = "published";  // published | given | beam
   double youngs_modulus = 1e9;           // beam, Pa
   BondProperties along, across;          // given
