@@ -7,6 +7,7 @@
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
 #include "coupling/fluid_force.hpp"
+#include "dem/candidates.hpp"
 
 namespace snag {
 
@@ -19,10 +20,11 @@ LibraryEffect weight() {
   return effect;
 }
 
-LibraryEffect setting_effect(const char* name, const char* meaning, double sd, double maximum, std::vector<std::string> keys,
-                             std::vector<std::string> needs) {
-  LibraryEffect effect{.name = name, .prior = {.key = keys.front(), .meaning = meaning}, .added_to = keys};
-  effect.prior.mean = sd, effect.prior.sd = sd, effect.prior.minimum = -maximum, effect.prior.maximum = maximum, effect.prior.needs = needs;
+/// A setting of the rags: of pieces of any shape.
+LibraryEffect setting_effect(const Candidate& candidate) {
+  LibraryEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
+  if (candidate.prior.key.starts_with("rag."))
+    for (const char* shape : {"disc", "fibre"}) effect.added_to.push_back(shape + candidate.prior.key.substr(3));
   return effect;
 }
 
@@ -33,10 +35,7 @@ std::vector<LibraryEffect> all_of_cases() {
     if (card.prior && name != "gravity") all.push_back({.name = name, .prior = *card.prior, .is_force = true});
   }
   all.push_back(weight());
-  all.push_back(setting_effect("friction", "change of the Coulomb coefficient of all contacts", 0.2, 0.5,
-                               {"contact.wall_friction", "contact.static_friction"}, {"contact"}));
-  all.push_back(setting_effect("bond_damping", "change of the damping ratio of the bonds", 0.3, 0.5,
-                               {"rag.bond_damping", "disc.bond_damping", "fibre.bond_damping"}, {"bonds"}));
+  for (const Candidate& candidate : dem_candidates()) all.push_back(setting_effect(candidate));
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return all;
 }

@@ -1,9 +1,8 @@
 """snag diagnose finds what a base case lacks, the same on any number of ranks, goes on after a stop, and refuses what it cannot read."""
 # timeout: 600
-import csv
 import json
+import math
 import shutil
-import unittest
 
 import harness
 
@@ -66,6 +65,33 @@ class Diagnose(harness.CaseTest):
         run = harness.snag(["diagnose", "--bench", "L7", "--out", self.work / "none"])
         self.assertEqual(run.code, 2)
         self.assertIn("L7", run.stderr)
+
+
+    def test_blind_benchmark_of_the_sphere(self):
+        """Sixty sealed sets of level L2: no score may be worse than chance allows if its target holds; and rows are not done twice."""
+        options = ["diagnose", "--bench", "L2", "--twin", "sphere", "--seed", "1"]
+        few = harness.snag([*options, "--n", "2", "--out", self.work / "bench"], 2, self.work / "bench")
+        self.assertEqual(few.code, 0, few.tail())
+        begun = (few.folder / "rows.csv").read_text()
+        run = harness.snag([*options, "--n", "60", "--out", self.work / "bench"], 2, self.work / "bench")
+        self.assertEqual(run.code, 0, run.tail())
+        rows = (run.folder / "rows.csv").read_text()
+        self.assertTrue(rows.startswith(begun), "rows that were there were done again")
+        self.assertEqual(rows.count("\n"), 61)
+        self.assertEqual((run.folder / "sealed.log").read_text().count("sha256"), 60)
+        print(run.stdout)
+        card = json.loads((run.folder / "score.json").read_text())
+        for score in card["scores"]:
+            limit, at_least = float(score["target"].split()[1]), score["target"].startswith(">=")
+            with self.subTest(score["name"]):
+                self.assertGreater(chance(score["hits"], score["n"], limit, at_least), 0.01, score)
+        self.assertIn("<svg", (run.folder / "report.html").read_text())
+
+
+def chance(hits, n, p, at_least):
+    """Probability of so few hits (so many, if p is a largest share) of n when the share is p."""
+    counted = range(0, hits + 1) if at_least else range(hits, n + 1)
+    return sum(math.comb(n, k) * p**k * (1 - p) ** (n - k) for k in counted)
 
 
 def pathlib_copy(source, target):
