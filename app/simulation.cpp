@@ -61,6 +61,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::v
   read(root, time_settings);
   read(root, output_settings);
   read(root, checkpoint_settings);
+  read(root, observe_settings);
   read(root, start_settings_);
   start_folder_ = file.path(start_settings_.from);
   time_settings.n_steps();

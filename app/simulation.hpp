@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/diagnosis/observe_settings.hpp"
 #include "app/passage.hpp"
 #include "app/rag_poses.hpp"
 #include "app/settings.hpp"
@@ -42,6 +43,7 @@ class Simulation {
   TimeSettings time_settings;
   OutputSettings output_settings;
   CheckpointSettings checkpoint_settings;
+  ObserveSettings observe_settings;
 
   // absent parts are null
   std::unique_ptr<Mesh> mesh;

@@ -129,6 +129,11 @@ void add_bond_direction(const std::string& direction, BondProperties& p, Records
 
 void add_bonds(RagSettings& s, Records& r) {
   if (s.shape == Shape::particle) return;
+  r.push_back(
+      file_setting("passport", &s.passport,
+                   "Bonds as calibrated from tests of the cloth (`snag calibrate`), instead of `properties`: a textile passport such "
+                   "as cases/textile-aro/passport.toml, interpolated in the logarithms between its radii. A fibre takes those "
+                   "lengthwise."));
   r.push_back(setting(
       "properties", &s.properties,
       "Of the bonds: the calibrated ones of Jensen (2018) Tables 3.3 and 3.4 (particle radius 1 to 2 mm, in between interpolated in the "

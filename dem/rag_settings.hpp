@@ -44,6 +44,7 @@ struct RagSettings {
   bool with_water = false;  // the water's mean velocity is added to `velocity`
   RagCopies copies;
   // bonds
+  std::string passport;                  // file of a calibration; "": as `properties` says
   std::string properties = "published";  // published | given | beam
   double youngs_modulus = 1e9;           // beam, Pa
   BondProperties along, across;          // given

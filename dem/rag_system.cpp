@@ -110,7 +110,9 @@ void RagSystem::set_limit() {
     const StepLimit of_rag = stable_bond_step(rag, damping_rate_);
     if (of_rag.step < limit_.step) limit_ = of_rag;
   }
-  if (contacts_ && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
+  // A single sphere without walls has nothing to touch.
+  const bool can_touch = contacts_ && (n_particles() > 1 || !contacts_->wall_touches().empty());
+  if (can_touch && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
   if (settings_.step && *settings_.step > limit_.step)
     throw Error(ExitCode::usage, "[dem] step: " + words(*settings_.step) + " s is above the stable step of " + words(limit_.step) +
                                      " s, set by " + limit_.reason + "; give a shorter step, or none to let Snag choose");
@@ -152,6 +154,10 @@ void RagSystem::evaluate_contacts() {
 void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
+    if (rags_[tile.rag].n_bonds == 0) {
+      std::fill_n(tile.field(Tile::fx), (Tile::n_fields - Tile::fx) * tile.field_size, 0.0);
+      continue;
+    }
     halo_->fill_ring(i);  // here, where the tile is about to be in the cache
     broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
   }

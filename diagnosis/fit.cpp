@@ -5,16 +5,14 @@
 #include <limits>
 #include <numbers>
 
-#include "base/words.hpp"
+#include "diagnosis/statistics.hpp"
 
 namespace snag {
 
 namespace {
 
-/// Share of an effect's contribution that its law may be wrong by, at one standard deviation, and over what share of the duration such
-/// an error keeps its sign. Laws of forces on particles differ by about this much between authors in the ranges where they are used;
-/// without it a surplus second effect mops up the error of form of the first.
-constexpr double form_error = 0.10, form_length = 1.0 / 3;
+/// Over what share of the duration an error of form keeps its sign.
+constexpr double form_length = 1.0 / 3;
 
 // Size of an effect's contribution up to each row: an error of form does not vanish where the contribution crosses zero.
 Eigen::VectorXd envelope(const PointSummary& point, const Eigen::VectorXd& part) {
@@ -35,7 +33,7 @@ Eigen::VectorXd finite(const Eigen::VectorXd& values) {
 
 double time_of(const Row& row) { return 0.5 * (row.begin + row.end); }
 
-void add_form_error(const PointSummary& point, const Eigen::VectorXd& part, Eigen::MatrixXd& C) {
+void add_form_error(const PointSummary& point, const Eigen::VectorXd& part, double form_error, Eigen::MatrixXd& C) {
   const Eigen::VectorXd size = form_error * envelope(point, part);
   const double length = std::max(form_length * point.duration, 1e-300);
   for (int i = 0; i < point.n_gaussian; ++i) {
@@ -76,7 +74,7 @@ void add_scatter(const PointSummary& point, const Response& response, Eigen::Mat
 }  // namespace
 
 Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& response, const Eigen::VectorXd& numerical_error,
-                                 const std::vector<const Eigen::VectorXd*>& parts) {
+                                 const std::vector<const Eigen::VectorXd*>& parts, double form_error) {
   const int g = point.n_gaussian;
   Eigen::MatrixXd C = point.covariance;
   // The error of the step has one sign over a run, and is not known better than by a tenth.
@@ -84,7 +82,7 @@ Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& resp
   C += e * e.transpose();
   C.diagonal() += (0.1 * e).cwiseAbs2();
   if (response.paths.cols() > 1) add_scatter(point, response, C);
-  for (const Eigen::VectorXd* part : parts) add_form_error(point, *part, C);
+  for (const Eigen::VectorXd* part : parts) add_form_error(point, *part, form_error, C);
   if (g > 0) C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
   return C;
 }
@@ -155,13 +153,13 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
   return at;
 }
 
-Whitening Fitter::whiten(const Linearization& at) const {
+Whitening Fitter::whiten(const Linearization& at, double form_error) const {
   Whitening whitening;
   for (std::size_t p = 0; p < model_.training().size(); ++p) {
     std::vector<const Eigen::VectorXd*> parts;
     for (const auto& part : at.parts) parts.push_back(&part[p]);
     const PointSummary& point = model_.points()[model_.training()[p]];
-    const Eigen::MatrixXd C = model_covariance(point, at.responses[p], at.numerical_error[p], parts);
+    const Eigen::MatrixXd C = model_covariance(point, at.responses[p], at.numerical_error[p], parts, form_error);
     whitening.factor.emplace_back(C);
     const Eigen::MatrixXd& L = whitening.factor.back().matrixLLT();
     whitening.log_determinant += 2 * L.diagonal().array().log().sum() + point.n_gaussian * std::log(2 * std::numbers::pi);
@@ -288,6 +286,38 @@ Linearization Fitter::start_from_base(const State& state) {
   return at;
 }
 
+// The linear model at the fitted state with one error of form, or with the likeliest (form_error < 0), and its evidence.
+void Fitter::linearize_at_fit(Fit& fit, const Eigen::VectorXd& x, const Linearization& nuisances_at, double form_error) {
+  const int k = static_cast<int>(fit.hypothesis.effects.size()), m = static_cast<int>(x.size()) - k;
+  if (form_error < 0 && k > 0) {
+    std::vector<double> evidence;
+    double best = -std::numeric_limits<double>::infinity(), best_form = widest_form_error;
+    for (const double form : form_errors) {
+      linearize_at_fit(fit, x, nuisances_at, form);
+      evidence.push_back(fit.log_evidence);
+      if (fit.log_evidence > best) best = fit.log_evidence, best_form = form;
+    }
+    linearize_at_fit(fit, x, nuisances_at, best_form);
+    fit.log_evidence = log_sum_exp(evidence) - std::log(static_cast<double>(form_errors.size()));
+    return;
+  }
+  fit.form_error = std::max(0.0, form_error);
+  fit.whitening = whiten(fit.at, fit.form_error);
+  fit.linear.rho = residual(fit.at.responses, fit.whitening);
+  fit.linear.J.resize(fit.first_row.back(), k + m);
+  fit.linear.J.leftCols(k) = effect_columns(fit.hypothesis, fit.at.state, fit.at.responses, fit.whitening);
+  fit.linear.J.rightCols(m) = nuisance_columns(nuisances_at, fit.whitening);
+  fit.linear.prior = -x;
+  for (int e = 0; e < k; ++e) {
+    const Effect& effect = model_.effects()[fit.hypothesis.effects[e]];
+    fit.linear.lower[e] = (effect.minimum - effect.mean) / effect.sd - x[e],
+    fit.linear.upper[e] = (effect.maximum - effect.mean) / effect.sd - x[e];
+  }
+  fit.solution = solve(fit.linear);
+  fit.log_evidence = fit.solution.log_evidence - 0.5 * fit.whitening.log_determinant;
+  fit.residual = fit.linear.rho + fit.linear.J * fit.solution.d;
+}
+
 Fit Fitter::fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start) {
   const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(model_.nuisances().size());
   Fit fit;
@@ -303,21 +333,14 @@ Fit Fitter::fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start) {
   fit.at = k == 0 ? base_ : start_from_base(state_of(hypothesis, x.head(k), x.tail(m)));
   for (const bool from_base : {true, false}) {
     if (!from_base) fit.at = linearize(fit.at.state, hypothesis);
-    fit.whitening = whiten(fit.at);
-    fit.linear.J.rightCols(m) = nuisance_columns(from_base ? base_ : fit.at, fit.whitening);
+    const Linearization nuisances_at = from_base ? base_ : fit.at;
+    if (!from_base) linearize_at_fit(fit, x, nuisances_at, -1);
+    const double form = from_base ? widest_form_error : fit.form_error;
+    fit.whitening = whiten(fit.at, form);
+    fit.linear.J.rightCols(m) = nuisance_columns(nuisances_at, fit.whitening);
     descend(fit, x, from_base ? 4 : 2);
+    if (!from_base) linearize_at_fit(fit, x, nuisances_at, -1);
   }
-  fit.linear.rho = residual(fit.at.responses, fit.whitening);
-  fit.linear.J.leftCols(k) = effect_columns(hypothesis, fit.at.state, fit.at.responses, fit.whitening);
-  fit.linear.prior = -x;
-  for (int e = 0; e < k; ++e) {
-    const Effect& effect = model_.effects()[hypothesis.effects[e]];
-    fit.linear.lower[e] = (effect.minimum - effect.mean) / effect.sd - x[e],
-    fit.linear.upper[e] = (effect.maximum - effect.mean) / effect.sd - x[e];
-  }
-  fit.solution = solve(fit.linear);
-  fit.log_evidence = fit.solution.log_evidence - 0.5 * fit.whitening.log_determinant;
-  fit.residual = fit.linear.rho + fit.linear.J * fit.solution.d;
   fit.theta.resize(k), fit.theta_sd.resize(k);
   for (int e = 0; e < k; ++e) {
     const Effect& effect = model_.effects()[hypothesis.effects[e]];

@@ -76,27 +76,34 @@ Screened Screening::screen(const Hypothesis& hypothesis) const {
     linear.prior[e] = (effect.mean - present[e]) / effect.sd;
     linear.lower[e] = (effect.minimum - present[e]) / effect.sd, linear.upper[e] = (effect.maximum - present[e]) / effect.sd;
   }
-  // Twice: the error of form follows the strength. The first time without it.
+  // First without an error of form, then with it: it follows the strength.
   Linearization at = around_;
-  for (int pass = 0; pass < (k == 0 ? 1 : 2); ++pass) {
-    const Whitening whitening = pass == 0 ? whitening_ : fitter_.whiten(at);
-    linear.rho = pass == 0 ? rho_ : fitter_.residual(around_.responses, whitening);
+  std::vector<double> evidence;
+  const auto judge = [&](const Whitening& whitening, bool first) {
+    linear.rho = first ? rho_ : fitter_.residual(around_.responses, whitening);
     linear.J.resize(linear.rho.size(), k + m);
     for (int e = 0; e < k; ++e)
-      linear.J.col(e) = pass == 0 ? columns_.at(hypothesis.effects[e]) : column(hypothesis.effects[e], whitening, linear.rho);
-    linear.J.rightCols(m) = pass == 0 ? nuisances_ : fitter_.nuisance_columns(around_, whitening);
+      linear.J.col(e) = first ? columns_.at(hypothesis.effects[e]) : column(hypothesis.effects[e], whitening, linear.rho);
+    linear.J.rightCols(m) = first ? nuisances_ : fitter_.nuisance_columns(around_, whitening);
     const LinearSolution solution = solve(linear);
-    result.log_evidence = solution.log_evidence - 0.5 * whitening.log_determinant;
-    at.parts = around_.parts;
-    for (int e = 0; e < k; ++e) {
-      const Effect& effect = model_.effects()[hypothesis.effects[e]];
-      result.theta[e] = present[e] + effect.sd * solution.d[e];
-      if (present[e] != 0) continue;
-      at.parts.emplace_back();
-      for (const Eigen::VectorXd& s : signatures_.at(hypothesis.effects[e]))
-        at.parts.back().push_back(s * (result.theta[e] / probe_strength(effect)));
-    }
+    evidence.push_back(solution.log_evidence - 0.5 * whitening.log_determinant);
+    for (int e = 0; e < k && evidence.back() >= *std::max_element(evidence.begin(), evidence.end()); ++e)
+      result.theta[e] = present[e] + model_.effects()[hypothesis.effects[e]].sd * solution.d[e];
+  };
+  judge(whitening_, true);
+  if (k == 0) {
+    result.log_evidence = evidence.front();
+    return result;
   }
+  for (int e = 0; e < k; ++e) {
+    if (present[e] != 0) continue;
+    at.parts.emplace_back();
+    const double share = result.theta[e] / probe_strength(model_.effects()[hypothesis.effects[e]]);
+    for (const Eigen::VectorXd& s : signatures_.at(hypothesis.effects[e])) at.parts.back().push_back(share * s);
+  }
+  evidence.clear();
+  for (const double form : form_errors) judge(fitter_.whiten(at, form), false);
+  result.log_evidence = log_sum_exp(evidence) - std::log(static_cast<double>(form_errors.size()));
   return result;
 }
 
