@@ -18,7 +18,9 @@ Action add_mesh(CLI::App& app);
 Action add_study(CLI::App& app);
 Action add_calibrate(CLI::App& app);
 Action add_bench(CLI::App& app);
+Action add_observe(CLI::App& app);
 Action add_report(CLI::App& app);
+Action add_diagnose(CLI::App& app);
 Action add_manual(CLI::App& app);
 
 }  // namespace snag

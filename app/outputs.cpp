@@ -243,14 +243,13 @@ void Outputs::summarise_rags(Summary& summary) const {
   if (!simulation_.rags) return;
   const RagSystem& rags = *simulation_.rags;
   const RagCounts left = rags.count();
-  const std::vector<RagState> states = rag_states(rags);
   for (std::size_t r = 0; r < rags.rags().size(); ++r) {
     const Rag& rag = rags.rags()[r];
     RagSummary one;
     one.id = static_cast<int>(r), one.name = rag.name;
     one.particles = left.particles[r], one.bonds = left.bonds[r].whole, one.broken_bonds = left.bonds[r].broken;
     one.verdict = simulation_.passage->verdict(r);
-    one.elongation_ratio = states[r].elongation_ratio;
+    one.elongation_ratio = simulation_.passage->last_elongation(r);
     if (!rag_output_->silhouettes().empty()) {
       one.projected_area = rag_output_->silhouettes()[r].area;
       if (one.projected_area > 0) one.elongation_ratio = rag_output_->silhouettes()[r].elongation_ratio;
@@ -258,7 +257,7 @@ void Outputs::summarise_rags(Summary& summary) const {
     one.max_wall_overlap_over_radius = rag_monitors_->max_wall_overlap(r), one.max_overlap_over_radius = rag_monitors_->max_overlap();
     one.bond_strain_p99 = rag_monitors_->max_bond_strain_p99(r), one.elongation_ratio_at_start = elongation_at_start_[r];
     summary.rags.push_back(one);
-    if (!rags.inserted(static_cast<int>(r))) continue;
+    if (rags.presence(static_cast<int>(r)) == RagSystem::Presence::waiting) continue;
     summary.conservation.particles_lost += rag.n_particles - one.particles;
     summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
   }

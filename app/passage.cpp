@@ -61,7 +61,8 @@ Passage::Passage(MPI_Comm comm, std::vector<Opening> openings, std::optional<Pas
       journeys_(n_rags, RagJourney(geometry_ ? geometry_->sense() : 0)),
       sightings_(n_rags),
       states_(n_rags),
-      n_out_(n_rags) {}
+      n_out_(n_rags),
+      last_elongation_(n_rags) {}
 
 void Passage::look_at(const Vec3& x, std::int64_t* counts) const {
   const bool has_left = is_beyond(x, openings_, true);
@@ -91,6 +92,7 @@ void Passage::observe(RagSystem& rags, double time, double step) {
     n_out_[rag] = counts[rag * n_counts + left_mesh];
     sightings_[rag] = sighting(&counts[rag * n_counts], states_[rag], geometry_);
     journeys_[rag].add(sightings_[rag], time, step);
+    if (states_[rag].n_particles > 0) last_elongation_[rag] = states_[rag].elongation_ratio;
   }
 }
 
@@ -98,12 +100,12 @@ bool Passage::all_exited() const {
   return !journeys_.empty() && std::all_of(journeys_.begin(), journeys_.end(), [](const RagJourney& rag) { return rag.has_exited(); });
 }
 
-/// [rag by rag: particles beyond an outlet, length of the journey's state, that state]
+/// [rag by rag: particles beyond an outlet, elongation ratio, length of the journey's state, that state]
 std::vector<double> Passage::state() const {
   std::vector<double> all;
   for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
     const std::vector<double> journey = journeys_[rag].state();
-    all.insert(all.end(), {static_cast<double>(n_out_[rag]), static_cast<double>(journey.size())});
+    all.insert(all.end(), {static_cast<double>(n_out_[rag]), last_elongation_[rag], static_cast<double>(journey.size())});
     all.insert(all.end(), journey.begin(), journey.end());
   }
   return all;
@@ -113,6 +115,7 @@ void Passage::restore(const std::vector<double>& state) {
   auto next = state.begin();
   for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
     n_out_[rag] = static_cast<std::int64_t>(*next++);
+    last_elongation_[rag] = *next++;
     const auto length = static_cast<std::ptrdiff_t>(*next++);
     journeys_[rag].restore({next, next + length});
     next += length;

@@ -33,6 +33,8 @@ class Passage {
   const std::vector<RagState>& states() const { return states_; }
   /// Particles of each rag that are beyond a pressure outlet of the mesh.
   const std::vector<std::int64_t>& n_out() const { return n_out_; }
+  /// Ratio of the axes of each rag when it was last there.
+  double last_elongation(std::size_t rag) const { return last_elongation_[rag]; }
 
   /// What the next look needs of the past: numbers, for one resume.
   std::vector<double> state() const;
@@ -48,6 +50,7 @@ class Passage {
   std::vector<RagSighting> sightings_;
   std::vector<RagState> states_;
   std::vector<std::int64_t> n_out_;
+  std::vector<double> last_elongation_;
 };
 
 }  // namespace snag

@@ -67,19 +67,41 @@ std::string seen_from_the_side(const RagPiece& piece) {
   return text.str();
 }
 
+/// The first piece whose crumpled pose is that of piece n: of the same table (where), with the same seed.
+std::size_t first_alike(const std::vector<RagPiece>& pieces, std::size_t n) {
+  const PosePlan& plan = pieces[n].plan;
+  if (!plan.crumpled() || !pieces[n].poses.empty()) return n;
+  for (std::size_t m = 0; m < n; ++m)
+    if (pieces[m].plan.where == plan.where && pieces[m].plan.seed == plan.seed) return m;
+  return n;
+}
+
 }  // namespace
 
 RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, const std::filesystem::path& stored) {
+  std::vector<std::size_t> model(pieces.size());  // the first piece of the same pose
   for (std::size_t n = 0; n < pieces.size(); ++n) {
-    if (!pieces[n].plan.crumpled()) continue;
+    model[n] = first_alike(pieces, n);
+    if (!pieces[n].plan.crumpled() || model[n] != n) continue;
     if (!stored.empty() && exists_on_first(comm, pose_file(stored, n)))
       together(comm, [&] { pieces[n].poses = read_pose_file(pose_file(stored, n), pieces[n].rag); });
     else
       log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind);
   }
-  lines_ = make_poses(comm, pieces, contacts);
+  std::vector<RagPiece> models;
+  for (std::size_t n = 0; n < pieces.size(); ++n)
+    if (model[n] == n) models.push_back(pieces[n]);
+  lines_ = make_poses(comm, models, contacts);
+  auto next = models.begin();
   for (std::size_t n = 0; n < pieces.size(); ++n) {
-    if (pieces[n].plan.kind == "flat") continue;
+    if (model[n] == n) {
+      pieces[n] = std::move(*next++);
+    } else {
+      pieces[n].poses = pieces[model[n]].poses;
+    }
+  }
+  for (std::size_t n = 0; n < pieces.size(); ++n) {
+    if (pieces[n].plan.kind == "flat" || model[n] != n) continue;
     lines_.push_back(seen_from_the_side(pieces[n]));
     pieces_.push_back(pieces[n]), numbers_.push_back(n);
   }

@@ -1,5 +1,6 @@
 #include "app/sections.hpp"
 
+#include "app/diagnosis/observe_settings.hpp"
 #include "app/passage_geometry.hpp"
 #include "app/settings.hpp"
 #include "app/start_flow.hpp"
@@ -34,6 +35,7 @@ struct AllSections::Settings {
   WallSettings wall;
   OutputSettings output;
   CheckpointSettings checkpoint;
+  ObserveSettings observe;
 };
 
 AllSections::AllSections() : settings_(new Settings) {}
@@ -52,7 +54,7 @@ std::vector<Section> AllSections::list() {
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});
   append(coupling_sections());
-  append({s.output.section(), s.checkpoint.section()});
+  append({s.output.section(), s.checkpoint.section(), s.observe.section()});
   return all;
 }
 

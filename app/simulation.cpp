@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "app/mesh_generator.hpp"
+#include "app/rag_release.hpp"
 #include "app/start_check.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -60,6 +61,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::v
   read(root, time_settings);
   read(root, output_settings);
   read(root, checkpoint_settings);
+  read(root, observe_settings);
   read(root, start_settings_);
   start_folder_ = file.path(start_settings_.from);
   time_settings.n_steps();
@@ -132,6 +134,7 @@ void Simulation::build_rags(const CaseFile& file) {
   if (zone && !zone->slides())
     throw Error(ExitCode::usage,
                 "[rotating_zone] motion = \"frame\" with rags: the mesh would stand while the walls turn; use \"sliding\"");
+  place_at_patches(mesh.get(), pieces);
   poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_poses_);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
@@ -169,7 +172,17 @@ void Simulation::step() {
   if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
   check_inside();
   ++time_step_;
-  if (passage) passage->observe(*rags, time(), time_settings.step);
+  if (passage) passage->observe(*rags, time(), time_settings.step), remove_rags();
+}
+
+/// A rag of which every particle has left the mesh by an outlet feels nothing any more, and would only cost time.
+void Simulation::remove_rags() {
+  for (int r = 0; r < static_cast<int>(rags->rags().size()); ++r) {
+    const Rag& rag = rags->rags()[static_cast<std::size_t>(r)];
+    if (rags->presence(r) != RagSystem::Presence::present || passage->n_out()[r] < rag.n_particles) continue;
+    rags->remove(r);
+    log::info(rag.name + ": left the mesh as a whole at " + words(time()) + " s, taken out of the run");
+  }
 }
 
 void Simulation::insert_rags() {
@@ -178,7 +191,8 @@ void Simulation::insert_rags() {
   double crowding = 0;
   for (int r = 0; r < static_cast<int>(rags->rags().size()); ++r) {
     const RagPiece& piece = rags->pieces()[static_cast<std::size_t>(r)];
-    if (rags->inserted(r)) {
+    if (rags->presence(r) == RagSystem::Presence::removed) continue;
+    if (rags->presence(r) == RagSystem::Presence::present) {
       if (time_step_ == 0) fresh.push_back(r);
       continue;
     }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/diagnosis/observe_settings.hpp"
 #include "app/passage.hpp"
 #include "app/rag_poses.hpp"
 #include "app/settings.hpp"
@@ -42,6 +43,7 @@ class Simulation {
   TimeSettings time_settings;
   OutputSettings output_settings;
   CheckpointSettings checkpoint_settings;
+  ObserveSettings observe_settings;
 
   // absent parts are null
   std::unique_ptr<Mesh> mesh;
@@ -68,6 +70,7 @@ class Simulation {
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
   void push_with_water(int rag);
+  void remove_rags();
   void check_inside();
 
   MPI_Comm comm_;

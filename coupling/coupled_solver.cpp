@@ -27,7 +27,8 @@ void CoupledSolver::step(double dt) {
     load_->begin_step(rags_.tiles(), rags_.time());  // weights w_bc; fluid -> particles, consistent
   });
   timed(seconds_.rags, [&] { rags_.advance(dt, load_.get()); });  // in sub-steps; sums the impulse of the fluid on each particle
-  timed(seconds_.coupling, [&] { give(dt); });                    // particles -> fluid, conservative: solid fraction, reaction, drag
+  if (prescribed_field_) return timed(seconds_.coupling, [&] { give(dt), write_report(dt); });
+  timed(seconds_.coupling, [&] { give(dt); });  // particles -> fluid, conservative: solid fraction, reaction, drag
   timed(seconds_.flow, [&] { advance_flow_(dt); });
   timed(seconds_.coupling, [&] {
     if (flow_ && flow_->mesh.turning.zone >= 0) mesh_moved();
@@ -40,7 +41,7 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
-  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags());
+  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), coupling_.settings.two_way());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
   exchange_ = std::make_unique<Exchange>(*kernel_, flow);
 }

@@ -84,6 +84,7 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
                            .dissipation_rate = fields.field(state.dissipation_rate),
                            .turbulent_kinetic_energy_gradient = fields.vector(state.turbulent_kinetic_energy_gradient),
                            .solid_fraction = fields.field(state.solid_fraction),
+                           .disturbance_width = fields.field(state.disturbance_width),
                            .wall_distance = fields.field(state.wall_distance),
                            .wall_normal = fields.vector(state.wall_normal)};
   const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity};

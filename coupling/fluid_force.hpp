@@ -32,14 +32,15 @@ struct VectorSum {
 /// Fields that a force needs at the particles beside the velocity; what nobody needs is not averaged.
 struct SampleSet {
   bool velocity_gradient = false, pressure_gradient = false, material_acceleration = false;
-  bool turbulence = false, solid_fraction = false, wall = false;
+  bool turbulence = false, solid_fraction = false, wall = false, disturbance = false;
   SampleSet operator|(const SampleSet& b) const {
     return {velocity_gradient || b.velocity_gradient,
             pressure_gradient || b.pressure_gradient,
             material_acceleration || b.material_acceleration,
             turbulence || b.turbulence,
             solid_fraction || b.solid_fraction,
-            wall || b.wall};
+            wall || b.wall,
+            disturbance || b.disturbance};
   }
 };
 
@@ -56,8 +57,10 @@ struct FluidSamples {
   const double* dissipation_rate = nullptr;            // epsilon, m2/s3
   VectorArray turbulent_kinetic_energy_gradient = {};  // m/s2
   const double* solid_fraction = nullptr;              // volume of particles over volume, 1
-  const double* wall_distance = nullptr;               // of the particle's centre from the nearest wall, m; far away a large number
-  VectorArray wall_normal = {};                        // unit, from that wall to the particle
+  const double* disturbance_width =
+      nullptr;                            // over which the particle's own force is smeared in these samples, m; 1e9 where it is not in them
+  const double* wall_distance = nullptr;  // of the particle's centre from the nearest wall, m; far away a large number
+  VectorArray wall_normal = {};           // unit, from that wall to the particle
 };
 
 /// The particles of a tile. All particles of a rag have the same size and mass; neighbours of k in the sheet are k +- 1 and k +-
@@ -117,6 +120,7 @@ struct SphereState {
   Vec3 position, velocity, angular_velocity;                                      // m, m/s, rad/s
   double turbulent_kinetic_energy = 0, dissipation_rate = 0, solid_fraction = 0;  // m2/s2, m2/s3, 1
   Vec3 turbulent_kinetic_energy_gradient;                                         // m/s2
+  double disturbance_width = 1e9;                                                 // m
   double wall_distance = 1e9;                                                     // m
   Vec3 wall_normal{0, 0, 1};
   Vec3 next_in_row, next_row;  // to the bonded neighbours on both sides, that move with the sphere; zero: none; m

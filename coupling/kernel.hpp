@@ -44,6 +44,8 @@ class Kernel {
   void spread(std::span<const double> amounts, int components, std::span<double> field) const;
 
   double width() const { return width_; }
+  /// False for the cell kernel.
+  bool has_width() const { return shape_.support_radius(width_) > 0; }
   int n_particles() const { return n_particles_; }
   /// Particles of all ranks that no cell holds, at the last locate.
   std::int64_t n_outside() const { return n_outside_; }

@@ -1,5 +1,6 @@
 #include "coupling/kernel_field.hpp"
 
+#include <cmath>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -16,9 +17,11 @@ enum Field {
   epsilon = 19,
   k_gradient = 20,
   solid = 23,
-  n_fields = 24
+  width = 24,
+  n_fields = 25
 };
-}
+constexpr double undisturbed = 1e9;  // m
+}  // namespace
 
 void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   particles_ = ParticleList(tiles);
@@ -42,6 +45,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     add(k_gradient_.data(), 3, k_gradient);
   }
   if (needed.solid_fraction) set_solid_fraction(tiles), add(solid_.data(), 1, solid);
+  if (needed.disturbance) set_width(), add(width_.data(), 1, width);
   const std::vector<double> values = kernel_.average(fields);
 
   arrays_.reset(tiles, n_fields);
@@ -75,6 +79,17 @@ void KernelField::set_turbulence_gradient() {
   }
 }
 
+/// Kernel and cell together: the width of a box of side h is h/sqrt(12).
+void KernelField::set_width() {
+  const double own = kernel_.has_width() ? kernel_.width() : 0;
+  width_.assign(flow_.mesh.n_cells, undisturbed);
+  if (!two_way_) return;
+  for (int c = 0; c < flow_.mesh.n_cells; ++c) {
+    const double side = std::cbrt(flow_.mesh.cell_volume[c]);
+    width_[c] = std::sqrt(own * own + side * side / 12);
+  }
+}
+
 void KernelField::set_solid_fraction(std::span<const Tile> tiles) {
   std::vector<double> volume(particles_.size());
   for (std::size_t b = 0; b < volume.size(); ++b) volume[b] = rags_[tiles[particles_.tile(b)].rag].hydrodynamic_volume;
@@ -93,7 +108,8 @@ FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
           .turbulent_kinetic_energy = arrays_.field(index, k),
           .dissipation_rate = arrays_.field(index, epsilon),
           .turbulent_kinetic_energy_gradient = vector(k_gradient),
-          .solid_fraction = arrays_.field(index, solid)};
+          .solid_fraction = arrays_.field(index, solid),
+          .disturbance_width = arrays_.field(index, width)};
 }
 
 }  // namespace snag

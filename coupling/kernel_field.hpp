@@ -12,8 +12,9 @@ namespace snag {
 
 class KernelField final : public FluidField {
  public:
-  /// `rags`: those that Tile::rag counts.
-  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags) : flow_(flow), kernel_(kernel), rags_(rags) {}
+  /// `rags`: those that Tile::rag counts; `two_way`: the flow feels them.
+  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, bool two_way)
+      : flow_(flow), kernel_(kernel), rags_(rags), two_way_(two_way) {}
   /// Length of the step that led to the present state, s; 0: none yet.
   void set_last_step(double dt) { last_step_ = dt; }
   double last_step() const { return last_step_; }
@@ -25,15 +26,18 @@ class KernelField final : public FluidField {
  private:
   void set_acceleration();
   void set_turbulence_gradient();
+  void set_width();
   void set_solid_fraction(std::span<const Tile> tiles);
 
   const Flow& flow_;
   Kernel& kernel_;
   const std::vector<Rag>& rags_;
+  bool two_way_;
   double last_step_ = 0;
   ParticleList particles_;
   std::vector<Vec3> acceleration_;  // Du/Dt of the owned cells, m/s2
   std::vector<Vec3> k_gradient_;    // of the owned cells, m/s2
+  std::vector<double> width_;       // of kernel and cell, of the owned cells, m
   std::vector<double> solid_;       // of the owned cells
   TileArrays arrays_;
 };

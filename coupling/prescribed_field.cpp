@@ -19,8 +19,10 @@ enum Field {
   epsilon = 19,
   k_gradient = 20,
   solid = 23,
-  n_fields = 24
+  width = 24,
+  n_fields = 25
 };
+constexpr double undisturbed = 1e9;  // m
 
 }  // namespace
 
@@ -54,14 +56,18 @@ double PrescribedFlow::viscosity() const {
 void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   needed_ = needed;
   arrays_.fit(tiles, n_fields);
+  if (!needed.disturbance) return;
+  for (std::size_t t = 0; t < tiles.size(); ++t) std::fill_n(arrays_.field(t, width), tiles[t].exists.size(), undisturbed);
 }
 
 FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed) {
   const double t = time_ + elapsed;
   Vec3 uniform, rate;  // the part of u that is the same everywhere, and its time derivative
   for (int i = 0; i < 3; ++i) {
+    uniform[i] = flow_.velocity[i];
+    if (flow_.amplitude[i] == 0) continue;
     const double angle = flow_.omega[i] * t + flow_.phase[i];
-    uniform[i] = flow_.velocity[i] + flow_.amplitude[i] * std::sin(angle);
+    uniform[i] += flow_.amplitude[i] * std::sin(angle);
     rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(angle);
   }
   const auto vector = [&](int f) { return VectorSum{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
@@ -96,7 +102,8 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
           .turbulent_kinetic_energy = arrays_.field(index, k),
           .dissipation_rate = arrays_.field(index, epsilon),
           .turbulent_kinetic_energy_gradient = array(vector(k_gradient)),
-          .solid_fraction = arrays_.field(index, solid)};
+          .solid_fraction = arrays_.field(index, solid),
+          .disturbance_width = arrays_.field(index, width)};
 }
 
 }  // namespace snag

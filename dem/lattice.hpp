@@ -26,15 +26,24 @@ struct ParticlePose {
 };
 
 /// A piece as it is put into the run: properties, mask, pose, velocity of its birth.
+/// A piece that is released at a patch of the mesh: `centre` is found there before the run begins.
+struct ReleasePlan {
+  std::string patch;  // empty: centre is as given
+  double depth = 0;   // of the centre below the patch, into the water, m
+  double spread = 0;  // 0: at the middle of the patch; 1: anywhere on it
+  int seed = 1, index = 0;
+};
+
 struct RagPiece {
-  Rag rag;                          // n_columns, n_rows set; first_particle, n_particles, n_bonds are set by the RagSystem
-  double mask_radius = 0;           // > 0: only places within this distance of the lattice's centre exist (disc), m
-  Vec3 centre;                      // of the lattice, m
-  Quaternion orientation;           // of the lattice frame
-  Vec3 velocity, spin;              // of the whole piece, about its centre; m/s, rad/s
-  double insert_time = 0;           // before it the piece is not in the run, s
-  bool with_water = false;          // begins with the mean velocity of the water at its particles, added to `velocity`
-  PosePlan plan;                    // how `poses` are made (dem/poses/)
+  Rag rag;                  // n_columns, n_rows set; first_particle, n_particles, n_bonds are set by the RagSystem
+  double mask_radius = 0;   // > 0: only places within this distance of the lattice's centre exist (disc), m
+  Vec3 centre;              // of the lattice, m
+  Quaternion orientation;   // of the lattice frame
+  Vec3 velocity, spin;      // of the whole piece, about its centre; m/s, rad/s
+  double insert_time = 0;   // before it the piece is not in the run, s
+  bool with_water = false;  // begins with the mean velocity of the water at its particles, added to `velocity`
+  PosePlan plan;            // how `poses` are made (dem/poses/)
+  ReleasePlan release;
   std::vector<ParticlePose> poses;  // [n_rows * n_columns] places about `centre`, instead of the flat lattice, if not empty
 
   bool exists(int column, int row) const;

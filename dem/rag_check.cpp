@@ -80,7 +80,11 @@ std::vector<BondCount> RagSystem::check() const {
   }
   std::vector<BondCount> bonds(n_rags);
   for (std::size_t r = 0; r < n_rags; ++r) {
-    if (!inserted_[r]) continue;
+    if (presence_[r] == Presence::waiting) continue;
+    if (presence_[r] == Presence::removed) {
+      bonds[r] = {rags_[r].n_bonds - count[n_counts * r + broken], count[n_counts * r + broken]};
+      continue;
+    }
     const Rag& rag = rags_[r];
     const std::int64_t* c = &count[n_counts * r];
     bonds[r] = {c[whole], c[broken]};
@@ -107,8 +111,10 @@ RagCounts RagSystem::count() const {
   MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, comm_);
   RagCounts counts;
   for (std::size_t r = 0; r < rags_.size(); ++r) {
-    counts.particles.push_back(count[n_counts * r + particles]);
-    counts.bonds.push_back({count[n_counts * r + whole], count[n_counts * r + broken]});
+    const bool is_gone = presence_[r] == Presence::removed;  // it left complete
+    const std::int64_t n_broken = count[n_counts * r + broken];
+    counts.particles.push_back(is_gone ? rags_[r].n_particles : count[n_counts * r + particles]);
+    counts.bonds.push_back({is_gone ? rags_[r].n_bonds - n_broken : count[n_counts * r + whole], n_broken});
   }
   return counts;
 }

@@ -59,6 +59,10 @@ void RagSystem::save(CheckpointWriter& writer) const {
   MPI_Allreduce(MPI_IN_PLACE, counters.data(), static_cast<int>(counters.size()), MPI_INT64_T, MPI_SUM, comm_);
   counters.push_back(n_sub_steps_);
   writer.shared("rags/counters", std::span<const std::int64_t>(counters));
+  std::vector<std::int64_t> removed;
+  for (std::size_t r = 0; r < rags_.size(); ++r)
+    if (presence_[r] == Presence::removed) removed.push_back(static_cast<std::int64_t>(r));
+  writer.shared("rags/removed", std::span<const std::int64_t>(removed));
   writer.shared("rags/time", std::span<const double>(&time_, 1));
 }
 
@@ -72,7 +76,11 @@ void RagSystem::load(CheckpointReader& reader) {
   for (const int number : numbers_) owner_.at(number) = rank_of(comm_);
   MPI_Allreduce(MPI_IN_PLACE, owner_.data(), static_cast<int>(owner_.size()), MPI_INT, MPI_MAX, comm_);
 
-  for (std::size_t r = 0; r < rags_.size(); ++r) inserted_[r] = owner_[grids_[r].first_tile] >= 0;
+  const std::vector<std::int64_t> removed = reader.shared_integers("rags/removed");
+  for (std::size_t r = 0; r < rags_.size(); ++r) {
+    const bool is_gone = std::find(removed.begin(), removed.end(), static_cast<std::int64_t>(r)) != removed.end();
+    presence_[r] = owner_[grids_[r].first_tile] >= 0 ? Presence::present : is_gone ? Presence::removed : Presence::waiting;
+  }
 
   std::vector<std::int64_t> ids;
   for_all_particles(tiles_, rags_, [&](const Tile&, int, std::int64_t id) { ids.push_back(id); });

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "dem/passport.hpp"
 #include "dem/poses/folded.hpp"
 #include "dem/poses/pose_file.hpp"
 #include "dem/rag_settings.hpp"
@@ -16,12 +17,13 @@ using Shape = RagSettings::Shape;
 constexpr double pi = std::numbers::pi;
 
 /// Jensen (2018) Tables 3.3 (lengthwise) and 3.4 (crosswise); r_p in m, stiffness in N/m3, strength in Pa.
-constexpr int n_published = 3;
-constexpr double published_radius[n_published] = {1.0e-3, 1.5e-3, 2.0e-3};
-constexpr BondProperties published[2][n_published] = {
-    {{7.65e8, 5.0e6, 3.86e7, 5.47e5, 0}, {3.40e8, 1.0e6, 7.86e6, 3.65e5, 0}, {1.91e8, 5.0e5, 3.15e6, 2.74e5, 0}},
-    {{4.23e8, 5.0e6, 1.03e7, 2.23e5, 0}, {1.88e8, 1.0e6, 1.59e6, 1.49e5, 0}, {1.06e8, 5.0e5, 4.05e5, 1.12e5, 0}},
-};
+const Passport& published_passport() {
+  static const Passport passport{"published bond properties",
+                                 {{1.0e-3, {{{7.65e8, 5.0e6, 3.86e7, 5.47e5, 0}, {4.23e8, 5.0e6, 1.03e7, 2.23e5, 0}}}},
+                                  {1.5e-3, {{{3.40e8, 1.0e6, 7.86e6, 3.65e5, 0}, {1.88e8, 1.0e6, 1.59e6, 1.49e5, 0}}}},
+                                  {2.0e-3, {{{1.91e8, 5.0e5, 3.15e6, 2.74e5, 0}, {1.06e8, 5.0e5, 4.05e5, 1.12e5, 0}}}}}};
+  return passport;
+}
 
 // Beyond this many particles the counts of a lattice no longer fit, nor does its memory.
 constexpr double most_particles = 2e8;
@@ -85,12 +87,25 @@ BondProperties beam_bond(const RagSettings& s, const Rag& rag) {
   return bond;
 }
 
-void set_bonds(const RagSettings& s, const std::string& where, Rag& rag) {
+void set_bonds_of(const Passport& passport, const std::string& where, Rag& rag) {
+  try {
+    rag.bond = {passport.bond(rag.radius, 0), passport.bond(rag.radius, 1)};
+  } catch (const Error& error) {
+    throw Error(error.code, where + ": " + error.what());
+  }
+}
+
+void set_bonds(const RagSettings& s, const std::string& where, const std::filesystem::path& folder, Rag& rag) {
   rag.bond_damping = s.bond_damping, rag.rotation_friction = s.rotation_friction, rag.contact_radius_ratio = s.contact_radius_ratio;
   rag.breakage = s.breakage;
   rag.shear_modulus = s.shear_modulus, rag.poisson_ratio = s.poisson_ratio;
   if (s.shape == Shape::particle) return;
-  if (s.properties == "beam") {
+  if (!s.passport.empty()) {
+    if (s.properties == "given")
+      throw Error(ExitCode::usage,
+                  where + ": passport = \"" + s.passport + "\" and properties = \"given\" both set the bonds; keep one of them");
+    set_bonds_of(read_passport(folder / s.passport), where, rag);
+  } else if (s.properties == "beam") {
     rag.bond = {beam_bond(s, rag), {}};
   } else if (s.properties == "given") {
     rag.bond = {s.along, s.across};
@@ -100,11 +115,7 @@ void set_bonds(const RagSettings& s, const std::string& where, Rag& rag) {
                                        ": properties = \"given\" without a positive normal stiffness; give normal_stiffness_lengthwise" +
                                        std::string(needs_across ? " and normal_stiffness_crosswise" : ""));
   } else {
-    try {
-      rag.bond = {published_bond(rag.radius, 0), published_bond(rag.radius, 1)};
-    } catch (const Error& error) {
-      throw Error(error.code, where + ": " + error.what());
-    }
+    set_bonds_of(published_passport(), where, rag);
   }
 }
 
@@ -130,20 +141,7 @@ void check_plan(const RagSettings& s, const std::string& where) {
 
 }  // namespace
 
-BondProperties published_bond(double radius, int direction) {
-  const double slack = 1e-9;
-  if (radius < published_radius[0] * (1 - slack) || radius > published_radius[n_published - 1] * (1 + slack))
-    throw Error(ExitCode::usage, "published bond properties: radius of " + words(radius) +
-                                     " m is outside 1.0 to 2.0 mm, the range of the tables; use such a radius or properties = \"given\"");
-  const int i = radius < published_radius[1] ? 0 : 1;
-  const BondProperties &a = published[direction][i], &b = published[direction][i + 1];
-  const double t = std::log(radius / published_radius[i]) / std::log(published_radius[i + 1] / published_radius[i]);
-  const auto between = [t](double from, double to) { return from == to || t == 0 ? from : t == 1 ? to : from * std::pow(to / from, t); };
-  return {.normal_stiffness = between(a.normal_stiffness, b.normal_stiffness),
-          .tangential_stiffness = between(a.tangential_stiffness, b.tangential_stiffness),
-          .bending_stiffness = between(a.bending_stiffness, b.bending_stiffness),
-          .normal_strength = between(a.normal_strength, b.normal_strength)};
-}
+BondProperties published_bond(double radius, int direction) { return published_passport().bond(radius, direction); }
 
 RagPiece make_piece(const RagSettings& s, const std::string& where, const std::filesystem::path& folder) {
   RagPiece piece;
@@ -151,7 +149,7 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   check_size(s, where);
   set_lattice(s, piece);
   set_mass(s, piece.rag);
-  set_bonds(s, where, piece.rag);
+  set_bonds(s, where, folder, piece.rag);
   piece.centre = s.position, piece.velocity = s.velocity, piece.spin = s.spin;
   piece.insert_time = s.insert_time, piece.with_water = s.with_water;
   // A chain needs one direction only: any other that is not parallel completes the frame.

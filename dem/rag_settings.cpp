@@ -103,6 +103,7 @@ void add_pose(RagSettings& s, Records& r) {
   r.push_back(number("insert_time", &s.insert_time, "s", 0, Basis::assumed,
                      "When it is put into the run, into water that has developed by then; walls that turn are where they are then."));
   r.push_back(setting("with_water", &s.with_water, "The mean velocity of the water at its particles is added to `velocity`."));
+  for (const Parameter& parameter : s.copies.parameters()) r.push_back(parameter);
   if (point) return;
   r.push_back(number("lengthwise", &s.lengthwise, "1", -infinity, Basis::assumed, "Direction of the rows, any length."));
   if (s.shape != Shape::fibre)
@@ -128,6 +129,11 @@ void add_bond_direction(const std::string& direction, BondProperties& p, Records
 
 void add_bonds(RagSettings& s, Records& r) {
   if (s.shape == Shape::particle) return;
+  r.push_back(
+      file_setting("passport", &s.passport,
+                   "Bonds as calibrated from tests of the cloth (`snag calibrate`), instead of `properties`: a textile passport such "
+                   "as cases/textile-aro/passport.toml, interpolated in the logarithms between its radii. A fibre takes those "
+                   "lengthwise."));
   r.push_back(setting(
       "properties", &s.properties,
       "Of the bonds: the calibrated ones of Jensen (2018) Tables 3.3 and 3.4 (particle radius 1 to 2 mm, in between interpolated in the "
@@ -189,9 +195,11 @@ std::vector<RagPiece> read_pieces(const CaseFile& file) {
     for (const Table& table : file.root().tables(name)) {
       RagSettings settings(shape);
       table.read(settings.section().parameters);
-      pieces.push_back(make_piece(settings, table.where(), file.path(".")));
-      ++count;
-      if (pieces.back().rag.name.empty()) pieces.back().rag.name = name + " " + std::to_string(count);
+      for (RagPiece& piece : copies_of(make_piece(settings, table.where(), file.path(".")), settings.copies, table.where())) {
+        ++count;
+        if (piece.rag.name.empty()) piece.rag.name = name + " " + std::to_string(count);
+        pieces.push_back(std::move(piece));
+      }
     }
   }
   return pieces;

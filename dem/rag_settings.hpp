@@ -9,6 +9,7 @@
 #include "base/parameter.hpp"
 #include "dem/lattice.hpp"
 #include "dem/poses/pose_plan.hpp"
+#include "dem/rag_copies.hpp"
 
 namespace snag {
 
@@ -41,7 +42,9 @@ struct RagSettings {
   std::string pose_file;
   double insert_time = 0;   // s
   bool with_water = false;  // the water's mean velocity is added to `velocity`
+  RagCopies copies;
   // bonds
+  std::string passport;                  // file of a calibration; "": as `properties` says
   std::string properties = "published";  // published | given | beam
   double youngs_modulus = 1e9;           // beam, Pa
   BondProperties along, across;          // given
@@ -57,7 +60,8 @@ struct RagSettings {
 /// file. A pose that takes a run of its own is still to be made (make_poses, dem/poses/crumpled.hpp). Throws Error(usage, io).
 RagPiece make_piece(const RagSettings& settings, const std::string& where, const std::filesystem::path& folder = {});
 
-/// All pieces of a case: [[rag]], then [[disc]], [[fibre]], [[particle]], each in order of the file. Throws Error(usage, io).
+/// All pieces of a case: [[rag]], then [[disc]], [[fibre]], [[particle]], each in order of the file with its copies. Throws Error(usage,
+/// io).
 std::vector<RagPiece> read_pieces(const CaseFile& file);
 
 struct DemSettings {

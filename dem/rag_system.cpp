@@ -36,7 +36,7 @@ RagSystem::RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<Rag
   }
   broken_.assign(rags_.size(), 0);
   owner_.assign(n_tiles, -1);
-  inserted_.assign(rags_.size(), 0);
+  presence_.assign(rags_.size(), Presence::waiting);
   for (std::size_t r = 0; r < pieces_.size(); ++r)
     if (pieces_[r].insert_time <= 0 && !pieces_[r].with_water) add_tiles(static_cast<int>(r));
   set_limit();
@@ -58,11 +58,24 @@ void RagSystem::add_tiles(int rag) {
   }
   numbers_.insert(numbers_.begin() + place, numbers.begin(), numbers.end());
   tiles_.insert(tiles_.begin() + place, std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
-  inserted_[rag] = 1;
+  presence_[rag] = Presence::present;
 }
 
 void RagSystem::insert(int rag) {
   add_tiles(rag);
+  set_pointers();
+  find_ghosts();
+  halo_->exchange();
+}
+
+void RagSystem::remove(int rag) {
+  const int first = grids_[rag].first_tile, end = first + grids_[rag].n_tiles();
+  const auto from = std::lower_bound(numbers_.begin(), numbers_.end(), first) - numbers_.begin();
+  const auto to = std::lower_bound(numbers_.begin(), numbers_.end(), end) - numbers_.begin();
+  numbers_.erase(numbers_.begin() + from, numbers_.begin() + to);
+  tiles_.erase(tiles_.begin() + from, tiles_.begin() + to);
+  std::fill(owner_.begin() + first, owner_.begin() + end, -1);
+  presence_[rag] = Presence::removed;
   set_pointers();
   find_ghosts();
   halo_->exchange();
@@ -97,7 +110,9 @@ void RagSystem::set_limit() {
     const StepLimit of_rag = stable_bond_step(rag, damping_rate_);
     if (of_rag.step < limit_.step) limit_ = of_rag;
   }
-  if (contacts_ && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
+  // A single sphere without walls has nothing to touch.
+  const bool can_touch = contacts_ && (n_particles() > 1 || !contacts_->wall_touches().empty());
+  if (can_touch && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
   if (settings_.step && *settings_.step > limit_.step)
     throw Error(ExitCode::usage, "[dem] step: " + words(*settings_.step) + " s is above the stable step of " + words(limit_.step) +
                                      " s, set by " + limit_.reason + "; give a shorter step, or none to let Snag choose");
@@ -145,7 +160,11 @@ void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* for
   // Everything else a tile at a time, while it is in the cache.
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
-    broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
+    if (rags_[tile.rag].n_bonds == 0) {
+      std::fill_n(tile.field(Tile::fx), (Tile::n_fields - Tile::fx) * tile.field_size, 0.0);
+    } else {
+      broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
+    }
     if (contacts_) contacts_->add_to_tile(i);
     if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces
     kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);

@@ -81,10 +81,13 @@ class RagSystem {
   std::vector<Tile>& tiles() { return tiles_; }
   const std::vector<Tile>& tiles() const { return tiles_; }
   const std::vector<RagPiece>& pieces() const { return pieces_; }
-  /// True once the rag is in the run.
-  bool inserted(int rag) const { return inserted_[rag]; }
+  /// Whether a rag is in the run, not yet, or no more.
+  enum class Presence : char { waiting, present, removed };
+  Presence presence(int rag) const { return presence_[rag]; }
   /// Puts a waiting rag where its piece says. Collective.
   void insert(int rag);
+  /// Takes a rag out of the run as a whole; it stays counted as complete. Collective.
+  void remove(int rag);
   /// Adds a velocity to all particles of a rag, m/s.
   void push(int rag, const Vec3& velocity);
   double time() const { return time_; }
@@ -153,10 +156,10 @@ class RagSystem {
   StepLimit limit_;
   double time_ = 0;
   std::int64_t n_sub_steps_ = 0, n_particle_steps_ = 0;
-  std::vector<char> inserted_;        // [n_rags]
+  std::vector<Presence> presence_;    // [n_rags]
   std::vector<std::int64_t> broken_;  // [n_rags] bonds that broke on this rank
 
-  std::vector<int> owner_;    // [n_tiles] rank of each tile; -1: its rag waits
+  std::vector<int> owner_;    // [n_tiles] rank of each tile; -1: its rag is not in the run
   std::vector<int> numbers_;  // of the owned tiles, ascending
   std::vector<Tile> tiles_;
   std::map<int, TileLists> lists_;  // by the other rank

@@ -116,19 +116,25 @@ std::vector<EffectEstimate> estimates(const Responses& model, const Fit& fit) {
 bool has_cell_of_its_own(const Responses& model, const Fit& pair, const Fit& single) {
   constexpr int parts = 3;
   constexpr double seen = 3;
+  std::vector<double> along(model.experiment().observables.size(), 0), square = along;  // by observable
   for (std::size_t p = 0; p < model.training().size(); ++p) {
     const auto& rows = model.points()[model.training()[p]].rows;
     for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
       while (end < rows.size() && rows[end].observable == rows[begin].observable && rows[end].kind == rows[begin].kind) ++end;
-      const int first = single.first_row[p] + static_cast<int>(begin), n = static_cast<int>(end - begin);
+      const int n = static_cast<int>(end - begin);
+      const Eigen::VectorXd alone = single.residual.segment(single.first_row[p] + static_cast<int>(begin), n);
+      const Eigen::VectorXd together = pair.residual.segment(pair.first_row[p] + static_cast<int>(begin), n), taken = alone - together;
+      along[rows[begin].observable] += alone.dot(taken), square[rows[begin].observable] += taken.squaredNorm();
+      if (alone.dot(taken) > seen * taken.norm()) return true;
       for (int part = 0; part < std::min(parts, n); ++part) {
         const int from = part * n / parts, count = std::max(1, (part + 1) * n / parts - from);
-        const double alone = std::abs(single.residual.segment(first + from, std::min(count, n - from)).sum()) / std::sqrt(count);
-        const double together = std::abs(pair.residual.segment(first + from, std::min(count, n - from)).sum()) / std::sqrt(count);
-        if (alone > seen && together < alone) return true;
+        const double mean = std::abs(alone.segment(from, count).sum()) / std::sqrt(count);
+        if (mean > seen && std::abs(together.segment(from, count).sum()) / std::sqrt(count) < mean) return true;
       }
     }
   }
+  for (std::size_t o = 0; o < along.size(); ++o)
+    if (along[o] > seen * std::sqrt(square[o])) return true;
   return false;
 }
 

@@ -3,6 +3,7 @@
 #include "diagnosis/attribution.hpp"
 #include "diagnosis/how_far.hpp"
 #include "diagnosis/judgement.hpp"
+#include "diagnosis/next_experiment.hpp"
 #include "diagnosis/where.hpp"
 
 namespace snag {
@@ -16,6 +17,7 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   Attribution attribution = attribute(model, fitter, options.progress);
   const int chosen = judge(model, attribution, verdict);
   verdict.identifiability = attribution.identifiability;
+  verdict.identifiability.next_experiment = next_experiment(model, attribution);
   verdict.where = gap_cells(model, fitter);
   if (options.progress) options.progress("withheld points", 0.9);
   measure_shrinkage(model, attribution, chosen, verdict);

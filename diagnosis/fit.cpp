@@ -11,8 +11,17 @@ namespace snag {
 
 namespace {
 
-/// Over what share of the duration an error of form keeps its sign.
-constexpr double form_length = 1.0 / 3;
+/// Over what shares of the duration an error of form keeps its sign, and how much of its variance each has.
+struct FormLength {
+  double length, share;
+};
+constexpr std::array form_lengths{FormLength{1.0 / 3, 0.8}, FormLength{1.0 / 15, 0.2}};
+
+// Matern correlation of order 3/2.
+double matern(double distance) {
+  const double r = std::sqrt(3.0) * distance;
+  return (1 + r) * std::exp(-r);
+}
 
 // Size of an effect's contribution up to each row: an error of form does not vanish where the contribution crosses zero.
 Eigen::VectorXd envelope(const PointSummary& point, const Eigen::VectorXd& part) {
@@ -35,12 +44,12 @@ double time_of(const Row& row) { return 0.5 * (row.begin + row.end); }
 
 void add_form_error(const PointSummary& point, const Eigen::VectorXd& part, double form_error, Eigen::MatrixXd& C) {
   const Eigen::VectorXd size = form_error * envelope(point, part);
-  const double length = std::max(form_length * point.duration, 1e-300);
+  const double duration = std::max(point.duration, 1e-300);
   for (int i = 0; i < point.n_gaussian; ++i) {
     for (int j = 0; j < point.n_gaussian; ++j) {
       if (point.rows[i].observable != point.rows[j].observable) continue;
-      const double apart = i == j ? 0 : std::sqrt(3.0) * std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / length;
-      C(i, j) += size[i] * size[j] * (1 + apart) * std::exp(-apart);  // Matern 3/2: errors of form have a tail of faster ones
+      const double apart = i == j ? 0 : std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / duration;
+      for (const FormLength& form : form_lengths) C(i, j) += size[i] * size[j] * form.share * matern(apart / form.length);
     }
   }
 }

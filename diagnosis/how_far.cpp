@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/statistics.hpp"
 
@@ -10,7 +11,7 @@ namespace snag {
 namespace {
 
 constexpr int least_points = 3, n_resamples = 600;
-/// Below this excess, in units of u_D^2 per row, there is no gap that could shrink.
+/// Below this excess, in units of u_D^2 per row, there is no gap that could shrink: the number is NaN, null in verdict.json.
 constexpr double no_gap = 1e-12;
 
 // What one hypothesis predicts at the withheld points, by point and row: E over u_D, and how it moves with what is uncertain.
@@ -46,7 +47,7 @@ class HowFar {
       State moved = state;
       moved.nuisances[j] += 1;
       moved_input.push_back(model_.run(moved, withheld));
-      posterior[j] = std::sqrt(fit.solution.covariance(k + j, k + j));
+      if (!fit.hypothesis.effects.empty()) posterior[j] = std::sqrt(fit.solution.covariance(k + j, k + j));
     }
     Prediction prediction;
     for (std::size_t p = 0; p < withheld.size(); ++p) {
@@ -151,7 +152,7 @@ class HowFar {
   Shrinkage shrinkage(const Prediction& before, const Prediction& after) const {
     const double G_before = excess(before, all_points());
     Shrinkage result;
-    result.mean = G_before > no_gap ? 1 - excess(after, all_points()) / G_before : 0;
+    result.mean = G_before > no_gap ? 1 - excess(after, all_points()) / G_before : std::numeric_limits<double>::quiet_NaN();
     NormalNumbers random(model_.experiment().seed + 17);
     std::vector<double> draws;
     const int n = static_cast<int>(before.error.size());
@@ -164,15 +165,17 @@ class HowFar {
       if (own > no_gap) draws.push_back(1 - excess(a, points, 2) / own);
     }
     std::sort(draws.begin(), draws.end());
-    if (draws.empty()) return result;
+    if (draws.empty() || std::isnan(result.mean)) return {result.mean, result.mean, result.mean};
     result.low = std::min(result.mean, draws[static_cast<std::size_t>(0.025 * static_cast<double>(draws.size() - 1))]);
     result.high = std::max(result.mean, draws[static_cast<std::size_t>(0.975 * static_cast<double>(draws.size() - 1))]);
     return result;
   }
 
  private:
-  // The fitted state; nuisances that no training point shares stay at their expected value: they are what u_input is for.
+  // The base model with all inputs as they are expected, or it would take up the effect with inputs far outside their band; with an
+  // effect the fitted state. Nuisances that no training point shares stay at their expected value: they are what u_input is for.
   State withheld_state(const Fit& fit) const {
+    if (fit.hypothesis.effects.empty()) return model_.base();
     State state = fit.at.state;
     for (std::size_t j = 0; j < model_.nuisances().size(); ++j) {
       const auto& training = model_.training();

@@ -17,7 +17,7 @@ const double log_2pi = std::log(2 * std::numbers::pi);
 // log of the normal distribution function; the asymptotic form where the function itself underflows.
 double log_normal_cdf(double z) {
   if (z > -30) return std::log(0.5 * std::erfc(-z / std::numbers::sqrt2));
-  return -0.5 * z * z - std::log(-z) - 0.5 * log_2pi;
+  return -0.5 * z * z - std::log(-z) - 0.5 * log_2pi + std::log1p(-1 / (z * z) + 3 / (z * z * z * z));
 }
 
 // log(Phi(b) - Phi(a)), a < b.

@@ -34,6 +34,18 @@ void Coverage::fill_triangle(std::array<double, 3> x, std::array<double, 3> y) {
   }
 }
 
+void Coverage::fill_circle(double x, double y, double radius) {
+  const int i0 = std::max(0, static_cast<int>((x - radius - x0) / side - 0.5)),
+            i1 = std::min(nx - 1, static_cast<int>((x + radius - x0) / side));
+  const int j0 = std::max(0, static_cast<int>((y - radius - y0) / side - 0.5)),
+            j1 = std::min(ny - 1, static_cast<int>((y + radius - y0) / side));
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i) {
+      const double dx = x0 + (i + 0.5) * side - x, dy = y0 + (j + 0.5) * side - y;
+      if (dx * dx + dy * dy <= radius * radius) covered[static_cast<std::size_t>(j) * nx + i] = 1;
+    }
+}
+
 double Coverage::area() const { return side * side * std::accumulate(covered.begin(), covered.end(), 0.0); }
 
 }  // namespace snag

@@ -18,6 +18,8 @@ struct Coverage {
   bool at(int i, int j) const { return i >= 0 && j >= 0 && i < nx && j < ny && covered[static_cast<std::size_t>(j) * nx + i] != 0; }
   /// Covers the pixels whose centres are in the triangle.
   void fill_triangle(std::array<double, 3> x, std::array<double, 3> y);
+  /// Covers the pixels whose centres are in the circle.
+  void fill_circle(double x, double y, double radius);
   /// Covered area, m2.
   double area() const;
 };

@@ -7,8 +7,6 @@
 
 namespace snag {
 
-namespace {
-
 Silhouette moments(const Coverage& picture) {
   const double side = picture.side;
   double m00 = 0, m10 = 0, m01 = 0, m20 = 0, m11 = 0, m02 = 0;
@@ -32,8 +30,6 @@ Silhouette moments(const Coverage& picture) {
   seen.orientation = 0.5 * std::atan2(2 * xy, xx - yy);
   return seen;
 }
-
-}  // namespace
 
 Silhouette silhouette(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel) {
   if (triangles.empty()) return {};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "observe/coverage.hpp"
 
 namespace snag {
 
@@ -22,6 +23,9 @@ struct Silhouette {
   double elongation_ratio = 0;  // major over minor axis of the ellipse; 0 for an empty picture
   double orientation = 0;       // of the major axis from `right`, counter-clockwise, rad, in (-pi/2, pi/2]
 };
+
+/// Of all that is covered.
+Silhouette moments(const Coverage& picture);
 
 /// Parallel projection of triangles (indices into points), pixel side `pixel` in metres; a pixel belongs to the silhouette if its centre
 /// does.

@@ -45,7 +45,7 @@ WallSurface table(double radius) {
   return surface;
 }
 
-RagPiece flat_cloth(const DrapeTest& test, const DrapeCloth& cloth) {
+RagPiece round_cloth(const DrapeTest& test, const DrapeCloth& cloth, const RagSheet* start) {
   RagPiece piece;
   Rag& rag = piece.rag;
   const double r = cloth.radius;
@@ -56,6 +56,12 @@ RagPiece flat_cloth(const DrapeTest& test, const DrapeCloth& cloth) {
   rag.mass = test.mass_per_area * 4 * r * r, rag.inertia = 0.4 * rag.mass * r * r;
   rag.bond = cloth.bond, rag.bond_damping = cloth.bond_damping, rag.rotation_friction = cloth.rotation_friction;
   rag.shear_modulus = cloth.shear_modulus;
+  if (!start) return piece;
+  piece.poses.resize(static_cast<std::size_t>(rag.n_columns) * rag.n_rows);
+  for (std::size_t k = 0; k < start->id.size(); ++k) {
+    const auto& [w, x, y, z] = start->orientation[k];
+    piece.poses[start->id[k]] = {start->position[k] - piece.centre, {w, x, y, z}};
+  }
   return piece;
 }
 
@@ -82,7 +88,7 @@ void begin_waves(RagSystem& rags, int seed) {
 /// The table, the cloth on it and what moves it.
 class DrapeRun {
  public:
-  DrapeRun(const DrapeTest& test, const RagPiece& piece, const DrapeCloth& cloth, double safety, int seed)
+  DrapeRun(const DrapeTest& test, const RagPiece& piece, const DrapeCloth& cloth, double safety)
       : rags_(MPI_COMM_SELF, DemSettings{{}, safety}, {piece}) {
     walls_.add_surface("table", table(test.disc_diameter / 2));
     ContactSettings contacts;
@@ -95,10 +101,11 @@ class DrapeRun {
     rags_.set_gravity({0, 0, -standard_gravity});
     const double pin = pin_over_radius * piece.rag.radius;
     rags_.clamp([&](std::int64_t id) {
-      const Vec3 x = piece.pose(static_cast<int>(id % piece.rag.n_columns), static_cast<int>(id / piece.rag.n_columns)).position;
-      return x.x * x.x + x.y * x.y <= pin * pin;
+      const Rag& rag = piece.rag;
+      const double x = (2.0 * (id % rag.n_columns) - (rag.n_columns - 1)) * rag.radius;
+      const double y = (2.0 * (id / rag.n_columns) - (rag.n_rows - 1)) * rag.radius;
+      return x * x + y * y <= pin * pin;
     });
-    begin_waves(rags_, seed);
   }
   RagSystem& rags() { return rags_; }
 
@@ -125,8 +132,9 @@ class Air : public TileForce {
 
 }  // namespace
 
-Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed) {
-  DrapeRun run(test, relaxing(flat_cloth(test, cloth)), cloth, 0.9, seed);
+Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, const RagSheet* start) {
+  DrapeRun run(test, relaxing(round_cloth(test, cloth, start)), cloth, 0.9);
+  if (!start) begin_waves(run.rags(), seed);
   const double hangs = (test.sample_diameter - test.disc_diameter) / 2;
   Drape drape;
   drape.cost = relax(run.rags(), {.gravity = standard_gravity, .length = hangs, .tolerance = drape_tolerance});
@@ -134,9 +142,10 @@ Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed) {
   return drape;
 }
 
-Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, double duration, double air) {
-  const RagPiece piece = flat_cloth(test, cloth);
-  DrapeRun run(test, piece, cloth, 0.8, seed);
+Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, double duration, double air, const RagSheet* start) {
+  const RagPiece piece = round_cloth(test, cloth, start);
+  DrapeRun run(test, piece, cloth, 0.8);
+  if (!start) begin_waves(run.rags(), seed);
   run.rags().set_damping_rate(air);
   Air slowing(piece.rag, air);
   run.rags().advance(duration, &slowing);

@@ -33,10 +33,11 @@ struct Drape {
   RelaxationCost cost;  // n_peaks = 0: of a dynamic run
 };
 
-/// The cloth at rest by dynamic relaxation. On this rank alone. Throws Error(diverged) if it does not rest.
-Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed);
+/// The cloth at rest by dynamic relaxation, from flat or from where `start` has it (then without waves). On this rank alone. Throws
+/// Error(diverged) if it does not rest.
+Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, const RagSheet* start = nullptr);
 /// The same by the motion of the cloth with its own dashpots and friction, for `duration` s, in air that slows it by `air` (1/s).
-Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, double duration, double air);
+Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, double duration, double air, const RagSheet* start = nullptr);
 
 /// The cloth from above: triangles between the particles, and for each particle the square of cloth that it stands for, 2 r_p wide in its
 /// own plane, so that the cloth ends where its last cells end. `pixel`: m.

@@ -50,6 +50,7 @@ RelaxationCost relax(RagSystem& rags, const Relaxation& settings, TileForce* for
   const std::int64_t steps_before = rags.n_sub_steps();
   const double begun = rags.time(), look = settings.steps_between_looks * rags.stable_step();
   double before = 0, peak = 0;
+  int quiet_peaks = 0;
   for (;;) {
     rags.advance(look, force);
     const Motion now = motion(rags);
@@ -57,7 +58,8 @@ RelaxationCost relax(RagSystem& rags, const Relaxation& settings, TileForce* for
     if (now.energy < before) {
       stop(rags);
       ++cost.n_peaks;
-      if (peak < per_mass * now.mass) break;
+      quiet_peaks = peak < per_mass * now.mass ? quiet_peaks + 1 : 0;
+      if (quiet_peaks == 2) break;  // one alone may be the ripple of a bond
       peak = 0;
     }
     before = now.energy < before ? 0 : now.energy;

@@ -7,8 +7,8 @@
 // contacts acts as in it.
 //
 // Rest: the kinetic energy of a peak is what the potential energy fell by since the peak before. A particle of weight w that is u away from
-// rest, held by gravity at a length l (a pendulum), has w u^2/(2 l) to lose. The cloth is at rest when a peak has less than that for each
-// particle.
+// rest, held by gravity at a length l (a pendulum), has w u^2/(2 l) to lose. The cloth is at rest when two peaks in a row have less than
+// that for each particle.
 //
 // Source: Barnes, M. R. (1999), Form finding and analysis of tension structures by dynamic relaxation, Int. J. Space Structures 14, 89-104.
 #include "dem/rag_system.hpp"

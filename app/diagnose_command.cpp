@@ -1,0 +1,42 @@
+// snag diagnose
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/diagnosis/bench.hpp"
+#include "app/diagnosis/diagnose_case.hpp"
+
+namespace snag {
+
+Action add_diagnose(CLI::App& app) {
+  struct Options {
+    DiagnoseOptions one;
+    DiagnoseBenchOptions bench;
+    std::string level;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "diagnose", "Where simulation and measurement differ, which unmodelled effect causes it, how far the gap shrinks once it is added");
+  auto* file = command->add_option("DIAGNOSIS", options->one.file, "Experiment file (.toml)");
+  command->add_option("--out", options->one.out, "Output folder: verdict.json, report.html; runs that are there are used again")
+      ->required();
+  auto* bench =
+      command->add_option("--bench", options->level, "Blind benchmark instead, on sets made here: L1 (other step) or L2 (other physics)");
+  bench->excludes(file);
+  command->add_option("--twin", options->bench.twin, "Of the benchmark: sphere (default), fibre or rag")->needs(bench);
+  command->add_option("--n", options->bench.n, "Of the benchmark: number of sets (default 60)")->needs(bench)->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->bench.seed, "Of the benchmark: of all that is drawn (default 1)")->needs(bench);
+  return [options] {
+    if (!options->level.empty()) {
+      options->bench.level = options->level, options->bench.out = options->one.out;
+      bench_diagnosis(options->bench);
+      return ExitCode::ok;
+    }
+    if (options->one.file.empty())
+      throw Error(ExitCode::usage, "snag diagnose: no experiment file; give DIAGNOSIS.toml, or --bench L2 for the blind benchmark");
+    diagnose_file(options->one);
+    return ExitCode::ok;
+  };
+}
+
+}  // namespace snag

@@ -1,0 +1,255 @@
+#include "app/diagnosis/case_run.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "app/diagnosis/observe_settings.hpp"
+#include "app/diagnosis/outline_moments.hpp"
+#include "app/simulation.hpp"
+#include "base/error.hpp"
+#include "base/words.hpp"
+#include "dem/tile_particles.hpp"
+
+namespace snag {
+
+namespace {
+
+enum What { x, y, z, vx, vy, vz, area, elongation_ratio, orientation, retention_time, recirculations, stuck, exited, n_observables };
+constexpr std::array<const char*, n_observables> names{
+    "x", "y", "z", "vx", "vy", "vz", "area", "elongation_ratio", "orientation", "retention_time", "recirculations", "stuck", "exited"};
+
+What what_of(const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw Error(ExitCode::usage, "observable \"" + name +
+                                     "\": a case without a mesh has no such number; there are: " + joined({names.begin(), names.end()}));
+  return static_cast<What>(found - names.begin());
+}
+
+bool of_picture(What w) { return w == area || w == elongation_ratio || w == orientation; }
+bool of_whole_run(What w) { return w >= retention_time; }
+
+/// Centre of mass and its velocity.
+struct Motion {
+  Vec3 position, velocity;
+};
+
+Motion motion_of(const RagSystem& rags) {
+  Motion sum;
+  double mass = 0;
+  for (const Tile& tile : rags.tiles()) {
+    const double m = rags.rags()[static_cast<std::size_t>(tile.rag)].mass;
+    for_particles(tile, [&](int k, int, int) {
+      sum.position += m * tile.vector(Tile::x, k), sum.velocity += m * tile.vector(Tile::vx, k);
+      mass += m;
+    });
+  }
+  return {sum.position / mass, sum.velocity / mass};
+}
+
+/// Cubic in time through places and velocities at both ends of a step.
+Vec3 place_between(const Motion& a, const Motion& b, double dt, double s) {
+  const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s), h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
+  return h00 * a.position + (dt * h10) * a.velocity + h01 * b.position + (dt * h11) * b.velocity;
+}
+
+double turned_by(double from, double to, double period) { return std::remainder(to - from, period); }
+
+/// What is told of the whole run: the first passage of the exit, the turns of the path in the picture, the rest.
+class Journey {
+ public:
+  Journey(const ObserveSettings& settings, const View& view, double end) : settings_(settings), view_(view), end_(end) {}
+
+  void look(double time, const Motion& motion) {
+    const std::optional<double> beyond = settings_.beyond_exit(motion.position);
+    if (beyond && *beyond > 0 && !left_) {
+      const double before = before_.value_or(0);
+      left_ = before < 0 ? before_time_ + (time - before_time_) * before / (before - *beyond) : time;
+    }
+    before_ = beyond, before_time_ = time;
+    const double a = dot(motion.velocity, view_.right), b = dot(motion.velocity, view_.up);
+    if (std::hypot(a, b) > 0) {
+      const double angle = std::atan2(b, a);
+      if (angle_) turn_ += turned_by(*angle_, angle, 2 * std::numbers::pi);
+      angle_ = angle;
+    }
+    if (time <= 0.8 * end_) late_ = motion.position;
+    last_ = motion.position;
+  }
+
+  double told(What w, double size) const {
+    switch (w) {
+      case retention_time:
+        return left_.value_or(std::numeric_limits<double>::quiet_NaN());
+      case recirculations:
+        return std::floor(std::abs(turn_) / (2 * std::numbers::pi));
+      case stuck:
+        return !left_ && norm(last_ - late_) < size ? 1 : 0;
+      default:
+        return left_ ? 1 : 0;
+    }
+  }
+
+ private:
+  const ObserveSettings& settings_;
+  const View& view_;
+  double end_;
+  std::optional<double> left_, before_, angle_;  // s, m, rad
+  double before_time_ = 0, turn_ = 0;
+  Vec3 late_, last_;
+};
+
+/// Where the pieces are at the end of a step.
+struct Instant {
+  double time = 0;
+  Motion motion;
+  std::optional<Silhouette> picture;  // where one is needed
+};
+
+double between(double a, double b, double s) { return a + s * (b - a); }
+
+/// `s`: share of the step from a to b that has passed.
+double seen_between(What w, const Instant& a, const Instant& b, double s) {
+  switch (w) {
+    case x:
+    case y:
+    case z:
+      return place_between(a.motion, b.motion, b.time - a.time, s)[w];
+    case vx:
+    case vy:
+    case vz:
+      return between(a.motion.velocity[w - vx], b.motion.velocity[w - vx], s);
+    case area:
+      return between(a.picture->area, b.picture->area, s);
+    case elongation_ratio:
+      return between(a.picture->elongation_ratio, b.picture->elongation_ratio, s);
+    default: {
+      const double turn = turned_by(a.picture->orientation, b.picture->orientation, std::numbers::pi);
+      return turned_by(0, a.picture->orientation + s * turn, std::numbers::pi);  // an axis has no head: within +- pi/2
+    }
+  }
+}
+
+/// What is asked, in the order of time; numbers of the whole run last.
+struct Slot {
+  double time;
+  What what;
+  std::size_t place;
+};
+
+std::vector<Slot> slots_of(const std::vector<Asked>& asked) {
+  std::vector<Slot> slots;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const What w = what_of(asked[i].observable);
+    if (of_whole_run(w) != std::isnan(asked[i].time))
+      throw Error(ExitCode::usage, "observable \"" + asked[i].observable + "\" is asked " +
+                                       (of_whole_run(w) ? "at a time, but is a number of the whole run; leave t_s empty"
+                                                        : "without a time, but changes in time; give t_s"));
+    slots.push_back({of_whole_run(w) ? infinity : asked[i].time, w, i});
+  }
+  std::stable_sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.time < b.time; });
+  return slots;
+}
+
+/// Answers as the run goes by.
+class Observer {
+ public:
+  Observer(const RagSystem& rags, const ObserveSettings& settings, std::vector<Slot> slots, double end, double dt)
+      : rags_(rags), view_(settings.view()), journey_(settings, view_, end), slots_(std::move(slots)), dt_(dt) {
+    values_.resize(slots_.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const Slot& slot : slots_) {
+      if (of_picture(slot.what)) picture_times_.push_back(slot.time);
+      whole_run_ = whole_run_ || of_whole_run(slot.what);
+    }
+  }
+
+  void look(double time) {
+    Instant now{time, motion_of(rags_), {}};
+    if (needs_picture(time)) now.picture = outline_of(rags_, view_);
+    const double tolerance = 1e-9 * dt_;
+    for (; next_ < slots_.size() && slots_[next_].time <= time + tolerance; ++next_) {
+      const Slot& slot = slots_[next_];
+      const bool here = std::abs(slot.time - time) <= tolerance;
+      const double share = here ? 1 : (slot.time - before_.time) / (time - before_.time);
+      values_[slot.place] = seen_between(slot.what, here ? now : before_, now, share);
+    }
+    if (whole_run_) journey_.look(time, now.motion);
+    before_ = now;
+  }
+  std::vector<double> values() {
+    const double size = 2 * rags_.rags().front().radius;
+    for (const Slot& slot : slots_)
+      if (of_whole_run(slot.what)) values_[slot.place] = journey_.told(slot.what, size);
+    return values_;
+  }
+
+ private:
+  /// Pictures of both ends of a step in which one is asked for.
+  bool needs_picture(double time) const {
+    const auto next = std::upper_bound(picture_times_.begin(), picture_times_.end(), time - dt_ * (1 + 1e-9));
+    return next != picture_times_.end() && *next < time + dt_ * (1 + 1e-9);
+  }
+
+  const RagSystem& rags_;
+  View view_;
+  Journey journey_;
+  std::vector<Slot> slots_;
+  std::vector<double> values_, picture_times_;
+  std::size_t next_ = 0;
+  double dt_;
+  bool whole_run_ = false;
+  Instant before_;
+};
+
+/// Steps that a run takes: as many as the case, over the factor.
+std::int64_t n_steps_of(const TimeSettings& time, double step_factor) {
+  return std::max<std::int64_t>(1, std::llround(static_cast<double>(time.n_steps()) / step_factor));
+}
+
+double last_time(const std::vector<Slot>& slots, double end) {
+  double last = 0;
+  for (const Slot& slot : slots) {
+    if (std::isinf(slot.time)) return end;
+    if (slot.time <= end * (1 + 1e-9)) last = slot.time;
+  }
+  return last;
+}
+
+void kick(RagSystem& rags, const OutsideForce& outside, double time, double dt) {
+  for (Tile& tile : rags.tiles())
+    for_particles(tile, [&](int k, int, int) {
+      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, tile.vector(Tile::x, k)));
+    });
+}
+
+}  // namespace
+
+bool is_observable_of_particles(const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside) {
+  std::vector<Slot> slots = slots_of(asked);
+  Simulation run(file, MPI_COMM_SELF);
+  if (!run.rags || run.mesh)
+    throw Error(ExitCode::usage, file.root().where() + ": must be a case of particles without a mesh, to be run in a moment");
+  run.insert_rags();
+  const double end = run.time_settings.end;
+  const std::int64_t n_steps = n_steps_of(run.time_settings, step_factor);
+  const double dt = end / static_cast<double>(n_steps);
+  const double last = last_time(slots, end);
+  Observer observer(*run.rags, run.observe_settings, std::move(slots), end, dt);
+  observer.look(0);
+  for (std::int64_t n = 0; n < n_steps && static_cast<double>(n) * dt < last * (1 - 1e-9); ++n) {
+    run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
+    if (outside) kick(*run.rags, outside, (static_cast<double>(n) + 0.5) * dt, dt);
+    observer.look(static_cast<double>(n + 1) * dt);
+  }
+  return observer.values();
+}
+
+}  // namespace snag

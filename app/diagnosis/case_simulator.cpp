@@ -1,0 +1,265 @@
+#include "app/diagnosis/case_simulator.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "app/diagnosis/mesh_run.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/sha256.hpp"
+#include "base/version.hpp"
+#include "base/words.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr const char* flow_field = "flow.amplitude";
+
+/// Slots of a point: what the data have, by observable and time, each once.
+std::vector<Slot> slots_of(const Experiment& experiment, int point) {
+  std::set<std::pair<int, double>> timed;
+  std::set<int> whole;
+  for (const Datum& datum : experiment.data) {
+    if (datum.point != point) continue;
+    if (std::isnan(datum.time))
+      whole.insert(datum.observable);
+    else
+      timed.emplace(datum.observable, datum.time);
+  }
+  std::vector<Slot> slots;
+  for (const auto& [observable, time] : timed) slots.push_back({observable, time});
+  for (const int observable : whole) slots.push_back({.observable = observable});
+  return slots;
+}
+
+BaseCase any_of(BaseCase a, const BaseCase& b) {
+  a.prescribed = a.prescribed && b.prescribed;
+  for (bool BaseCase::*fact :
+       {&BaseCase::wall, &BaseCase::gravity, &BaseCase::flows, &BaseCase::uniform, &BaseCase::varies, &BaseCase::gradient,
+        &BaseCase::turbulence, &BaseCase::bonds, &BaseCase::sheet, &BaseCase::several, &BaseCase::oriented})
+    a.*fact = a.*fact || b.*fact;
+  return a;
+}
+
+bool is_length(const std::string& id) {
+  for (const char* name : {"x", "y", "z", "vx", "vy", "vz"})
+    if (id == name) return true;
+  return false;
+}
+
+/// Name of the nuisance that shifts an observable by its bias.
+std::string calibration_of(const Observable& observable) {
+  return observable.calibration_group.empty() ? "bias of " + observable.id : observable.calibration_group;
+}
+
+std::string text_of(const std::map<std::string, double>& values) {
+  std::string text;
+  char digits[32];
+  for (const auto& [name, value] : values) {
+    if (value == 0) continue;
+    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    text += name + "=" + std::string(digits, end) + ";";
+  }
+  return text;
+}
+
+}  // namespace
+
+CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder)
+    : comm_(comm), folder_(folder), observables_(experiment.observables) {
+  for (std::size_t p = 0; p < experiment.points.size(); ++p) {
+    PointCase base(experiment.points[p].case_file);
+    if (base.has_mesh() && folder_.empty())
+      throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
+    for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
+    std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
+    std::vector<Asked> asked;
+    std::string fingerprint = base.sha256() + version_git;
+    for (const Slot& slot : slots) {
+      asked.push_back({observables_[static_cast<std::size_t>(slot.observable)].id, slot.time});
+      fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
+    }
+    points_.push_back({std::move(base), std::move(slots), std::move(asked), sha256(fingerprint)});
+  }
+  BaseCase facts = points_.front().base.facts();
+  std::set<std::string> everywhere(points_.front().base.forces().begin(), points_.front().base.forces().end());
+  for (const Point& point : points_) {
+    facts = any_of(facts, point.base.facts());
+    std::erase_if(everywhere, [&](const std::string& name) {
+      const auto& forces = point.base.forces();
+      return std::find(forces.begin(), forces.end(), name) == forces.end();
+    });
+  }
+  effects_ = library_effects(facts, {everywhere.begin(), everywhere.end()});
+  find_nuisances(experiment);
+  if (!folder_.empty()) read_cache(folder_ / "runs.tsv");
+}
+
+/// A set-point of the flow is one of its own at every point; what has the same value at several points (a fluid, a particle) is the same
+/// thing there. Drag laws are the same everywhere.
+void CaseSimulator::find_nuisances(const Experiment& experiment) {
+  std::map<std::string, std::vector<int>> shared;  // name, value and uncertainty -> points
+  std::map<std::string, std::pair<std::string, double>> record;
+  for (std::size_t p = 0; p < points_.size(); ++p)
+    for (const auto& [key, u] : experiment.points[p].input_u) {
+      if (u <= 0) continue;
+      std::string same = key + "|" + words(u) + "|" + points_[p].base.value_of(key);
+      if (key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos)
+        same += "|" + std::to_string(p);
+      shared[same].push_back(static_cast<int>(p));
+      record[same] = {key, u};
+    }
+  for (const auto& [same, points] : shared) nuisances_.push_back({record[same].first, record[same].second, points});
+  std::vector<int> all(points_.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+  std::set<std::string> groups;
+  for (const Observable& observable : observables_)
+    if (observable.bias_u > 0 && groups.insert(calibration_of(observable)).second)
+      nuisances_.push_back({calibration_of(observable), 1, all});
+}
+
+CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
+  const Point& point = points_.at(static_cast<std::size_t>(request.point));
+  std::map<std::string, double> of_case = request.nuisances;
+  for (const Observable& observable : observables_) of_case.erase(calibration_of(observable));
+  CaseChange change = point.base.change(request.effects, of_case, request.seed);
+  std::sort(change.overrides.begin(), change.overrides.end());
+  std::string key = point.fingerprint.substr(0, 16) + "|" + text_of({{"step", request.step_factor}});
+  for (const std::string& value : change.overrides) key += value + ";";
+  return {std::move(key), &request, std::move(change)};
+}
+
+RunResult CaseSimulator::done(const Job& job) const {
+  const Point& point = points_[static_cast<std::size_t>(job.request->point)];
+  RunResult result;
+  try {
+    result.values = run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor);
+  } catch (const std::exception& failure) {
+    result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
+    result.failure = failure.what();
+  }
+  return result;
+}
+
+RunResult CaseSimulator::done_together(const Job& job) const {
+  const Point& point = points_[static_cast<std::size_t>(job.request->point)];
+  const std::string name = numbered("run", job.request->point) + "_" + sha256(job.key).substr(0, 16);
+  std::vector<std::string> overrides = job.change.overrides;
+  if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
+  RunResult result;
+  try {
+    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name);
+    result.values = answers_of(folder_ / "runs" / name, point.asked);
+  } catch (const Error& failure) {
+    if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;
+    result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
+    result.failure = failure.what();
+  }
+  return result;
+}
+
+RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const {
+  const auto& slots = points_[static_cast<std::size_t>(request.point)].slots;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const Observable& observable = observables_[static_cast<std::size_t>(slots[i].observable)];
+    double& value = raw.values[i];
+    if (is_length(observable.id)) value *= change.picture_scale;
+    if (observable.id == "area") value *= change.picture_scale * change.picture_scale;
+    const auto deviation = request.nuisances.find(calibration_of(observable));
+    if (deviation == request.nuisances.end() || observable.bias_u <= 0) continue;
+    const double shift = deviation->second * observable.bias_u;
+    value = observable.kind == Observable::Kind::lognormal ? value * std::exp(shift) : value + shift;
+  }
+  return raw;
+}
+
+std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
+  std::vector<Job> jobs;
+  jobs.reserve(requests.size());
+  for (const RunRequest& request : requests) jobs.push_back(job_of(request));
+  std::vector<const Job*> fresh;  // the same on every rank
+  std::set<std::string> listed;
+  for (const Job& job : jobs)
+    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
+
+  // Every rank fills in its own runs; the bits of the others are zero.
+  constexpr std::size_t text_size = 512;
+  std::vector<std::uint64_t> bits;
+  std::vector<char> failures(fresh.size() * text_size, 0);
+  const int rank = rank_of(comm_), size = size_of(comm_);
+  for (std::size_t j = 0; j < fresh.size(); ++j) {
+    const std::size_t n = slots(fresh[j]->request->point).size(), first = bits.size();
+    bits.resize(first + n, 0);
+    const bool mesh = has_mesh(*fresh[j]);
+    if (!mesh && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
+    const RunResult result = mesh ? done_together(*fresh[j]) : done(*fresh[j]);
+    for (std::size_t i = 0; i < n; ++i) bits[first + i] = std::bit_cast<std::uint64_t>(result.values[i]);
+    std::strncpy(&failures[j * text_size], result.failure.c_str(), text_size - 1);
+  }
+  if (size > 1) {
+    MPI_Allreduce(MPI_IN_PLACE, bits.data(), static_cast<int>(bits.size()), MPI_UINT64_T, MPI_BOR, comm_);
+    MPI_Allreduce(MPI_IN_PLACE, failures.data(), static_cast<int>(failures.size()), MPI_BYTE, MPI_BOR, comm_);
+  }
+  std::size_t at = 0;
+  for (std::size_t j = 0; j < fresh.size(); ++j) {
+    RunResult result{.values = {}, .failure = &failures[j * text_size]};
+    for (std::size_t i = 0; i < slots(fresh[j]->request->point).size(); ++i) result.values.push_back(std::bit_cast<double>(bits[at++]));
+    keep(fresh[j]->key, result);
+    kept_.emplace(fresh[j]->key, std::move(result));
+  }
+  if (cache_.is_open()) cache_.flush();
+  n_runs_ += static_cast<int>(fresh.size());
+
+  std::vector<RunResult> results;
+  results.reserve(jobs.size());
+  for (const Job& job : jobs) results.push_back(as_observed(*job.request, job.change, kept_.at(job.key)));
+  return results;
+}
+
+/// A line a run: key, tab, values with all their digits, tab, failure.
+void CaseSimulator::keep(const std::string& key, const RunResult& result) {
+  if (!cache_.is_open()) return;
+  std::string line = key + "\t";
+  char digits[32];
+  for (const double value : result.values) line.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr).append(",");
+  std::string failure = result.failure;
+  std::replace(failure.begin(), failure.end(), '\n', ' ');
+  cache_ << line << "\t" << failure << "\n";
+}
+
+void CaseSimulator::read_cache(const std::filesystem::path& file) {
+  std::string text;
+  if (rank_of(comm_) == 0) text = file_text(file).value_or("");
+  long length = static_cast<long>(text.size());
+  MPI_Bcast(&length, 1, MPI_LONG, 0, comm_);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, comm_);
+  std::size_t whole = 0;
+  for (std::size_t end = 0; (end = text.find('\n', whole)) != std::string::npos; whole = end + 1) {
+    const std::vector<std::string> parts = split(std::string_view(text).substr(whole, end - whole), '\t');
+    if (parts.size() != 3) continue;
+    RunResult result{.values = {}, .failure = parts[2]};
+    const char *at = parts[1].data(), *last = at + parts[1].size();
+    for (double value = 0; at < last;) {
+      at = std::from_chars(at, last, value).ptr + 1;
+      result.values.push_back(value);
+    }
+    kept_.emplace(parts[0], std::move(result));
+  }
+  together(comm_, [&] {
+    if (rank_of(comm_) != 0) return;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    // A line that a crash cut off is cut off for good.
+    if (whole < text.size()) write_atomically(file, std::string_view(text).substr(0, whole));
+    cache_.open(file, std::ios::app);
+    if (!cache_) throw Error(ExitCode::io, file.string() + ": cannot be written; choose another --out");
+  });
+}
+
+}  // namespace snag

@@ -1,0 +1,64 @@
+#pragma once
+// The simulator of a diagnosis over real runs: each request is a run of the point's case with other values, as `snag run` would do it.
+//
+// Cases without a mesh run in memory, each on one rank, the requests of a batch spread over the ranks. Cases with a mesh are whole runs,
+// one after the other on all ranks, each in a folder of its own. Runs are kept: equal ones are done once, and with a folder they are there
+// again when the diagnosis is started anew.
+#include <mpi.h>
+
+#include <filesystem>
+#include <fstream>
+#include <unordered_map>
+
+#include "app/diagnosis/case_run.hpp"
+#include "app/diagnosis/point_case.hpp"
+#include "diagnosis/experiment.hpp"
+#include "diagnosis/simulator.hpp"
+
+namespace snag {
+
+class CaseSimulator final : public Simulator {
+ public:
+  /// `folder`: holds the runs that were done before, in runs.tsv and runs/, and takes those to come; empty: nothing is kept on disk, and
+  /// cases with a mesh are refused. Collective over all ranks of the program; throws Error(usage, io) that names the case.
+  CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder = {});
+
+  const std::vector<Effect>& effects() const override { return effects_; }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  const std::vector<Slot>& slots(int point) const override { return points_[static_cast<std::size_t>(point)].slots; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override;
+  int n_runs() const override { return n_runs_; }
+
+ private:
+  struct Point {
+    PointCase base;
+    std::vector<Slot> slots;
+    std::vector<Asked> asked;
+    std::string fingerprint;  // of base case and slots
+  };
+  struct Job {
+    std::string key;
+    const RunRequest* request;
+    CaseChange change;
+  };
+  void find_nuisances(const Experiment& experiment);
+  Job job_of(const RunRequest& request) const;
+  RunResult done(const Job& job) const;
+  RunResult done_together(const Job& job) const;
+  bool has_mesh(const Job& job) const { return points_[static_cast<std::size_t>(job.request->point)].base.has_mesh(); }
+  RunResult as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const;
+  void read_cache(const std::filesystem::path& file);
+  void keep(const std::string& key, const RunResult& result);
+
+  MPI_Comm comm_;
+  std::filesystem::path folder_;
+  std::vector<Observable> observables_;
+  std::vector<Point> points_;
+  std::vector<Effect> effects_;
+  std::vector<Nuisance> nuisances_;
+  std::unordered_map<std::string, RunResult> kept_;
+  std::ofstream cache_;  // open on rank 0
+  int n_runs_ = 0;
+};
+
+}  // namespace snag

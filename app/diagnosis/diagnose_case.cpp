@@ -1,0 +1,42 @@
+#include "app/diagnosis/diagnose_case.hpp"
+
+#include <mpi.h>
+
+#include <memory>
+
+#include "app/diagnosis/case_simulator.hpp"
+#include "app/diagnosis/verdict_page.hpp"
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/progress.hpp"
+#include "diagnosis/diagnose.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+Verdict diagnose_file(const DiagnoseOptions& options) {
+  const MPI_Comm world = MPI_COMM_WORLD;
+  const bool first = rank_of(world) == 0;
+  Experiment experiment;
+  together(world, [&] {
+    experiment = read_experiment(options.file);
+    if (first) std::filesystem::create_directories(options.out);
+  });
+  CaseSimulator simulator(world, experiment, options.keep_runs ? options.out : std::filesystem::path());
+  std::unique_ptr<Progress> progress;
+  if (first && !options.quiet) progress = std::make_unique<Progress>(experiment.name, 1);
+  const Verdict verdict = diagnose(experiment, simulator, {.progress = [&](const std::string& stage, double done) {
+                                     if (progress) progress->update(done, stage);
+                                   }});
+  if (progress) progress->finish();
+  together(world, [&] {
+    if (!first) return;
+    write_atomically(options.out / "verdict.json", verdict_json(verdict));
+    write_atomically(options.out / "report.html", verdict_page(verdict));
+  });
+  if (!options.quiet) log::info(verdict_sentence(verdict) + "\n" + (options.out / "report.html").string());
+  return verdict;
+}
+
+}  // namespace snag

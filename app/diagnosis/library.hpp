@@ -1,0 +1,28 @@
+#pragma once
+// The candidates that are values of a case: forces by the priors on their cards, and settings of the particles.
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/prior.hpp"
+#include "diagnosis/effects/effect_model.hpp"
+
+namespace snag {
+
+struct LibraryEffect {
+  std::string name;
+  Prior prior;
+  bool is_force = false;
+  std::vector<std::string> added_to{};  // of a setting: keys whose value in the base case theta is added to; empty: theta is the value
+
+  /// Keys and values of a run; `base` gives the value of a key of the base case.
+  std::vector<std::string> overrides(double theta, std::uint64_t seed, const std::function<std::string(const std::string&)>& base) const;
+};
+
+/// Null if there is none of that name.
+const LibraryEffect* library_effect(const std::string& name);
+/// Sorted by name.
+const std::vector<LibraryEffect>& library_of_cases();
+
+}  // namespace snag

@@ -1,0 +1,22 @@
+#pragma once
+// [observe]: where the virtual camera of a case stands, and where a piece counts as gone in a flow without openings.
+#include <optional>
+#include <string>
+
+#include "base/parameter.hpp"
+#include "observe/silhouette.hpp"
+
+namespace snag {
+
+struct ObserveSettings {
+  Vec3 right{1, 0, 0}, up{0, 1, 0};
+  Vec3 exit_point, exit_normal;  // m; normal zero: no exit
+
+  Section section();
+  /// Unit vectors at right angles; throws Error(usage) if the two directions are parallel or zero.
+  View view() const;
+  /// Way beyond the exit, m; nothing without an exit.
+  std::optional<double> beyond_exit(const Vec3& centre) const;
+};
+
+}  // namespace snag

@@ -1,0 +1,233 @@
+#include "app/diagnosis/point_case.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <toml++/toml.h>
+
+#include "app/diagnosis/library.hpp"
+#include "app/simulation.hpp"
+#include "base/error.hpp"
+#include "base/parameter_text.hpp"
+#include "base/words.hpp"
+
+namespace snag {
+
+struct PointCase::Tree {
+  toml::table root;
+};
+
+namespace {
+
+constexpr const char* flow_field = "flow.amplitude";
+constexpr const char* drag_form = "drag_form";
+
+/// Value times factor, number by number, as TOML.
+std::string scaled_text(const toml::node& node, double factor) {
+  if (const auto* list = node.as_array()) {
+    std::vector<std::string> parts;
+    for (const toml::node& element : *list) parts.push_back(scaled_text(element, factor));
+    return "[" + joined(parts) + "]";
+  }
+  return toml_text(*node.value<double>() * factor);
+}
+
+bool is_number(const toml::node& node) {
+  if (const auto* list = node.as_array()) return !list->empty() && std::all_of(list->begin(), list->end(), is_number);
+  return node.is_number();
+}
+
+bool is_zero(const toml::node* node) {
+  if (!node) return true;
+  if (const auto* list = node->as_array()) return std::all_of(list->begin(), list->end(), [](const toml::node& n) { return is_zero(&n); });
+  return node->value<double>().value_or(0) == 0;
+}
+
+Vec3 vector_of(const toml::node* node, const Vec3& fallback) {
+  const auto* list = node ? node->as_array() : nullptr;
+  if (!list || list->size() != 3) return fallback;
+  return {list->get(0)->value_or(0.0), list->get(1)->value_or(0.0), list->get(2)->value_or(0.0)};
+}
+
+/// Tables of a name, one or many, with the path by which an override reaches each.
+std::vector<std::pair<std::string, const toml::table*>> tables_at(const toml::table& root, const std::string& path) {
+  std::vector<std::pair<std::string, const toml::table*>> found{{"", &root}};
+  for (const std::string& step : split(path, '.')) {
+    std::vector<std::pair<std::string, const toml::table*>> next;
+    for (const auto& [prefix, table] : found) {
+      const toml::node* node = table->get(step);
+      if (!node) continue;
+      const std::string name = prefix.empty() ? step : prefix + "." + step;
+      if (const auto* one = node->as_table()) next.emplace_back(name, one);
+      if (const auto* many = node->as_array())
+        for (std::size_t i = 0; i < many->size(); ++i)
+          if (const auto* element = many->get(i)->as_table()) next.emplace_back(name + "." + std::to_string(i), element);
+    }
+    found = std::move(next);
+  }
+  return found;
+}
+
+struct Place {
+  std::string key;  // for an override
+  const toml::node* value;
+};
+
+std::vector<Place> places_of(const toml::table& root, const std::string& key) {
+  const auto dot = key.rfind('.');
+  if (dot == std::string::npos) return {};
+  std::vector<Place> places;
+  for (const auto& [prefix, table] : tables_at(root, key.substr(0, dot))) {
+    const toml::node* value = table->get(key.substr(dot + 1));
+    if (value && is_number(*value)) places.push_back({prefix + "." + key.substr(dot + 1), value});
+  }
+  return places;
+}
+
+BaseCase facts_of(const toml::table& root, const Simulation& run) {
+  BaseCase facts;
+  const auto value = [&](const std::string& key) {
+    const auto places = places_of(root, key);
+    return places.empty() ? nullptr : places.front().value;
+  };
+  facts.prescribed = !run.mesh;
+  facts.wall = !run.walls.empty();
+  facts.gravity = root.contains("gravity");
+  facts.gradient = run.mesh || !is_zero(value("flow.gradient_per_s"));
+  facts.uniform = run.mesh || !is_zero(value("flow.velocity_m_s"));
+  facts.varies = facts.gradient || !is_zero(value("flow.amplitude_m_s"));
+  facts.flows = facts.uniform || facts.varies;
+  facts.turbulence = run.mesh || !is_zero(value("flow.turbulent_kinetic_energy_m2_s2"));
+  std::int64_t n = 0;
+  for (const Rag& rag : run.rags->rags()) {
+    n += rag.n_particles;
+    facts.bonds = facts.bonds || rag.n_bonds > 0;
+    facts.sheet = facts.sheet || (rag.n_columns > 1 && rag.n_rows > 1);
+  }
+  facts.several = n > 1, facts.oriented = n > 1;
+  return facts;
+}
+
+std::vector<std::string> listed_forces(const toml::table& root) {
+  std::vector<std::string> names;
+  if (const auto* list = root["coupling"]["forces"].as_array())
+    for (const toml::node& name : *list) names.push_back(name.value_or(std::string()));
+  if (root.contains("gravity")) names.emplace_back("gravity");
+  return names;
+}
+
+/// v turned by an angle about a unit axis (Rodrigues).
+Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
+}
+
+}  // namespace
+
+PointCase::~PointCase() = default;
+PointCase::PointCase(PointCase&&) noexcept = default;
+PointCase& PointCase::operator=(PointCase&&) noexcept = default;
+
+PointCase::PointCase(const std::filesystem::path& file) : file_(file), tree_(std::make_unique<Tree>()) {
+  const CaseFile read = CaseFile::read(file);
+  const bool mesh = read.root().has("mesh");
+  const Simulation run(read, mesh ? MPI_COMM_WORLD : MPI_COMM_SELF);
+  if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
+  resolved_ = read.resolved(), sha256_ = read.sha256();
+  tree_->root = toml::parse(resolved_);
+  facts_ = facts_of(tree_->root, run);
+  forces_ = listed_forces(tree_->root);
+  for (const std::string& name : forces_) {
+    const std::string key = "coupling." + name + ".drag_factor";
+    if (!places_of(tree_->root, key).empty()) drag_factors_.push_back(key);
+  }
+  const View view = run.observe_settings.view();
+  right_ = view.right, up_ = view.up;
+}
+
+std::vector<std::string> PointCase::scaled(const std::string& key, double factor) const {
+  std::vector<std::string> overrides;
+  for (const Place& place : places_of(tree_->root, key)) overrides.push_back(place.key + "=" + scaled_text(*place.value, factor));
+  return overrides;
+}
+
+void PointCase::check_nuisance(const std::string& key) const {
+  if (key == drag_form || (key == flow_field && facts_.prescribed)) return;
+  if (!places_of(tree_->root, key).empty()) return;
+  throw Error(ExitCode::usage, file_.string() + ": input_u names \"" + key +
+                                   "\", which is no number of this case; give a key of the case with its unit such as "
+                                   "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
+                                   "whole prescribed flow, or \"drag_form\"");
+}
+
+std::string PointCase::value_of(const std::string& key) const {
+  std::vector<std::string> values;
+  for (const Place& place : places_of(tree_->root, key)) values.push_back(scaled_text(*place.value, 1));
+  return joined(values);
+}
+
+void PointCase::turn(double angle, std::vector<std::string>& overrides) const {
+  const Vec3 axis = cross(right_, up_);
+  for (const char* shape : {"rag", "disc", "fibre"})
+    for (const auto& [path, table] : tables_at(tree_->root, shape)) {
+      const Vec3 along = vector_of(table->get("lengthwise"), {1, 0, 0}), across = vector_of(table->get("crosswise"), {0, 1, 0});
+      overrides.push_back(path + ".lengthwise=" + toml_text(turned(along, axis, angle)));
+      if (std::string(shape) != "fibre") overrides.push_back(path + ".crosswise=" + toml_text(turned(across, axis, angle)));
+    }
+}
+
+CaseChange PointCase::change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances,
+                             std::uint64_t seed) const {
+  CaseChange change;
+  RunChange run;
+  std::vector<std::string> forces = forces_;
+  std::erase(forces, "gravity");
+  bool more_forces = false;
+  const auto append = [&](const std::vector<std::string>& more) {
+    change.overrides.insert(change.overrides.end(), more.begin(), more.end());
+  };
+  std::map<std::string, double> factors;  // of keys
+  for (const auto& [name, theta] : effects) {
+    if (theta == 0) continue;  // the base model to the bit
+    if (const LibraryEffect* of_library = library_effect(name)) {
+      if (of_library->is_force) forces.push_back(name), more_forces = true;
+      append(of_library->overrides(theta, seed, [this](const std::string& key) { return value_of(key); }));
+    } else {
+      effect_models().make(name, "diagnosis")->change(theta, seed, run);
+    }
+  }
+  for (const auto& [name, deviation] : nuisances) {
+    if (deviation == 0) continue;
+    if (name == flow_field)
+      run.flow_factor *= 1 + deviation;
+    else if (name == drag_form)
+      for (const std::string& key : drag_factors_) append(scaled(key, 1 + deviation));
+    else
+      append(scaled(name, 1 + deviation));
+  }
+  if (more_forces) {
+    for (std::string& name : forces) name = toml_text(name);
+    change.overrides.push_back("coupling.forces=[" + joined(forces) + "]");
+  }
+  if (run.flow_factor != 1 && facts_.prescribed) append(scaled("flow.velocity_m_s", run.flow_factor));
+  const double varying = run.flow_factor * run.varying_factor;
+  if (varying != 1)
+    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s"}) append(scaled(key, varying));
+  if (run.flow_factor != 1 && !facts_.prescribed)
+    for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) append(scaled(key, run.flow_factor));
+  if (run.turn != 0) turn(run.turn, change.overrides);
+  change.picture_scale = run.picture_scale;
+  return change;
+}
+
+std::string PointCase::with_step_factor(double factor) const {
+  const auto number = [&](const char* key) { return places_of(tree_->root, key).front().value->value<double>().value(); };
+  const double end = number("time.end_s");
+  const auto n = std::max(1.0, std::round(end / number("time.step_s") / factor));
+  return "time.step_s=" + toml_text(end / n);
+}
+
+CaseFile PointCase::with(const std::vector<std::string>& overrides) const { return CaseFile::parse(resolved_, file_.string(), overrides); }
+
+}  // namespace snag

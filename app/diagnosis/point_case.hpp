@@ -1,0 +1,65 @@
+#pragma once
+// The base case of an operating point, and how effects and uncertain inputs change it: as values of its keys.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/case_file.hpp"
+#include "diagnosis/effects/effect_model.hpp"
+
+namespace snag {
+
+/// One run of a point: values of keys that differ from the base case, and what the camera makes of it.
+struct CaseChange {
+  std::vector<std::string> overrides{};  // "section.key=value"
+  double picture_scale = 1;
+};
+
+class PointCase {
+ public:
+  /// Reads the base case and builds it once, so that what is wrong with it is told at once. Throws Error.
+  explicit PointCase(const std::filesystem::path& file);
+  ~PointCase();
+  PointCase(PointCase&&) noexcept;
+  PointCase& operator=(PointCase&&) noexcept;
+
+  const BaseCase& facts() const { return facts_; }
+  const std::string& sha256() const { return sha256_; }
+  /// Forces that the base case lists, gravity among them where it is given.
+  const std::vector<std::string>& forces() const { return forces_; }
+  bool has_mesh() const { return !facts_.prescribed; }
+
+  /// The case of a run with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name that is
+  /// neither an effect nor a key of the case.
+  CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed) const;
+  /// The override that changes the number of steps by 1/factor.
+  std::string with_step_factor(double factor) const;
+  const std::string& resolved() const { return resolved_; }
+  /// The case file of such a run.
+  CaseFile with(const std::vector<std::string>& overrides) const;
+  /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all
+  /// drag), or a number of the case by its resolved key, such as "particle.density_kg_m3".
+  void check_nuisance(const std::string& key) const;
+  /// Value of a number of the case, as TOML, "" if there is none; two points with equal values share its deviation.
+  std::string value_of(const std::string& key) const;
+
+ private:
+  struct Tree;
+  std::vector<std::string> scaled(const std::string& key, double factor) const;
+  void turn(double angle, std::vector<std::string>& overrides) const;
+
+  std::filesystem::path file_;
+  std::string resolved_, sha256_;
+  std::unique_ptr<Tree> tree_;  // of resolved_
+  BaseCase facts_;
+  std::vector<std::string> forces_, drag_factors_;  // drag_factors_: keys of the factors on drag
+  Vec3 right_, up_;                                 // of the camera
+};
+
+/// Effects that this library can add to base cases with these facts, by name; `forces`: those that the base cases hold already.
+std::vector<Effect> library_effects(const BaseCase& facts, const std::vector<std::string>& forces);
+
+}  // namespace snag

@@ -1,0 +1,30 @@
+#pragma once
+// Base cases of the twins: one case file an operating point.
+#include <string>
+#include <vector>
+
+#include "diagnosis/statistics.hpp"
+
+namespace snag {
+
+/// The camera and the other instruments of a set.
+struct TwinInstrument {
+  std::string id, unit, kind;
+  double noise_u = 0, bias_u = 0;
+  std::string group;
+};
+
+struct TwinExperiment {
+  std::vector<std::string> cases;  // text of a case file each; the last three are withheld
+  std::vector<TwinInstrument> instruments;
+  std::vector<double> times;         // s, of samples
+  std::vector<std::string> inputs;   // lines of input_u, the same at every point
+  std::vector<std::string> subsets;  // that make sense: all | picture | passage
+};
+
+/// Conditions drawn at random within what such an experiment would choose. Throws Error(usage) for an unknown twin.
+TwinExperiment twin_experiment(const std::string& twin, NormalNumbers& random);
+/// Whether a subset of observables has this one: all; what one picture in the x-z plane tells; the passage of the exit.
+bool in_subset(const std::string& subset, const std::string& observable);
+
+}  // namespace snag

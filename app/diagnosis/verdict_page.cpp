@@ -1,0 +1,161 @@
+#include "app/diagnosis/verdict_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/report/html.hpp"
+#include "app/report/page.hpp"
+#include "base/version.hpp"
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, share < 0.1 && share > 0 ? "%.1f %%" : "%.0f %%", 100 * share);
+  return text;
+}
+
+struct Bar {
+  std::string label, text;
+  double length = 0;
+  bool strong = false;
+};
+
+/// Level bars with their labels on the left and numbers on the right.
+std::string bars(const std::vector<Bar>& all) {
+  constexpr double width = 760, left = 230, right = 90, height = 24;
+  double longest = 0;
+  for (const Bar& bar : all) longest = std::max(longest, bar.length);
+  std::string svg =
+      "<svg viewBox=\"0 0 760 " + std::to_string(static_cast<int>(height * static_cast<double>(all.size()) + 4)) + "\" role=\"img\">\n";
+  double y = 2;
+  for (const Bar& bar : all) {
+    const double length = longest > 0 && std::isfinite(bar.length) ? (width - left - right) * bar.length / longest : 0;
+    const std::string middle = words(y + 0.66 * height);
+    svg += "<text x=\"" + words(left - 8) + "\" y=\"" + middle + "\" text-anchor=\"end\">" + escaped(bar.label) + "</text><rect x=\"" +
+           words(left) + "\" y=\"" + words(y + 3) + "\" width=\"" + words(length) + "\" height=\"" + words(height - 6) + "\" fill=\"" +
+           (bar.strong ? "#0072b2" : "#a9b7c6") + "\"/><text x=\"" + words(left + length + 6) + "\" y=\"" + middle + "\">" + bar.text +
+           "</text>\n";
+    y += height;
+  }
+  return svg + "</svg>\n";
+}
+
+std::string which(const Verdict& v) {
+  std::vector<std::pair<double, std::string>> sorted;
+  for (const auto& [name, p] : v.probability) sorted.emplace_back(p, name);
+  std::sort(sorted.rbegin(), sorted.rend());
+  std::vector<Bar> all;
+  for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 10); ++i)
+    all.push_back({sorted[i].second, percent(sorted[i].first), sorted[i].first, i == 0});
+  return bars(all);
+}
+
+std::string strengths(const Verdict& v) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, estimate] : v.parameters)
+    rows.push_back(
+        {escaped(name) + (estimate.absorbing ? " (far from what is physically expected: it may take up something else)" : ""),
+         html::number(estimate.mean) + " ± " + html::number(estimate.sd) + (estimate.unit == "1" ? "" : " " + escaped(estimate.unit)),
+         html::number(estimate.cochran_p)});
+  return rows.empty() ? "" : html::table({"Strength", "fitted", "p that the points agree"}, rows);
+}
+
+std::string how_far(const Verdict& v) {
+  if (!v.gap.computable)
+    return "<p>Not computable: this takes at least three operating points that the fit did not see. Only the evidence speaks.</p>\n";
+  std::string text = bars({{"gap before", html::number(v.gap.before), v.gap.before, false},
+                           {"gap after", html::number(v.gap.after), v.gap.after, true},
+                           {"noise floor", html::number(v.gap.floor), v.gap.floor, false},
+                           {"remainder", html::number(v.gap.remainder), v.gap.remainder, false}});
+  const auto row = [](const std::string& name, const Shrinkage& s) {
+    return std::vector<std::string>{escaped(name), percent(s.mean), percent(s.low) + " to " + percent(s.high)};
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, s] : v.shrinkage) rows.push_back(row(name, s));
+  for (const auto& [name, s] : v.shrinkage_rejected) rows.push_back(row(name + ", rejected", s));
+  rows.push_back(row("a correction without physics", v.shrinkage_regression));
+  return text + "<p>Mean squares over the cells of the withheld points, in units of the data's own uncertainty.</p>\n" +
+         html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
+}
+
+std::string window(const GapCell& cell) {
+  return std::isnan(cell.window[0]) ? "whole run" : words(cell.window[0]) + " to " + words(cell.window[1]) + " s";
+}
+
+std::string where(const Verdict& v) {
+  std::vector<const GapCell*> cells;
+  for (const GapCell& cell : v.where) cells.push_back(&cell);
+  std::stable_sort(cells.begin(), cells.end(), [](const GapCell* a, const GapCell* b) { return std::abs(a->z) > std::abs(b->z); });
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < std::min<std::size_t>(cells.size(), 40); ++i) {
+    const GapCell& c = *cells[i];
+    const std::string remark = std::string(c.onset ? "begins here " : "") + (c.blind ? "blind " : "") + (c.withheld ? "withheld" : "");
+    rows.push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region)), escaped(c.point), window(c),
+                    (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark});
+  }
+  const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
+  return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
+         " cells differ beyond what their uncertainty explains (false discovery rate 0.05). z: difference over its uncertainty.</p>\n" +
+         html::table({"Observable", "Point", "Window", "z", ""}, rows);
+}
+
+std::string evidence(const Verdict& v) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, nats] : v.log_evidence) {
+    const auto left_out = v.leave_one_out.find(name);
+    rows.push_back({escaped(name), html::number(nats), left_out == v.leave_one_out.end() ? "" : html::number(left_out->second)});
+  }
+  std::string text = html::table({"Hypothesis", "evidence over none, nats", "points left out one by one, nats"}, rows);
+  rows.clear();
+  for (const PredictiveCheck& check : v.checks) rows.push_back({escaped(check.name), html::number(check.value), html::number(check.p)});
+  if (!rows.empty()) text += html::table({"Does the first hypothesis explain the data?", "value", "p"}, rows);
+  for (const std::string& note : v.notes) text += "<p>" + escaped(note) + "</p>\n";
+  return text + "<p>" + std::to_string(v.runs) + " runs. Data sha256 " + v.data_sha256 + ".</p>\n";
+}
+
+std::string next(const Verdict& v) {
+  std::string text;
+  for (const auto& tie : v.identifiability.ties) text += "<p>These look alike in this experiment: " + escaped(joined(tie)) + ".</p>\n";
+  if (!v.identifiability.next_experiment.empty()) text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});
+  return text + (rows.empty() ? "" : html::table({"Effect at its expected strength", "signal over uncertainty", ""}, rows));
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Verdict& v) {
+  if (v.verdict == "none") return "No gap beyond the uncertainty: nothing is missing that these data could show.";
+  if (v.verdict == "outside") return "There is a gap, and no effect of the library explains it.";
+  if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
+  if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
+  const auto p = v.probability.find([&] {
+    std::string name;
+    for (const std::string& effect : v.effects) name += (name.empty() ? "" : "+") + effect;
+    return name;
+  }());
+  return "The gap comes from " + joined(v.effects) + ": " + v.wording +
+         (p == v.probability.end() ? "" : ", probability " + percent(p->second)) + ".";
+}
+
+std::string verdict_page(const Verdict& v) {
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: " +
+      escaped(v.name) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n<h1>" + escaped(v.name) +
+      "</h1>\n<p class=\"origin\">Diagnosis of the gap between simulation and measurement, by version " + version_number + " (" +
+      version_git + ")</p>\n<p class=\"outcome\">" + escaped(verdict_sentence(v)) + "</p>\n";
+  page += section("Which effect", which(v) + strengths(v));
+  page += section("How far the gap shrinks", how_far(v));
+  page += section("Where the gap is", where(v));
+  page += section("What to measure next", next(v));
+  page += section("The evidence", evidence(v));
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace snag

@@ -1,0 +1,10 @@
+#include "diagnosis/effects/effect_model.hpp"
+
+namespace snag {
+
+Registry<EffectModel>& effect_models() {
+  static Registry<EffectModel> registry("effect");
+  return registry;
+}
+
+}  // namespace snag

@@ -1,0 +1,27 @@
+// Geometry of casing and vane: a prescribed flow has none.
+#include "diagnosis/effects/effect_model.hpp"
+
+namespace snag {
+namespace {
+
+struct Geometry final : EffectModel {
+  static constexpr const char* name = "geometry";
+
+  Effect effect(const BaseCase& base) const override {
+    return {.name = name,
+            .parameter = "relative change of the gap at the tongue",
+            .unit = "1",
+            .mean = 0.2,
+            .sd = 0.2,
+            .minimum = -0.9,
+            .maximum = 4,
+            .random = false,
+            .acts_on_water = false,
+            .blind = base.prescribed ? "a prescribed flow has no casing" : "the geometry of a mesh is varied by cases of their own"};
+  }
+  void change(double, std::uint64_t, RunChange&) const override {}
+};
+[[maybe_unused]] const bool registered = effect_models().add<Geometry>();
+
+}  // namespace
+}  // namespace snag

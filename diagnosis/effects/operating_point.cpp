@@ -1,0 +1,28 @@
+// Operating point: all set-points of the flow were (1 + theta) times what was written down, the same factor at every point (a flow meter's
+// error, a misread unit).
+#include "diagnosis/effects/effect_model.hpp"
+
+namespace snag {
+namespace {
+
+struct OperatingPoint final : EffectModel {
+  static constexpr const char* name = "operating_point";
+
+  Effect effect(const BaseCase& base) const override {
+    return {.name = name,
+            .parameter = "relative error of all set-points of the flow",
+            .unit = "1",
+            .mean = 0.15,
+            .sd = 0.2,
+            .minimum = -0.9,
+            .maximum = 4,
+            .random = false,
+            .acts_on_water = false,
+            .blind = base.flows ? "" : "the water is at rest"};
+  }
+  void change(double theta, std::uint64_t, RunChange& run) const override { run.flow_factor *= 1 + theta; }
+};
+[[maybe_unused]] const bool registered = effect_models().add<OperatingPoint>();
+
+}  // namespace
+}  // namespace snag

@@ -1,0 +1,74 @@
+#include "diagnosis/next_experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+struct Proposal {
+  double T = 0;  // of one more replicate
+  std::string observable, point;
+  double time = 0;  // s, where the predictions differ most
+};
+
+// T of one observable at one point, rows begin .. end.
+Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int begin, int end) {
+  const PointSummary& point = model.points()[model.training()[p]];
+  const int n = end - begin;
+  const Row& first = point.rows[begin];
+  Eigen::VectorXd difference = (a.at.responses[p].value - b.at.responses[p].value).segment(begin, n);
+  difference = difference.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; });
+  Eigen::MatrixXd C = point.covariance.block(begin, begin, n, n) * std::max(1, first.n_replicates);
+  const Eigen::VectorXd numerical = a.at.numerical_error[p].segment(begin, n);
+  C += numerical * numerical.transpose();
+  for (const auto& by_nuisance : a.at.by_nuisance) {
+    if (by_nuisance[p].value.size() == 0) continue;
+    const Eigen::VectorXd change = (by_nuisance[p].value - a.at.responses[p].value).segment(begin, n) / nuisance_step;
+    if (change.allFinite()) C += change * change.transpose();
+  }
+  C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
+  Proposal result{difference.dot(C.llt().solve(difference)), model.experiment().observables[first.observable].id,
+                  model.experiment().points[point.point].id, first.begin};
+  double largest = 0;
+  for (int i = 0; i < n; ++i) {
+    const double size = std::abs(difference[i]) / std::sqrt(C(i, i));
+    if (size > largest) largest = size, result.time = 0.5 * (point.rows[begin + i].begin + point.rows[begin + i].end);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string next_experiment(const Responses& model, const Attribution& attribution) {
+  const int first = attribution.first();
+  int second = -1;
+  for (int i = 0; i < static_cast<int>(attribution.fits.size()); ++i)
+    if (i != first && (second < 0 || attribution.weight[i] > attribution.weight[second])) second = i;
+  if (second < 0) return "";
+  const Fit &a = attribution.fits[first], &b = attribution.fits[second];
+  // Derivatives by the inputs are known where a fit linearized them.
+  if (a.at.by_nuisance.empty() && !model.nuisances().empty()) return "";
+  Proposal best;
+  for (std::size_t p = 0; p < model.training().size(); ++p) {
+    const PointSummary& point = model.points()[model.training()[p]];
+    for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
+      while (end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable) ++end;
+      const Proposal tried = proposal(model, a, b, p, begin, end);
+      if (tried.T > best.T) best = tried;
+    }
+  }
+  const std::string both = attribution.names[first] + " and " + attribution.names[second];
+  constexpr double wanted_nats = 6, most_replicates = 1000;
+  const double replicates = std::ceil(2 * wanted_nats / std::max(best.T, 1e-300));
+  if (replicates > most_replicates)
+    return "No more replicates of these measurements would separate " + both + "; another operating point or observable is needed.";
+  return "Measure " + best.observable + " at point " + best.point +
+         (std::isnan(best.time) ? "" : " around t = " + words(best.time) + " s") + ": there " + both +
+         " differ most (T = " + words(best.T) + " for one replicate); " + words(replicates) + " more would separate them.";
+}
+
+}  // namespace snag

@@ -1,0 +1,76 @@
+#include "observe/coverage_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error.hpp"
+
+namespace snag {
+
+namespace {
+
+using Outlines = std::vector<std::vector<cv::Point>>;
+
+Outlines outlines_of(const cv::Mat& mask) {
+  Outlines outlines;
+  cv::findContours(mask, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+  return outlines;
+}
+
+void write(const std::filesystem::path& file, const cv::Mat& picture) {
+  if (!cv::imwrite(file.string(), picture)) throw Error(ExitCode::io, file.string() + ": the picture could not be written");
+}
+
+/// Calls a function for each covered pixel: (column, row from the top).
+template <class Action>
+void for_pixels(const Blob& blob, const Camera& camera, const Action& action) {
+  const Coverage& seen = blob.coverage;
+  const int left = static_cast<int>(std::lround(seen.x0 / camera.pixel + 0.5 * camera.width()));
+  const int bottom = static_cast<int>(std::lround(seen.y0 / camera.pixel + 0.5 * camera.height()));
+  for (int j = 0; j < seen.ny; ++j)
+    for (int i = 0; i < seen.nx; ++i)
+      if (seen.at(i, j)) action(left + i, camera.height() - 1 - (bottom + j));
+}
+
+}  // namespace
+
+CoverageMap::CoverageMap(const Camera& camera)
+    : camera_(camera), count_(static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height())) {}
+
+void CoverageMap::add(const Blob& blob) {
+  ++n_;
+  for_pixels(blob, camera_, [&](int column, int row) { ++count_[static_cast<std::size_t>(row) * camera_.width() + column]; });
+}
+
+double CoverageMap::share(int column, int row) const {
+  return n_ == 0 ? 0 : static_cast<double>(count_[static_cast<std::size_t>(row) * camera_.width() + column]) / n_;
+}
+
+void CoverageMap::write_picture(const std::filesystem::path& file) const {
+  cv::Mat levels(camera_.height(), camera_.width(), CV_8UC1), colours;
+  for (int row = 0; row < levels.rows; ++row)
+    for (int column = 0; column < levels.cols; ++column)
+      levels.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(std::lround(255 * share(column, row)));
+  cv::applyColorMap(levels, colours, cv::COLORMAP_VIRIDIS);
+  for (const double percent : {10, 30, 50, 70, 90}) {
+    const cv::Mat above = levels >= 2.55 * percent;
+    cv::drawContours(colours, outlines_of(above), -1, {255, 255, 255}, 1);
+  }
+  write(file, colours);
+}
+
+void write_outlines(const std::filesystem::path& file, const GreyPicture& picture, const std::vector<Blob>& blobs, const Camera& camera) {
+  const cv::Mat grey(picture.height, picture.width, CV_8UC1, const_cast<std::uint8_t*>(picture.level.data()));  // only read
+  cv::Mat colours;
+  cv::cvtColor(grey, colours, cv::COLOR_GRAY2BGR);
+  for (const Blob& blob : blobs) {
+    cv::Mat mask(picture.height, picture.width, CV_8UC1, cv::Scalar(0));
+    for_pixels(blob, camera, [&](int column, int row) { mask.at<std::uint8_t>(row, column) = 255; });
+    cv::drawContours(colours, outlines_of(mask), -1, {0, 0, 255}, 2);
+  }
+  write(file, colours);
+}
+
+}  // namespace snag

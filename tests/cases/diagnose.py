@@ -1,0 +1,104 @@
+"""snag diagnose finds what a base case lacks, the same on any number of ranks, goes on after a stop, and refuses what it cannot read."""
+# timeout: 600
+import json
+import math
+import shutil
+
+import harness
+
+EXAMPLE = harness.SOURCE_DIR / "cases" / "diagnose-sphere"
+
+
+class Diagnose(harness.CaseTest):
+    def diagnose(self, file, out="out", ranks=1, code=0):
+        run = harness.snag(["diagnose", file, "--out", self.work / out], ranks, self.work / out)
+        self.assertEqual(run.code, code, run.tail())
+        return run
+
+    def verdict(self, run):
+        return json.loads((run.folder / "verdict.json").read_text())
+
+    def example(self):
+        """A copy of the example that a test may spoil."""
+        return pathlib_copy(EXAMPLE, self.work / "example")
+
+    def test_example_names_the_added_mass(self):
+        """Data of another program, with the added mass of a sphere that the base case leaves out."""
+        run = self.diagnose(EXAMPLE / "DIAGNOSIS.toml")
+        verdict = self.verdict(run)
+        self.assertEqual(verdict["verdict"], "effects", verdict["wording"])
+        self.assertEqual(verdict["effects"], ["added_mass"])
+        mass = verdict["parameters"]["added_mass"]
+        self.assertLess(abs(mass["mean"] - 0.5), 4 * mass["sd"])
+        self.assertGreater(verdict["shrinkage"]["added_mass"]["mean"], 0.8)
+        page = (run.folder / "report.html").read_text()
+        for text in ("Which effect", "How far the gap shrinks", "Where the gap is", "added_mass"):
+            self.assertIn(text, page)
+        # A second start finds its runs again and says the same; so do two ranks.
+        kept = (run.folder / "runs.tsv").read_bytes()
+        again = self.verdict(self.diagnose(EXAMPLE / "DIAGNOSIS.toml"))
+        self.assertEqual(again["runs"], 0)
+        self.assertEqual((run.folder / "runs.tsv").read_bytes(), kept)
+        two = self.verdict(self.diagnose(EXAMPLE / "DIAGNOSIS.toml", "two", 2))
+        for other in (again, two):
+            self.assertEqual({**other, "runs": 0}, {**verdict, "runs": 0})
+
+    def test_refuses_what_it_cannot_read(self):
+        spoiled = {
+            'unit = "mm"\n': ("", "unit"),
+            '"particle.density_kg_m3" = 0.002': ('"particle.colour" = 0.002', "particle.colour"),
+            'case = "point_C.toml"': ('case = "nowhere.toml"', "nowhere.toml"),
+            'id = "z"': ('id = "head"', "head"),
+        }
+        for old, (new, named) in spoiled.items():
+            folder = self.example()
+            file = folder / "DIAGNOSIS.toml"
+            file.write_text(file.read_text().replace(old, new))
+            if named == "head":
+                (folder / "data.csv").write_text((folder / "data.csv").read_text().replace(",z,", ",head,"))
+            run = harness.snag(["diagnose", file, "--out", self.work / "bad"], 2)
+            self.assertIn(run.code, (2, 6), f"{named}: {run.tail()}")
+            self.assertEqual(len([m for m in run.messages if "error" in m]), 1, run.tail())
+            self.assertIn(named, run.stderr)
+        run = harness.snag(["diagnose", "--out", self.work / "none"])
+        self.assertEqual(run.code, 2)
+        run = harness.snag(["diagnose", "--bench", "L7", "--out", self.work / "none"])
+        self.assertEqual(run.code, 2)
+        self.assertIn("L7", run.stderr)
+
+
+    def test_blind_benchmark_of_the_sphere(self):
+        """Sixty sealed sets of level L2: no score may be worse than chance allows if its target holds; and rows are not done twice."""
+        options = ["diagnose", "--bench", "L2", "--twin", "sphere", "--seed", "1"]
+        few = harness.snag([*options, "--n", "2", "--out", self.work / "bench"], 2, self.work / "bench")
+        self.assertEqual(few.code, 0, few.tail())
+        begun = (few.folder / "rows.csv").read_text()
+        run = harness.snag([*options, "--n", "60", "--out", self.work / "bench"], 2, self.work / "bench")
+        self.assertEqual(run.code, 0, run.tail())
+        rows = (run.folder / "rows.csv").read_text()
+        self.assertTrue(rows.startswith(begun), "rows that were there were done again")
+        self.assertEqual(rows.count("\n"), 61)
+        self.assertEqual((run.folder / "sealed.log").read_text().count("sha256"), 60)
+        print(run.stdout)
+        card = json.loads((run.folder / "score.json").read_text())
+        for score in card["scores"]:
+            limit, at_least = float(score["target"].split()[1]), score["target"].startswith(">=")
+            with self.subTest(score["name"]):
+                self.assertGreater(chance(score["hits"], score["n"], limit, at_least), 0.01, score)
+        self.assertIn("<svg", (run.folder / "report.html").read_text())
+
+
+def chance(hits, n, p, at_least):
+    """Probability of so few hits (so many, if p is a largest share) of n when the share is p."""
+    counted = range(0, hits + 1) if at_least else range(hits, n + 1)
+    return sum(math.comb(n, k) * p**k * (1 - p) ** (n - k) for k in counted)
+
+
+def pathlib_copy(source, target):
+    shutil.rmtree(target, ignore_errors=True)
+    shutil.copytree(source, target)
+    return target
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,158 @@
+// The simulator of a diagnosis over real runs: what an effect, an uncertain input and a calibration do to a run, and that runs are kept.
+// ranks: 1 2 3
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "app/diagnosis/case_simulator.hpp"
+#include "base/error.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+namespace {
+
+constexpr const char* swung_sphere = R"(
+[time]
+end_s = 0.1
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[flow]
+kind = "prescribed"
+density_kg_m3 = 1000
+kinematic_viscosity_m2_s = 1e-5
+velocity_m_s = [0.1, 0, 0]
+amplitude_m_s = [0.2, 0, 0]
+omega_per_s = [20, 0, 0]
+[[particle]]
+diameter_m = 5e-3
+density_kg_m3 = 1150
+position_m = [0.5, 0, 0]
+[coupling]
+mode = "one_way"
+forces = ["schiller_naumann"]
+)";
+
+/// Two points of one case; x at three times.
+class CaseSimulatorTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("snag-simulator-" + std::to_string(size_of(MPI_COMM_WORLD)));
+    if (rank_of(MPI_COMM_WORLD) == 0) {
+      std::filesystem::create_directories(folder_);
+      std::ofstream(folder_ / "case.toml") << swung_sphere;
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    experiment_.observables = {{.id = "x", .unit = "m", .noise_u = 1e-4, .bias_u = 1e-3, .calibration_group = "camera"}};
+    for (const char* id : {"A", "B"})
+      experiment_.points.push_back({.id = id,
+                                    .case_file = folder_ / "case.toml",
+                                    .input_u = {{"flow.amplitude", 0.05}, {"particle.density_kg_m3", 0.01}, {"drag_form", 0.05}}});
+    for (const int point : {0, 1})
+      for (const double t : {0.02, 0.05, 0.1}) experiment_.data.push_back({.point = point, .time = t});
+  }
+  void TearDown() override {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder_);
+  }
+  std::vector<double> values(CaseSimulator& simulator, const RunRequest& request) {
+    const auto results = simulator.run(std::vector<RunRequest>{request});
+    EXPECT_EQ(results[0].failure, "");
+    return results[0].values;
+  }
+  std::filesystem::path folder_;
+  Experiment experiment_;
+};
+
+/// Requirement: every fixed name of the candidates that this build has is listed once, with the reason where it cannot be seen.
+TEST_F(CaseSimulatorTest, ListsTheLibrary) {
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  std::map<std::string, std::string> blind;
+  for (const Effect& effect : simulator.effects()) {
+    EXPECT_TRUE(blind.emplace(effect.name, effect.blind).second) << effect.name;
+    EXPECT_NE(effect.mean, 0) << effect.name << ": its signature would be nothing";
+    EXPECT_GT(effect.sd, 0) << effect.name;
+    EXPECT_LE(effect.minimum, effect.mean) << effect.name;
+    EXPECT_GE(effect.maximum, effect.mean) << effect.name;
+  }
+  for (const char* name :
+       {"added_mass", "pressure_gradient", "drag_magnitude", "drag_exponent", "history", "measurement", "operating_point", "flow_error"})
+    EXPECT_EQ(blind.at(name), "") << name;
+  for (const char* name : {"wall", "lift", "gravity", "bond_damping", "friction", "initial_pose", "inlet", "geometry", "volume_fraction",
+                           "turbulent_dispersion", "sheet_drag", "shielding"})
+    EXPECT_NE(blind.at(name), "") << name;
+}
+
+/// Requirement: theta = 0 is the base model to the bit, and each effect that is not blind changes the run.
+TEST_F(CaseSimulatorTest, EffectsChangeTheRun) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto base = values(simulator, {});
+  for (const Effect& effect : simulator.effects()) {
+    EXPECT_EQ(values(simulator, {.effects = {{effect.name, 0.0}}}), base) << effect.name;
+    if (effect.blind.empty()) EXPECT_NE(values(simulator, {.effects = {{effect.name, effect.mean}}})[2], base[2]) << effect.name;
+  }
+}
+
+/// Requirement: a camera's scale multiplies lengths; a calibration shifts them by its uncertainty; neither takes a run of its own.
+TEST_F(CaseSimulatorTest, Camera) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto base = values(simulator, {});
+  const int runs = simulator.n_runs();
+  const auto scaled = values(simulator, {.effects = {{"measurement", 0.02}}}), shifted = values(simulator, {.nuisances = {{"camera", -2}}});
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    EXPECT_DOUBLE_EQ(scaled[i], 1.02 * base[i]);
+    EXPECT_DOUBLE_EQ(shifted[i], base[i] - 2e-3);
+  }
+  EXPECT_EQ(simulator.n_runs(), runs);
+}
+
+/// Requirement: an error of all set-points of the flow is what the same deviation of the whole flow field is.
+TEST_F(CaseSimulatorTest, OperatingPointScalesTheFlow) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  EXPECT_EQ(values(simulator, {.effects = {{"operating_point", 0.1}}}), values(simulator, {.nuisances = {{"flow.amplitude", 0.1}}}));
+}
+
+/// Requirement: one set-point of the flow a point; what is one sphere and one drag law is shared.
+TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  std::map<std::string, int> count;
+  for (const Nuisance& nuisance : simulator.nuisances()) {
+    ++count[nuisance.name];
+    EXPECT_EQ(nuisance.points.size(), nuisance.name == "flow.amplitude" ? 1u : 2u) << nuisance.name;
+  }
+  EXPECT_EQ(count, (std::map<std::string, int>{{"flow.amplitude", 2}, {"particle.density_kg_m3", 1}, {"drag_form", 1}, {"camera", 1}}));
+}
+
+/// Requirement: all ranks have the same answers; equal requests run once; a new start with the same folder runs nothing again.
+TEST_F(CaseSimulatorTest, KeepsRuns) {
+  const auto cache = folder_ / "kept";
+  std::vector<RunRequest> requests;
+  for (const double theta : {0.1, 0.2, 0.3, 0.1, 0.0}) requests.push_back({.effects = {{"added_mass", theta}}});
+  std::vector<std::vector<double>> first;
+  {
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, cache);
+    for (const RunResult& result : simulator.run(requests)) first.push_back(result.values);
+    EXPECT_EQ(simulator.n_runs(), 4);
+    simulator.run(requests);
+    EXPECT_EQ(simulator.n_runs(), 4);
+  }
+  EXPECT_EQ(first[0], first[3]);
+  std::vector<double> mine = first[2], theirs = first[2];
+  MPI_Bcast(theirs.data(), static_cast<int>(theirs.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  EXPECT_EQ(mine, theirs);
+  MPI_Barrier(MPI_COMM_WORLD);
+  CaseSimulator again(MPI_COMM_WORLD, experiment_, cache);
+  const auto results = again.run(requests);
+  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
+  EXPECT_EQ(again.n_runs(), 0);
+}
+
+/// Requirement: an uncertain input that is no number of the case is refused by name.
+TEST_F(CaseSimulatorTest, RefusesUnknownInputs) {
+  experiment_.points[1].input_u.emplace_back("particle.colour", 0.1);
+  EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
+}
+
+}  // namespace
+}  // namespace snag

@@ -1,0 +1,126 @@
+#include "diagnosis/experiment.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+
+using namespace snag;
+
+namespace {
+
+class ReadExperiment : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("snag-experiment-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path write(const std::string& toml, const std::string& csv) const {
+    std::ofstream(folder_ / "data.csv") << csv;
+    std::ofstream(folder_ / "DIAGNOSIS.toml") << toml;
+    return folder_ / "DIAGNOSIS.toml";
+  }
+  std::string message(const std::string& toml, const std::string& csv) const {
+    try {
+      read_experiment(write(toml, csv));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_;
+};
+
+const std::string head = "[experiment]\nname = \"drop\"\ndata = \"data.csv\"\n";
+const std::string x_mm = "[[observable]]\nid = \"x\"\nunit = \"mm\"\nnoise_u = 0.1\nbias_u = 0.2\n";
+const std::string A = "[[point]]\nid = \"A\"\ncase = \"a.toml\"\ninput_u = { \"flow.amplitude\" = 0.05 }\n";
+const std::string B = "[[point]]\nid = \"B\"\ncase = \"b.toml\"\nrole = \"withheld\"\n";
+const std::string columns = "point,replicate,t_s,observable,value\n";
+
+#define EXPECT_TOLD(told, part) EXPECT_NE((told).find(part), std::string::npos) << (told)
+
+}  // namespace
+
+TEST_F(ReadExperiment, ConvertsAndSorts) {
+  const auto e =
+      read_experiment(write(head + x_mm + A + B + "[model]\ncandidates = [\"lift\"]\npairs = false\n[budget]\nmax_runs = 50\nseed = 7\n",
+                            columns + "B,0,0.1,x,7\r\n# a remark\nA,0,0.2,x,2\nA,0,0.1,x,+1\n\nA,1,0.1,x,1.5\n"));
+  ASSERT_EQ(e.data.size(), 4u);
+  EXPECT_DOUBLE_EQ(e.data[0].value, 1e-3);
+  EXPECT_DOUBLE_EQ(e.data[1].time, 0.2);
+  EXPECT_EQ(e.data[3].point, 1);
+  EXPECT_DOUBLE_EQ(e.observables[0].noise_u, 1e-4);
+  EXPECT_DOUBLE_EQ(e.observables[0].bias_u, 2e-4);
+  EXPECT_TRUE(e.points[1].withheld);
+  ASSERT_EQ(e.points[0].input_u.size(), 1u);
+  EXPECT_EQ(e.points[0].input_u[0].first, "flow.amplitude");
+  EXPECT_EQ(e.candidates, std::vector<std::string>{"lift"});
+  EXPECT_FALSE(e.pairs);
+  EXPECT_EQ(e.max_runs, 50);
+  EXPECT_EQ(e.seed, 7u);
+  EXPECT_EQ(e.data_sha256.size(), 64u);
+  // The fingerprint of what is withheld does not depend on the training data.
+  const auto other =
+      read_experiment(write(head + x_mm + A + B + "[model]\ncandidates = \"all\"\n", columns + "B,0,0.1,x,7\nA,0,0.2,x,3\n"));
+  EXPECT_TRUE(other.candidates.empty());
+  EXPECT_EQ(other.withheld_sha256, e.withheld_sha256);
+  EXPECT_NE(other.data_sha256, e.data_sha256);
+}
+
+TEST_F(ReadExperiment, ExplainsMistakesOfTheFile) {
+  const std::string row = columns + "A,0,0.1,x,1\n";
+  EXPECT_TOLD(message(head + "[[observable]]\nid = \"x\"\nnoise_u = 1\n" + A, row), "unit");
+  EXPECT_TOLD(message(head + "[[observable]]\nid = \"x\"\nunit = \"furlong\"\nnoise_u = 1\n" + A, row), "unknown unit \"furlong\"");
+  EXPECT_TOLD(message(head + x_mm + A + B, row), "point \"B\" has no rows");
+  EXPECT_TOLD(message(head + x_mm + B, columns + "B,0,0.1,x,1\n"), "every point is withheld");
+  EXPECT_TOLD(message(head + x_mm + B + "[[point]]\nid = \"B\"\ncase = \"b.toml\"\n", row), "never both");
+  EXPECT_TOLD(message(head + x_mm + "kind = \"gauss\"\n" + A, row), "gaussian");
+  EXPECT_TOLD(message(head + x_mm + A + "[model]\ncandidate = \"all\"\n", row), "did you mean \"candidates\"");
+  std::string copied = columns;
+  for (int i = 0; i < 10; ++i)
+    for (const char point : {'A', 'B'})
+      copied += std::string(1, point) + ",0," + std::to_string(0.1 * i) + ",x," + std::to_string(i * i) + "\n";
+  EXPECT_TOLD(message(head + x_mm + A + B, copied), "withheld data must not be trained on");
+}
+
+TEST_F(ReadExperiment, ExplainsMistakesOfTheData) {
+  const std::string bare = "[[observable]]\nid = \"x\"\nunit = \"mm\"\n";
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x,nan\n"), "data.csv:2");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,inf,x,1\n"), "finite number of seconds");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,y,1\n"), "unknown observable \"y\"");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "C,0,0.1,x,1\n"), "unknown point \"C\"");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x\n"), "4 fields");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x,1\nA,0,0.1,x,2\n"), "as line 2");
+  EXPECT_TOLD(message(head + x_mm + A, "point,replicate,t_s,value\n"), "\"observable\" is missing");
+  EXPECT_TOLD(message(head + x_mm + A, "point,replicate,t_s,observable,value,colour\n"), "unknown column \"colour\"");
+  EXPECT_TOLD(message(head + x_mm + A, "# nothing\n"), "is empty");
+  EXPECT_TOLD(message(head + bare + A, columns + "A,0,0.1,x,1\nA,1,0.1,x,1\n"), "is constant");
+  EXPECT_TOLD(message(head + bare + A, columns + "A,0,0.1,x,1\nA,0,0.2,x,2\n"), "one replicate");
+  const std::string time = "[[observable]]\nid = \"retention_time\"\nunit = \"s\"\nkind = \"lognormal\"\n";
+  EXPECT_TOLD(message(head + time + A, columns + "A,0,,retention_time,0\n"), "positive");
+  const std::string count = "[[observable]]\nid = \"recirculations\"\nunit = \"1\"\nkind = \"count\"\n";
+  EXPECT_TOLD(message(head + count + A, columns + "A,0,,recirculations,1.5\n"), "whole number");
+  EXPECT_TOLD(message(head + count + A, "point,replicate,t_s,observable,value,censored\nA,0,,recirculations,1,1\n"), "censored");
+  EXPECT_EQ(message(head + count + A, columns + "A,0,,recirculations,0\n"), "accepted");
+}
+
+// A million rows are read in some seconds of one processor.
+TEST_F(ReadExperiment, MillionRows) {
+  std::string csv = columns;
+  for (int i = 0; i < 1000000; ++i)
+    csv += "A," + std::to_string(i / 1000) + "," + std::to_string(i % 1000) + "e-3,x," + std::to_string(i % 77) + "\n";
+  const auto file = write(head + x_mm + A, csv);
+  rusage before, after;
+  getrusage(RUSAGE_SELF, &before);
+  EXPECT_EQ(read_experiment(file).data.size(), 1000000u);
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(static_cast<double>(after.ru_utime.tv_sec - before.ru_utime.tv_sec), 6);
+}
