@@ -82,7 +82,12 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     std::vector<Asked> asked;
     std::string fingerprint = base.sha256() + version_git;
     for (const Slot& slot : slots) {
-      asked.push_back({observables_[static_cast<std::size_t>(slot.observable)].id, slot.time});
+      const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
+      if (!base.has_mesh() && !is_observable_of_particles(id))
+        throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": observable \"" + id +
+                                         "\" is no number of a case without a mesh; there are x, y, z, vx, vy, vz, area, elongation_ratio, "
+                                         "orientation, retention_time, recirculations, stuck, exited");
+      asked.push_back({id, slot.time});
       fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }
     points_.push_back({std::move(base), std::move(slots), std::move(asked), sha256(fingerprint)});

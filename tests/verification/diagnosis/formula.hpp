@@ -3,7 +3,9 @@
 // diagnosis does not know.
 //
 //   (1 + c r) dv/dt = (1 - r) g + (u - v) f(|u - v|)/tau + P r Du/Dt + lift + body,   r = rho_f/rho_p,   explicit Euler
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "diagnosis/diagnose.hpp"
@@ -25,7 +27,8 @@ struct Flow {
 
 inline Flow flow_of(int point) {
   const double a[] = {0.3, 0.2, 0.4, 0.25, 0.35, 0.15, 0.3, 0.22, 0.38, 0.28}, w[] = {8, 14, 20, 11, 6, 25, 10, 17, 13, 22};
-  const double d[] = {3e-3, 2e-3, 4e-3, 5e-3, 2.5e-3, 3.5e-3, 4.5e-3, 3e-3, 2e-3, 5e-3}, m[] = {0.1, 0.2, 0.05, 0.15, 0.3, 0.1, 0.2, 0.12, 0.08, 0.25};
+  const double d[] = {3e-3, 2e-3, 4e-3, 5e-3, 2.5e-3, 3.5e-3, 4.5e-3, 3e-3, 2e-3, 5e-3},
+               m[] = {0.1, 0.2, 0.05, 0.15, 0.3, 0.1, 0.2, 0.12, 0.08, 0.25};
   const double rho[] = {1150, 1300, 1080, 1200, 1400, 1100, 1250, 1180, 1350, 1120};
   return {a[point % 10], w[point % 10], m[point % 10], 0.5 + 0.2 * (point % 3), d[point % 10], rho[point % 10]};
 }
@@ -33,17 +36,19 @@ inline Flow flow_of(int point) {
 using Theta = std::map<std::string, double>;
 
 // Positions x, z at the times; `form` and `body` only of truths.
-inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, const Theta& nuisances, const std::vector<double>& times, double step,
-                                               std::uint64_t seed, const Truth* truth = nullptr) {
+inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, const Theta& nuisances, const std::vector<double>& times,
+                                               double step, std::uint64_t seed, const Truth* truth = nullptr) {
   const auto get = [](const Theta& map, const std::string& name) {
     const auto found = map.find(name);
     return found == map.end() ? 0.0 : found->second;
   };
   const Flow f = flow_of(point);
-  const double flow = (1 + get(nuisances, "flow.amplitude")) * (1 + get(effects, "operating_point")), nu = 1e-5 * (1 + get(nuisances, "flow.viscosity"));
+  const double flow = (1 + get(nuisances, "flow.amplitude")) * (1 + get(effects, "operating_point")),
+               nu = 1e-5 * (1 + get(nuisances, "flow.viscosity"));
   const double r = 1000 / f.density, tau = f.density * f.diameter * f.diameter / (18 * 1000 * nu), g = 9.81;
   const double drag = (1 + get(nuisances, "drag_form")) * (1 + get(effects, "drag_magnitude")), scale = 1 + get(effects, "measurement");
-  const double added = get(effects, "added_mass"), pressure = get(effects, "pressure_gradient"), lift = get(effects, "lift"), dispersion = get(effects, "turbulent_dispersion");
+  const double added = get(effects, "added_mass"), pressure = get(effects, "pressure_gradient"), lift = get(effects, "lift"),
+               dispersion = get(effects, "turbulent_dispersion");
   NormalNumbers random(seed * 7919 + static_cast<std::uint64_t>(point));
   std::vector<std::array<double, 2>> result;
   double x = 0, z = 0, vx = f.mean, vz = 0, t = 0, eddy_x = 0, eddy_z = 0;
@@ -56,8 +61,10 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
       ++next;
     }
     const double wave = truth ? 1 + truth->form * std::sin(9 * t + point) : 1;
-    const double ux = flow * (f.mean + f.amplitude * std::sin(f.omega * t) + f.shear * z) + eddy_x, uz = flow * 0.3 * f.amplitude * std::cos(f.omega * t) + eddy_z;
-    const double dux = flow * f.amplitude * f.omega * std::cos(f.omega * t), duz = -flow * 0.3 * f.amplitude * f.omega * std::sin(f.omega * t);
+    const double ux = flow * (f.mean + f.amplitude * std::sin(f.omega * t) + f.shear * z) + eddy_x,
+                 uz = flow * 0.3 * f.amplitude * std::cos(f.omega * t) + eddy_z;
+    const double dux = flow * f.amplitude * f.omega * std::cos(f.omega * t),
+                 duz = -flow * 0.3 * f.amplitude * f.omega * std::sin(f.omega * t);
     const double wx = ux - vx, wz = uz - vz, Re = std::hypot(wx, wz) * f.diameter / nu;
     const double k = drag * (1 + 0.15 * std::pow(Re, 0.687)) / tau * (truth ? 1 + truth->stratification * std::abs(z) : 1);
     const double mass = 1 + added * wave * r, L = lift * wave * r * f.shear * flow;
@@ -84,7 +91,15 @@ class Sphere final : public Simulator {
                 {.name = "operating_point", .parameter = "", .mean = 0, .sd = 0.15, .minimum = -0.5, .maximum = 1},
                 {.name = "pressure_gradient", .parameter = "", .mean = 1, .sd = 0.4, .minimum = 0, .maximum = 2}};
     effects_.push_back({.name = "wall", .parameter = "", .blind = "the case has no wall"});
-    if (with_random) effects_.push_back({.name = "turbulent_dispersion", .parameter = "", .unit = "m/s", .mean = 0.02, .sd = 0.01, .minimum = 0, .maximum = 0.2, .random = true});
+    if (with_random)
+      effects_.push_back({.name = "turbulent_dispersion",
+                          .parameter = "",
+                          .unit = "m/s",
+                          .mean = 0.02,
+                          .sd = 0.01,
+                          .minimum = 0,
+                          .maximum = 0.2,
+                          .random = true});
     std::vector<int> all;
     slots_.resize(experiment.points.size());
     for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) {
@@ -95,7 +110,8 @@ class Sphere final : public Simulator {
     nuisances_.push_back({"drag_form", 0.05, all}), nuisances_.push_back({"flow.viscosity", 0.02, all});
     for (const Datum& d : experiment.data) {
       auto& slots = slots_[d.point];
-      const bool there = std::any_of(slots.begin(), slots.end(), [&](const Slot& s) { return s.observable == d.observable && s.time == d.time; });
+      const bool there =
+          std::any_of(slots.begin(), slots.end(), [&](const Slot& s) { return s.observable == d.observable && s.time == d.time; });
       if (!there) slots.push_back({d.observable, d.time});
     }
   }
@@ -105,7 +121,8 @@ class Sphere final : public Simulator {
   std::vector<RunResult> run(std::span<const RunRequest> requests) override {
     std::vector<RunResult> results;
     for (const RunRequest& request : requests) {
-      const auto key = std::tuple(request.point, request.effects, request.nuisances, request.effects.contains("turbulent_dispersion") ? request.seed : 0, request.step_factor);
+      const auto key = std::tuple(request.point, request.effects, request.nuisances,
+                                  request.effects.contains("turbulent_dispersion") ? request.seed : 0, request.step_factor);
       const auto found = kept_.find(key);
       if (found != kept_.end()) {
         results.push_back(found->second);
@@ -118,7 +135,8 @@ class Sphere final : public Simulator {
         if (s.observable == slots.front().observable) times.push_back(s.time);
       const auto at = path(request.point, request.effects, request.nuisances, times, 1e-3 * request.step_factor, request.seed);
       RunResult result;
-      for (std::size_t i = 0; i < slots.size(); ++i) result.values.push_back(at[i % times.size()][experiment_.observables[slots[i].observable].id == "z"]);
+      for (std::size_t i = 0; i < slots.size(); ++i)
+        result.values.push_back(at[i % times.size()][experiment_.observables[slots[i].observable].id == "z"]);
       kept_[key] = result;
       results.push_back(result);
     }
@@ -139,17 +157,22 @@ class Sphere final : public Simulator {
 inline Experiment experiment(const Truth& truth, int n_train, int n_withheld, int n_replicates, double noise, std::uint64_t seed) {
   Experiment e;
   e.name = "formula";
-  e.observables = {{.id = "x", .unit = "m", .noise_u = noise, .calibration_group = ""}, {.id = "z", .unit = "m", .noise_u = noise, .calibration_group = ""}};
+  e.observables = {{.id = "x", .unit = "m", .noise_u = noise, .calibration_group = ""},
+                   {.id = "z", .unit = "m", .noise_u = noise, .calibration_group = ""}};
   std::vector<double> times;
   for (int i = 1; i <= 40; ++i) times.push_back(0.02 * i);
   NormalNumbers random(seed);
   const double viscosity = 0.02 * random(), drag = 0.05 * random();
   for (int p = 0; p < n_train + n_withheld; ++p) {
-    e.points.push_back({.id = std::string(1, static_cast<char>('A' + p)), .case_file = {}, .withheld = p >= n_train, .input_u = {{"flow.amplitude", 0.05}}});
+    e.points.push_back({.id = std::string(1, static_cast<char>('A' + p)),
+                        .case_file = {},
+                        .withheld = p >= n_train,
+                        .input_u = {{"flow.amplitude", 0.05}}});
     Theta nuisances{{"flow.amplitude", 0.05 * random()}, {"flow.viscosity", viscosity}, {"drag_form", drag}};
     for (const auto& [name, value] : truth.nuisances) nuisances[name] = value;
     std::vector<std::vector<std::array<double, 2>>> paths;
-    for (int r = 0; r < n_replicates; ++r) paths.push_back(path(p, truth.effects, nuisances, times, 0.7e-3, seed * 1000 + static_cast<std::uint64_t>(r) + 1, &truth));
+    for (int r = 0; r < n_replicates; ++r)
+      paths.push_back(path(p, truth.effects, nuisances, times, 0.7e-3, seed * 1000 + static_cast<std::uint64_t>(r) + 1, &truth));
     for (int o = 0; o < 2; ++o)
       for (int r = 0; r < n_replicates; ++r)
         for (std::size_t k = 0; k < times.size(); ++k) e.data.push_back({p, o, r, times[k], paths[r][k][o] + noise * random()});

@@ -1,0 +1,99 @@
+// Requirement: counts, events and censored times of a random model are judged by their own likelihoods.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "diagnosis/diagnose.hpp"
+#include "diagnosis/statistics.hpp"
+
+using namespace snag;
+
+namespace {
+
+// A pump in three numbers: a rag stays for a lognormal time, recirculates so often, leaves with a probability. `sticking` lengthens the
+// stay and keeps rags; `slip` makes them recirculate.
+struct Passage {
+  double time, recirculations, exited;
+};
+
+Passage passage(int point, double sticking, double slip, NormalNumbers& random) {
+  const double median = 0.2 * (1 + 0.3 * point) * (1 + sticking);
+  Passage p{median * std::exp(0.3 * random()), 0, 0};
+  const double rate = 2 + 4 * slip;
+  double sum = -std::log1p(-random.uniform());
+  while (sum < rate) p.recirculations += 1, sum -= std::log1p(-random.uniform());
+  p.exited = random.uniform() < 0.9 / (1 + 2 * sticking);
+  return p;
+}
+
+class Pump final : public Simulator {
+ public:
+  Pump() {
+    effects_ = {{.name = "slip", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4},
+                {.name = "sticking", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4}};
+    for (int o = 0; o < 3; ++o) slots_.push_back({o});
+  }
+  const std::vector<Effect>& effects() const override { return effects_; }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  const std::vector<Slot>& slots(int) const override { return slots_; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    std::vector<RunResult> results;
+    for (const RunRequest& r : requests) {
+      ++n_runs_;
+      NormalNumbers random(r.seed * 100 + static_cast<std::uint64_t>(r.point));
+      const auto theta = [&](const char* name) { return r.effects.contains(name) ? r.effects.at(name) : 0; };
+      const Passage p = passage(r.point, theta("sticking"), theta("slip"), random);
+      results.push_back({{p.time, p.recirculations, p.exited}, ""});
+    }
+    return results;
+  }
+  int n_runs() const override { return n_runs_; }
+
+ private:
+  std::vector<Effect> effects_;
+  std::vector<Nuisance> nuisances_;
+  std::vector<Slot> slots_;
+  int n_runs_ = 0;
+};
+
+Experiment measured(double sticking, double slip, std::uint64_t seed) {
+  using Kind = Observable::Kind;
+  Experiment e;
+  e.observables = {{.id = "retention_time", .unit = "s", .kind = Kind::lognormal, .noise_u = 0.05, .calibration_group = ""},
+                   {.id = "recirculations", .unit = "1", .kind = Kind::count, .calibration_group = ""},
+                   {.id = "exited", .unit = "1", .kind = Kind::event, .calibration_group = ""}};
+  NormalNumbers random(seed);
+  for (int p = 0; p < 4; ++p) {
+    e.points.push_back({.id = std::string(1, static_cast<char>('A' + p)), .case_file = {}});
+    std::vector<Passage> passages;
+    for (int r = 0; r < 40; ++r) passages.push_back(passage(p, sticking, slip, random));
+    constexpr double test_ends = 0.6;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (int r = 0; r < 40; ++r) e.data.push_back({p, 0, r, nan, std::min(passages[r].time, test_ends), passages[r].time > test_ends});
+    for (int r = 0; r < 40; ++r) e.data.push_back({p, 1, r, nan, passages[r].recirculations});
+    for (int r = 0; r < 40; ++r) e.data.push_back({p, 2, r, nan, passages[r].exited});
+  }
+  return e;
+}
+
+}  // namespace
+
+TEST(Rates, NamesTheEffectOfARandomModel) {
+  int none = 0, sticking = 0, slip = 0;
+  for (int i = 0; i < 4; ++i) {
+    const auto judged = [&](double a, double b) {
+      const Experiment e = measured(a, b, 50 + i);
+      Pump pump;
+      return diagnose(e, pump);
+    };
+    none += judged(0, 0).verdict == "none";
+    const Verdict s = judged(1, 0), l = judged(0, 1.5);
+    sticking += s.verdict == "effects" && s.effects == std::vector<std::string>{"sticking"};
+    slip += l.verdict == "effects" && l.effects == std::vector<std::string>{"slip"};
+    for (const GapCell& cell : s.where) EXPECT_NE(cell.test, "z");
+  }
+  std::printf("rates: none %d, sticking %d, slip %d of 4 each\n", none, sticking, slip);
+  EXPECT_GE(none, 3);
+  EXPECT_GE(sticking, 3);
+  EXPECT_GE(slip, 3);
+}
