@@ -14,9 +14,9 @@ namespace snag {
 
 namespace {
 
-/// Shares of the prior. One effect is as likely as none before the data; a second one has to bring 6 nats (a surplus second effect mops up
-/// what the first leaves); a tenth is for what nobody listed.
-constexpr double prior_none = 0.4, prior_effects = 0.5, prior_outside = 0.1, nats_of_second = 6;
+/// Shares of the prior. None is twice as likely as all single effects together: uncertainties of inputs are seldom stated too large. A
+/// second effect has to bring 6 nats (a surplus second effect mops up what the first leaves); a tenth is for what nobody listed.
+constexpr double prior_none = 0.6, prior_effects = 0.3, prior_outside = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 constexpr double screening_width = 10;
 constexpr int least_kept = 3, most_kept = 8, most_pairs = 5;

@@ -1,5 +1,9 @@
 #include "diagnosis/diagnose.hpp"
 
+#include <algorithm>
+
+#include "base/error.hpp"
+
 #include "diagnosis/attribution.hpp"
 #include "diagnosis/how_far.hpp"
 #include "diagnosis/judgement.hpp"
@@ -8,7 +12,33 @@
 
 namespace snag {
 
+namespace {
+
+// Runs without which nothing can be said: the base model with two seeds and another step, its derivatives, and each effect once a point.
+void check_budget(const Experiment& experiment, const Simulator& simulator) {
+  const int points = static_cast<int>(experiment.points.size());
+  int training = 0, needed = 2 * points;
+  for (const OperatingPoint& point : experiment.points) training += !point.withheld;
+  for (const Nuisance& nuisance : simulator.nuisances())
+    for (const int p : nuisance.points) needed += !experiment.points[p].withheld;
+  int live = 0;
+  for (const Effect& effect : simulator.effects()) {
+    const bool wanted =
+        experiment.candidates.empty() || std::count(experiment.candidates.begin(), experiment.candidates.end(), effect.name) > 0;
+    live += wanted && effect.blind.empty();
+  }
+  constexpr int one_fit = 20;
+  needed += training * (1 + live + one_fit);
+  if (needed > experiment.max_runs)
+    throw Error(ExitCode::usage, "[budget] max_runs = " + std::to_string(experiment.max_runs) + " is too few: " + std::to_string(live) +
+                                     " candidates at " + std::to_string(training) + " points need at least " + std::to_string(needed) +
+                                     " runs; raise it, or name fewer candidates");
+}
+
+}  // namespace
+
 Verdict diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options) {
+  check_budget(experiment, simulator);
   Verdict verdict;
   verdict.name = experiment.name;
   verdict.data_sha256 = experiment.data_sha256, verdict.withheld_sha256 = experiment.withheld_sha256;

@@ -3,6 +3,7 @@
 // truth. Truths come with another time step, other inputs within their uncertainty, and effects of another form.
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
@@ -133,6 +134,23 @@ TEST(Attribution, DeterministicVerdict) {
                           "after",   "floor",       "remainder",      "identifiability", "detectability", "ties",      "next_experiment",
                           "runs",    "data_sha256", "withheld_sha256"})
     EXPECT_NE(first.find("\"" + std::string(key) + "\""), std::string::npos) << key;
+}
+
+// Too few runs to say anything, and a misspelt candidate, are told.
+TEST(Attribution, ExplainsMistakes) {
+  const auto message = [](auto change) {
+    Experiment experiment = formula::experiment({}, 2, 0, 1, noise, 1);
+    change(experiment);
+    formula::Sphere sphere(experiment);
+    try {
+      diagnose(experiment, sphere);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(message([](Experiment& e) { e.max_runs = 30; }).find("max_runs = 30 is too few"), std::string::npos);
+  EXPECT_NE(message([](Experiment& e) { e.candidates = {"lifd"}; }).find("did you mean \"lift\""), std::string::npos);
 }
 
 // Where: with an effect the first window in which it is seen is marked; without one nothing is significant.
