@@ -15,15 +15,14 @@ constexpr double pull_speed =
 constexpr int looks_to_max = 400;  // at the force before the largest is due
 constexpr double furthest = 2;     // over max_strain: a cloth that has not torn by then does not tear
 
-/// A cloth from clamp to clamp, pulled along its rows.
-RagPiece pulled_cloth(const TextileTests& tests, int direction, double radius, const std::array<BondProperties, 2>& bond) {
+/// The cloth between the clamps, pulled along its rows.
+RagPiece pulled_cloth(const TextileTests& tests, double radius, const std::array<BondProperties, 2>& bond) {
   const auto whole = [&](double length) { return std::max(1, static_cast<int>(std::lround(length / (2 * radius)))); };
   RagPiece piece;
   Rag& rag = piece.rag;
   rag.name = "grab test", rag.radius = radius;
   rag.n_columns = whole(tests.gauge_length) + 1;
-  rag.n_rows = std::max(whole(tests.clamp_width), whole(direction == 0 ? tests.width : tests.length));
-  if ((rag.n_rows - whole(tests.clamp_width)) % 2 != 0) --rag.n_rows;  // so that the clamps are in the middle
+  rag.n_rows = whole(tests.clamp_width);
   rag.mass = tests.elongation_density * tests.thickness * 4 * radius * radius, rag.inertia = 0.4 * rag.mass * radius * radius;
   rag.bond = bond, rag.bond_damping = tests.bond_damping, rag.rotation_friction = 0;
   rag.contact_radius_ratio = tests.contact_radius_ratio;
@@ -54,15 +53,10 @@ BondProperties elongation_bond(const TextileTests& tests, int direction, double 
 }
 
 GrabTest simulated_grab_test(const TextileTests& tests, int direction, double radius, const std::array<BondProperties, 2>& bond) {
-  const RagPiece piece = pulled_cloth(tests, direction, radius, bond);
+  const RagPiece piece = pulled_cloth(tests, radius, bond);
   const Rag& rag = piece.rag;
   RagSystem rags(MPI_COMM_SELF, DemSettings{}, {piece});
-  const int gripped = std::max(1, static_cast<int>(std::lround(tests.clamp_width / (2 * radius))));
-  const int first = (rag.n_rows - gripped) / 2;
-  rags.clamp([&](std::int64_t id) {
-    const int column = static_cast<int>(id % rag.n_columns), row = static_cast<int>(id / rag.n_columns);
-    return (column == 0 || column == rag.n_columns - 1) && row >= first && row < first + gripped;
-  });
+  rags.clamp([&](std::int64_t id) { return id % rag.n_columns == 0 || id % rag.n_columns == rag.n_columns - 1; });
   // It begins with the velocities of a steady pull, so that no wave runs through it.
   for (Tile& tile : rags.tiles())
     for_particles(tile, [&](int k, int i, int) {

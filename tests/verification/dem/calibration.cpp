@@ -116,10 +116,10 @@ TEST(CalibrationBending, TipComesToThePlane) {
 }
 
 TEST(CalibrationElongation, GrabTestTearsAtTheMeasuredForce) {
-  // Requirement: the simulated grab test reaches its largest force within the measured range, at the measured strain to the same share
-  // (no range of the strain is known), in both directions; with the clamps counted twice it carries half of that.
+  // Requirement: the simulated grab test reaches its largest force within the measured range, at the measured strain (2 %), in both
+  // directions; with the clamps counted twice it carries half of that.
   const TextileTests tests = aro();
-  const double r = 2e-3;
+  const double r = 1.5e-3;
   for (int d = 0; d < 2; ++d) {
     const ElongationResult& measured = tests.elongation[d];
     const auto bond = bonds_at(tests, {.radius = r}, 2e5);
@@ -127,7 +127,7 @@ TEST(CalibrationElongation, GrabTestTearsAtTheMeasuredForce) {
     std::printf("%s: %.1f N at a strain of %.3f\n", direction_name[d], test.max_force, test.strain_at_max);
     EXPECT_GT(test.max_force, measured.force_range.low);
     EXPECT_LT(test.max_force, measured.force_range.high);
-    EXPECT_NEAR(test.strain_at_max / measured.max_strain, 1, 1 - measured.force_range.low / measured.max_force);
+    EXPECT_NEAR(test.strain_at_max / measured.max_strain, 1, 0.02);
     const auto half = bonds_at(tests, {.radius = r, .as_published = true}, 2e5);
     EXPECT_NEAR(simulated_grab_test(tests, d, r, {half[d], half[1 - d]}).max_force / test.max_force, 0.5, 0.02);
   }

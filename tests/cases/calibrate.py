@@ -1,0 +1,84 @@
+# timeout: 600
+# processors: 2
+"""Requirement: `snag calibrate` makes a textile passport that a case can use and a report, the same on one rank and on two; tests that no cloth gives end with exit code 2 and one clear message."""
+import re
+import shutil
+import tomllib
+
+import harness
+
+TESTS = harness.SOURCE_DIR / "cases/textile-aro/tests.toml"
+SHEET = """[time]
+end_s = 1e-3
+step_s = 1e-3
+[[rag]]
+length_mm = 60
+width_mm = 60
+radius_mm = {radius}
+passport = "passport.toml"
+[output]
+report = false
+"""
+
+
+class Calibrate(harness.CaseTest):
+    def refused(self, fragments, replace, by, *arguments):
+        text = TESTS.read_text()
+        self.assertIn(replace, text)
+        file = self.case(text.replace(replace, by, 1), "tests")
+        run = harness.snag(["calibrate", file, "--out", self.work / "out", *arguments])
+        self.assertEqual(run.code, 2, run.tail())
+        self.assertEqual(len(run.messages), 1, f"one message on stderr is wanted, these came:\n{run.stderr}")
+        print(f"  2: {run.messages[0]}")
+        for fragment in fragments:
+            self.assertIn(fragment, run.messages[0])
+        self.assertFalse((self.work / "out").exists(), "nothing may be written")
+
+    def test_missing_direction(self):
+        text = TESTS.read_text()
+        block = re.search(r"\[bending\.CW\]\n(?:[^\[\n].*\n)+", text).group(0)
+        self.refused(["[bending]", "crosswise", "missing"], block, "")
+
+    def test_negative_force(self):
+        self.refused(["max_force_mean_N", "-172"], "max_force_mean_N = 172.0", "max_force_mean_N = -172.0")
+
+    def test_strain_beyond_the_contact_radius(self):
+        self.refused(["max_strain", "contact radius", "2.2"], "max_strain = 0.358\nmax_elongation_m = 0.0179", "max_strain = 0.70\nmax_elongation_m = 0.0350")
+
+    def test_rag_that_cannot_reach_the_plane(self):
+        self.refused(["reach", "overhang"], "overhang_mean_m = 0.034                 # Fig. 2.8 text: mean 33.5 mm\noverhang_range_m = [0.031, 0.036]", "overhang_mean_m = 0.3")
+
+    def test_overhang_below_a_particle(self):
+        self.refused(["overhang", "radius", "--radius"], "overhang_mean_m = 0.021                 # Fig. 2.8 text: mean 21.5 mm\noverhang_range_m = [0.020, 0.024]", "overhang_mean_m = 0.004", "--radius", "5mm")
+
+    def test_misspelt_key(self):
+        self.refused(["max_strian"], "max_strain = 0.358", "max_strian = 0.358")
+
+    def test_radius_without_unit(self):
+        self.refused(["--radius"], "", "", "--radius", "1.5")
+
+    def test_passport_of_coarse_particles(self):
+        """The dust cloth at 6 mm: all the criteria of the finer radii; then a case takes the passport."""
+        one = harness.snag(["calibrate", TESTS, "--radius", "6mm", "--seeds", "2", "--out", self.work / "one"], 1)
+        two = harness.snag(["calibrate", TESTS, "--radius", "6mm", "--seeds", "2", "--out", self.work / "two"], 2)
+        self.assertEqual((one.code, two.code), (0, 0), one.tail() + two.tail())
+        text = (self.work / "one/passport.toml").read_text()
+        self.assertEqual(text, (self.work / "two/passport.toml").read_text(), "the number of ranks must not matter")
+        passport = tomllib.loads(text)
+        self.assertEqual([bond["direction"] for bond in passport["bond"]], ["LW", "CW"])
+        for picture in passport["textile"]["pictures"]:
+            self.assertTrue((self.work / "one" / picture).read_text().startswith("<svg"))
+        drape = passport["drape"][0]
+        print("  " + ", ".join(f"{key} = {value}" for key, value in drape.items()))
+        self.assertLess(abs(drape["area_deviation"]), 0.07)
+        self.assertIn("Grab test lengthwise", (self.work / "one/calibration.html").read_text())
+
+        shutil.copy(self.work / "one/passport.toml", self.work)
+        self.run_case(self.case(SHEET.format(radius=6)))
+        outside = harness.snag(["run", self.case(SHEET.format(radius=3)), "--out", self.work / "outside"])
+        self.assertEqual(outside.code, 2, outside.tail())
+        self.assertIn("3 mm is outside the calibrated radii 6 mm", outside.messages[0])
+
+
+if __name__ == "__main__":
+    harness.main()
