@@ -89,7 +89,8 @@ class Attributor {
       for (const int b : candidates_)
         if (a != b) i.cosines[name][model_.effects()[b].name] = screening.cosine(a, b);
     }
-    // Two effects are tied where what one leaves of the other's signature is not detectable.
+    // Two effects are tied where their signatures are alike and what one leaves of the other's is not detectable.
+    constexpr double collinear = 0.9;
     std::vector<bool> grouped(candidates_.size(), false);
     for (std::size_t a = 0; a < candidates_.size(); ++a) {
       if (grouped[a] || i.blind.contains(model_.effects()[candidates_[a]].name)) continue;
@@ -99,7 +100,8 @@ class Attributor {
         if (grouped[b] || i.blind.contains(other)) continue;
         const double cosine = i.cosines[group.front()][other];
         const double least = std::min(i.detectability[group.front()], i.detectability[other]);
-        if (least * std::sqrt(std::max(0.0, 1 - cosine * cosine)) < blind_detectability) group.push_back(other), grouped[b] = true;
+        if (std::abs(cosine) > collinear && least * std::sqrt(std::max(0.0, 1 - cosine * cosine)) < blind_detectability)
+          group.push_back(other), grouped[b] = true;
       }
       if (group.size() > 1) i.ties.push_back(group);
     }

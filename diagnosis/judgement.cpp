@@ -138,6 +138,8 @@ class Judge {
     const bool several_points = model_.training().size() > 1;
     if (p < suspected) {
       tie(shared_verdict(v_.probability));
+    } else if (const int twin = equal_rival(first); twin >= 0) {
+      tie({a_.names[first], a_.names[twin]});
     } else if (several_points && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ) {
       tie({a_.names[first], a_.names[rival]});
       v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
@@ -146,6 +148,17 @@ class Judge {
       v_.verdict = "effects";
       v_.wording = p >= attributed && guards_hold(first) ? "attributed" : "suspected";
     }
+  }
+
+  // Another hypothesis with as many effects that the data cannot tell from the first; -1 if there is none.
+  int equal_rival(int first) const {
+    constexpr double equal = 1;  // nats
+    for (int i = 0; i < static_cast<int>(a_.fits.size()); ++i) {
+      if (i != first && a_.fits[i].hypothesis.effects.size() == a_.fits[first].hypothesis.effects.size() &&
+          a_.weight[i] > a_.weight[first] - equal)
+        return i;
+    }
+    return -1;
   }
 
   // The hypothesis that predicts left-out points best. One that lives on nuisances far outside their priors is no rival: predictions learn

@@ -106,6 +106,18 @@ TEST(Attribution, OutsideOfTheLibrary) {
   EXPECT_LE(attributed, 3);
 }
 
+// Two effects that move a particle in the same way are a tie, never one of them; the tie is told before any data as well.
+TEST(Attribution, IndistinguishableEffectsTie) {
+  const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 4, 0, 3, noise, 11);
+  formula::Sphere sphere(experiment, false, true);
+  const Verdict verdict = diagnose(experiment, sphere);
+  EXPECT_EQ(verdict.verdict, "tie");
+  EXPECT_EQ(verdict.tie, (std::vector<std::string>{"added_mass", "entrained_water"}));
+  ASSERT_FALSE(verdict.identifiability.ties.empty());
+  EXPECT_EQ(verdict.identifiability.ties.front(), (std::vector<std::string>{"added_mass", "entrained_water"}));
+  EXPECT_NE(verdict.identifiability.next_experiment.find("another operating point or observable"), std::string::npos);
+}
+
 // Turbulent dispersion shows in the spread between replicates, not path by path; without it the spread is that of the noise.
 TEST(Attribution, RandomEffectByItsSpread) {
   const auto with = [](double theta, std::uint64_t seed) {

@@ -47,8 +47,8 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
                nu = 1e-5 * (1 + get(nuisances, "flow.viscosity"));
   const double r = 1000 / f.density, tau = f.density * f.diameter * f.diameter / (18 * 1000 * nu), g = 9.81;
   const double drag = (1 + get(nuisances, "drag_form")) * (1 + get(effects, "drag_magnitude")), scale = 1 + get(effects, "measurement");
-  const double added = get(effects, "added_mass"), pressure = get(effects, "pressure_gradient"), lift = get(effects, "lift"),
-               dispersion = get(effects, "turbulent_dispersion");
+  const double added = get(effects, "added_mass") + get(effects, "entrained_water"), pressure = get(effects, "pressure_gradient"),
+               lift = get(effects, "lift"), dispersion = get(effects, "turbulent_dispersion");
   NormalNumbers random(seed * 7919 + static_cast<std::uint64_t>(point));
   std::vector<std::array<double, 2>> result;
   double x = 0, z = 0, vx = f.mean, vz = 0, t = 0, eddy_x = 0, eddy_z = 0;
@@ -83,13 +83,14 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
 
 class Sphere final : public Simulator {
  public:
-  explicit Sphere(const Experiment& experiment, bool with_random = false) : experiment_(experiment) {
+  explicit Sphere(const Experiment& experiment, bool with_random = false, bool with_twin = false) : experiment_(experiment) {
     effects_ = {{.name = "added_mass", .parameter = "", .mean = 0.5, .sd = 0.25, .minimum = 0, .maximum = 2},
                 {.name = "drag_magnitude", .parameter = "", .mean = 0.3, .sd = 0.2, .minimum = -0.6, .maximum = 2},
                 {.name = "lift", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4},
                 {.name = "measurement", .parameter = "", .mean = 0, .sd = 0.02, .minimum = -0.1, .maximum = 0.1},
                 {.name = "operating_point", .parameter = "", .mean = 0, .sd = 0.15, .minimum = -0.5, .maximum = 1},
                 {.name = "pressure_gradient", .parameter = "", .mean = 1, .sd = 0.4, .minimum = 0, .maximum = 2}};
+    if (with_twin) effects_.push_back({.name = "entrained_water", .parameter = "", .mean = 0.5, .sd = 0.25, .minimum = 0, .maximum = 2});
     effects_.push_back({.name = "wall", .parameter = "", .blind = "the case has no wall"});
     if (with_random)
       effects_.push_back({.name = "turbulent_dispersion",
