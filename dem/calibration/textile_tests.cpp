@@ -48,8 +48,8 @@ Table direction_of(const Table& test, int direction) {
   const Table table = test.table(direction_key[direction]);
   if (!table.present())
     throw Error(ExitCode::usage, test.where() + ": the test " + direction_name[direction] +
-                                     " is missing; both directions are needed, add [" + (direction == 0 ? "...LW" : "...CW") +
-                                     "] with what was measured");
+                                     " is missing; both directions are needed, add the table of " + direction_key[direction] +
+                                     " with what was measured");
   return table;
 }
 
@@ -175,10 +175,13 @@ void check_contact_radius(const std::string& file, const TextileTests& t) {
     const ContactRadiusBounds bounds = contact_radius_bounds(t.elongation[d].max_strain);
     const double ratio = t.contact_radius_ratio;
     if (ratio < bounds.low)
-      throw Error(ExitCode::usage, file + ": [elongation." + direction_key[d] + "] max_strain: is " + words(t.elongation[d].max_strain) +
-                                       ", beyond the contact radius of " + words(ratio) + " r_p, which holds bonds up to a strain of " +
-                                       words((ratio - 1) / 2) + "; give [particles] contact_radius_over_radius between " +
-                                       words(bounds.low) + " and " + words(bounds.high));
+      throw Error(ExitCode::usage,
+                  file + ": [elongation." + direction_key[d] + "] max_strain: is " + words(t.elongation[d].max_strain) +
+                      ", beyond the contact radius of " + words(ratio) + " r_p, which holds bonds up to a strain of " +
+                      words((ratio - 1) / 2) +
+                      (bounds.low <= bounds.high
+                           ? "; give [particles] contact_radius_over_radius between " + words(bounds.low) + " and " + words(bounds.high)
+                           : "; a lattice holds strains up to " + words((bounds.high - 1) / 2) + ", correct the strain"));
     if (ratio > bounds.high)
       throw Error(ExitCode::usage, file + ": [particles] contact_radius_over_radius: is " + words(ratio) + ", must be at most sqrt(5) = " +
                                        words(bounds.high) + ", or particles that are no neighbours are bonded; give a smaller one");
