@@ -43,6 +43,21 @@ GreyPicture photograph_of(const VtkPiece& sheets, const std::filesystem::path& f
   return photograph(sheets.points, triangles, largest, camera, seed);
 }
 
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// Mean direction of axes given in degrees: an axis at 89 and one at -89 degrees lie around 90.
+double mean_of_axes(const std::vector<double>& values) {
+  double c = 0, s = 0;
+  for (const double value : values) c += std::cos(2 * value / degrees), s += std::sin(2 * value / degrees);
+  return 0.5 * degrees * std::atan2(s, c);
+}
+
+double square_of(double value) { return value * value; }
+
 /// Collects what is seen, and its statistics.
 class Observation {
  public:
@@ -80,9 +95,10 @@ class Observation {
     for (std::size_t v = 0; v < values_.size(); ++v) {
       const std::vector<double>& values = values_[v];
       if (values.empty()) continue;
-      double mean = 0, square = 0;
-      for (const double value : values) mean += value / static_cast<double>(values.size());
-      for (const double value : values) square += (value - mean) * (value - mean);
+      const double mean = std::string(names[v]) == "orientation" ? mean_of_axes(values) : mean_of(values);
+      double square = 0;
+      for (const double value : values)
+        square += square_of(std::string(names[v]) == "orientation" ? std::remainder(value - mean, 180) : value - mean);
       const double deviation = values.size() > 1 ? std::sqrt(square / static_cast<double>(values.size() - 1)) : std::nan("");
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
       all[names[v]] = {{"unit", units[v]}, {"mean", mean},     {"sigma", deviation},

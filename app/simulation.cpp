@@ -160,7 +160,8 @@ void Simulation::couple(const CaseFile& file) {
 
 void Simulation::step() {
   const double begun = MPI_Wtime();
-  if (time_step_ > 0) insert_rags();
+  // At the beginning of a step: what the last one left behind for the outputs belongs to the rags that were there.
+  if (rags && time_step_ > 0) remove_rags(), insert_rags();
   if (coupled) {
     coupled->step(time_settings.step);
   } else if (water) {
@@ -172,7 +173,7 @@ void Simulation::step() {
   if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
   check_inside();
   ++time_step_;
-  if (passage) passage->observe(*rags, time(), time_settings.step), remove_rags();
+  if (passage) passage->observe(*rags, time(), time_settings.step);
 }
 
 /// A rag of which every particle has left the mesh by an outlet feels nothing any more, and would only cost time.

@@ -86,7 +86,8 @@ class RagSystem {
   Presence presence(int rag) const { return presence_[rag]; }
   /// Puts a waiting rag where its piece says. Collective.
   void insert(int rag);
-  /// Takes a rag out of the run as a whole; it stays counted as complete. Collective.
+  /// Takes a rag out of the run as a whole; it stays counted as complete. Forces of the last sub-step are not to be asked for after it,
+  /// before the next one. Collective.
   void remove(int rag);
   /// Adds a velocity to all particles of a rag, m/s.
   void push(int rag, const Vec3& velocity);
