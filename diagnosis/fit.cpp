@@ -92,7 +92,8 @@ Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& resp
   C.diagonal() += (0.1 * e).cwiseAbs2();
   if (response.paths.cols() > 1) add_scatter(point, response, C);
   for (const Eigen::VectorXd* part : parts) add_form_error(point, *part, form_error, C);
-  if (g > 0) C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
+  // Row by row: rows have units of their own.
+  C.diagonal() = (1 + 1e-9) * C.diagonal().array() + 1e-300;
   return C;
 }
 
