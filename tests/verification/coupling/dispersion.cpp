@@ -108,7 +108,7 @@ struct WanderingCloth {
       : rags(comm, {},
              [] {
                RagSettings sheet(RagSettings::Shape::rag);
-               sheet.length = 0.14, sheet.width = 0.004, sheet.radius = 1e-3, sheet.velocity = {0.2, 0.1, 0};
+               sheet.length = 0.012, sheet.width = 0.06, sheet.radius = 1e-3, sheet.velocity = {0.2, 0.1, 0};
                return std::vector<RagPiece>{make_piece(sheet, "test")};
              }()),
         solver(read_coupling(CaseFile::parse("[coupling]\nforces = [\"schiller_naumann\", \"turbulent_dispersion\", \"history\", "
@@ -120,7 +120,7 @@ struct WanderingCloth {
     if (++steps % 3 == 0)
       rags.migrate([&](const std::vector<Vec3>& centres) {
         std::vector<int> owner;
-        for (const Vec3& c : centres) owner.push_back((static_cast<int>(std::floor(c.x * 30)) + 5 + steps) % size_of(rags.comm()));
+        for (const Vec3& c : centres) owner.push_back((static_cast<int>(std::floor((c.x + c.y) * 60)) + 5 + steps) % size_of(rags.comm()));
         return owner;
       });
     solver.step(1e-4);
