@@ -55,17 +55,19 @@ double variance_between(const Row& row, const Observable& observable, std::span<
 Responses::Responses(const Experiment& experiment, Simulator& simulator)
     : experiment_(experiment), simulator_(simulator), points_(summarize(experiment, simulator, random_effects_may_show(simulator))) {
   for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) (experiment.points[p].withheld ? withheld_ : training_).push_back(p);
-  std::set<std::string> told;
+  std::set<std::string> told, calibrations;
+  for (const Observable& observable : experiment.observables)
+    if (observable.bias_u > 0) calibrations.insert(calibration_of(observable));
   for (const Nuisance& n : simulator.nuisances()) {
-    if (n.u > 0) nuisances_.push_back({n.name, n.u, n.points, -1});
+    if (n.u > 0) nuisances_.push_back({n.name, n.u, n.points, -1, calibrations.contains(n.name)});
     told.insert(n.name);
   }
   std::vector<int> all(experiment.points.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
     const Observable& observable = experiment.observables[o];
-    if (observable.bias_u > 0 && !told.contains(observable.calibration_group))
-      nuisances_.push_back({"bias of " + observable.id, 1, all, o});
+    if (observable.bias_u > 0 && !told.contains(calibration_of(observable)))
+      nuisances_.push_back({"bias of " + observable.id, 1, all, o, true});
   }
   find_randomness();
   leave_out_rows_without_answer();

@@ -31,6 +31,7 @@ struct FreeNuisance {
   double u = 0;              // relative (calibration groups: 1)
   std::vector<int> points;   // that share it
   int bias_observable = -1;  // an additive bias of this observable, which needs no runs; -1: an input of the simulator
+  bool of_data = false;      // an error of the measurement, not of the model
 };
 
 class Responses {

@@ -52,7 +52,7 @@ class PointCells {
       const Response& moved = base_.by_nuisance[j][p_];
       if (moved.value.size() == 0) continue;
       const double change = (mean(moved.value) - cell.simulated) / nuisance_step;
-      (model_.nuisances()[j].bias_observable >= 0 ? bias : input) += change * change;
+      (model_.nuisances()[j].of_data ? bias : input) += change * change;
     }
     cell.u_input = std::sqrt(input);
     double data = is_gaussian(row) ? point_.covariance.block(begin, begin, n, n).mean() : row.u * row.u;

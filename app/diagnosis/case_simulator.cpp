@@ -19,8 +19,6 @@ namespace snag {
 
 namespace {
 
-constexpr const char* flow_field = "flow.amplitude";
-
 /// Slots of a point: what the data have, by observable and time, each once.
 std::vector<Slot> slots_of(const Experiment& experiment, int point) {
   std::set<std::pair<int, double>> timed;
@@ -51,11 +49,6 @@ bool is_length(const std::string& id) {
   for (const char* name : {"x", "y", "z", "vx", "vy", "vz"})
     if (id == name) return true;
   return false;
-}
-
-/// Name of the nuisance that shifts an observable by its bias.
-std::string calibration_of(const Observable& observable) {
-  return observable.calibration_group.empty() ? "bias of " + observable.id : observable.calibration_group;
 }
 
 std::string text_of(const std::map<std::string, double>& values) {
