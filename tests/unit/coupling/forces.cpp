@@ -182,6 +182,23 @@ TEST(Forces, SlopeIsFiniteAndNotNegative) {
   });
 }
 
+// Requirement: folds closer than the kernel resolves (solid fraction 1 and above) leave every force finite and a drag positive.
+TEST(Forces, FiniteWhereSolidsOverlap) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    SphereState s = slanted_state();
+    for (const double solid : {0.9, 1.0, 1.05}) {
+      s.solid_fraction = solid;
+      const auto load = load_on_sphere(force, s);
+      EXPECT_TRUE(std::isfinite(norm(load.force)) && std::isfinite(load.slope)) << solid;
+      EXPECT_GE(load.slope, 0) << solid;
+      if (force.card().role == Role::drag) {
+        EXPECT_GT(dot(load.force, s.fluid_velocity - s.velocity), 0) << solid;
+        EXPECT_GT(load.slope, 0) << solid;
+      }
+    }
+  });
+}
+
 // Requirement: a force that gives torque or added mass says so on its card, for nothing else is read.
 TEST(Forces, CardsDeclareWhatIsGiven) {
   for_each_force([](FluidForce& force, const std::string&) {
