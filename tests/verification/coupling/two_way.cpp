@@ -156,6 +156,40 @@ TEST_P(TwoWayExchange, RanksDoNotMatter) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, TwoWayExchange, testing::ValuesIn(kernel_shapes().names()));
 
+// Requirement: the sensitivity that a load reports is the change of its impulse with the velocity of the water, with added mass too and for
+// particles that are held.
+TEST(Sensitivity, IsTheChangeOfTheImpulse) {
+  const FluidForces forces = [] {
+    const std::string text = "[coupling]\nforces = [\"free_stream_drag\", \"added_mass\"]\n";
+    return std::move(read_coupling(CaseFile::parse(text).root(), false).forces);
+  }();
+  RagSettings settings(RagSettings::Shape::particle);
+  settings.diameter = 1e-3, settings.density = 300;
+  RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test")});
+  Tile& tile = rags.tiles()[0];
+  const int k = tile.index(0, 0);
+  const double step = 0.02, du = 1e-6, m = rags.rags()[0].mass;
+  for (const double is_free : {1.0, 0.0}) {
+    tile.free[k] = is_free;
+    double Q = 0;
+    const auto impulse = [&](double u) {
+      PrescribedFlow flow;
+      flow.velocity = {u, 0, 0};
+      PrescribedField field(flow);
+      FluidLoad load(forces, field, rags.rags());
+      tile.set_vector(Tile::fx, k, {});
+      load.begin_step(rags.tiles(), 0);
+      load.add(0, tile, step);
+      Q = load.sensitivity(0, k);
+      return load.impulse(0, k).x;
+    };
+    const double change = (impulse(du) - impulse(0)) / du;
+    std::printf("  dJ/du %.6f, Q %.6f of the mass\n", change / m, Q / m);
+    EXPECT_NEAR(Q, change, 1e-9 * change);
+    EXPECT_GT(Q, 0.05 * m);
+  }
+}
+
 // Requirement: momentum that leaks is found out: an error of 1e-9 of what was exchanged, and a velocity that is not the one the force was
 // applied with.
 TEST(MomentumCheck, FindsLeaks) {
