@@ -218,6 +218,16 @@ TEST(Forces, LaminarSheetIsThePlateOfBlasius) {
   EXPECT_LT(std::hypot(force.y, force.z), 1e-12 * both_sides);
 }
 
+// Requirement: only forces are spread to the water: a model that gives a couple and no force does not say that the water feels it. Nor does
+// the water feel what carries the water that the particle displaces, for its inertia is in the equation of the water.
+TEST(Forces, SilentAreThoseThatTheWaterDoesNotFeel) {
+  for_each_force([](FluidForce& force, const std::string& name) {
+    const auto load = load_on_sphere(force, slanted_state());
+    const bool couple = norm(load.torque) > 0 && norm(load.force) == 0;
+    EXPECT_EQ(force.card().reacts_on_fluid, !couple && name != "gravity" && name != "pressure_gradient");
+  });
+}
+
 // Requirement: a force that gives torque or added mass says so on its card, for nothing else is read.
 TEST(Forces, CardsDeclareWhatIsGiven) {
   for_each_force([](FluidForce& force, const std::string&) {
@@ -298,6 +308,7 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
   }
   EXPECT_THROW(read("[coupling]\nforces = [\"gravity\", \"gravity\"]\n"), Error);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\n").forces.size(), 0u);
+  EXPECT_EQ(read("[coupling]\nmode = \"none\"\nforces = [\"torque\", \"pressure_gradient\"]\n").forces.size(), 0u);
   EXPECT_THROW(read_coupling(CaseFile::parse("[coupling]\nmode = \"two_way\"\n").root(), false), Error);
 }
 
