@@ -16,8 +16,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/random_numbers.hpp"
 #include "coupling/fluid_force.hpp"
-#include "coupling/random_numbers.hpp"
 #include "dem/tile_particles.hpp"
 
 namespace snag {
