@@ -121,7 +121,8 @@ struct WanderingCloth {
       : rags(comm, {},
              [] {
                RagSettings sheet(RagSettings::Shape::rag);
-               sheet.length = 0.14, sheet.width = 0.004, sheet.radius = 1e-3, sheet.velocity = {0.2, 0.1, 0};
+               sheet.length = 0.004, sheet.width = 0.14, sheet.radius = 1e-3, sheet.velocity = {0.2, 0.1, 0};
+               sheet.lengthwise = {0, 1, 0}, sheet.crosswise = {-1, 0, 0};  // five tiles along x
                return std::vector<RagPiece>{make_piece(sheet, "test")};
              }()),
         solver(read_coupling(CaseFile::parse("[coupling]\nforces = [\"schiller_naumann\", \"turbulent_dispersion\", \"history\", "
