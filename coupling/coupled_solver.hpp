@@ -50,7 +50,7 @@ class CoupledSolver {
   const CouplingReport& report() const { return report_; }
   const CouplingSeconds& seconds() const { return seconds_; }
   /// What the water gave each particle of this rank in the last step, N s, in the order of ParticleList; without forces that do not react
-  /// on the water (weight and buoyancy). Empty before the first step.
+  /// on the water (weight, buoyancy, pressure gradient). Empty before the first step.
   const std::vector<Vec3>& impulses() const { return impulses_; }
 
   /// Columns of monitors/coupling.csv, and the record of the last step.

@@ -69,7 +69,7 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
     auto force = fluid_forces().make(name, table.where() + " forces");
     // The acceleration of gravity stands in a table of its own, because rags without water read it too.
     (name == gravity ? weight : table.table(name)).read(force->parameters());
-    const bool acts = settings.mode != "none" || !force->card().reacts_on_fluid;
+    const bool acts = settings.mode != "none" || name == gravity;
     if (acts) coupling.forces.push_back(std::move(force));
   }
   return coupling;

@@ -67,8 +67,8 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
 #pragma omp simd
     for (int k = first; k < end; ++k) {
       const double mean = mean_relaxation(step * slope[k] / (m + added_mass[k]));
-      Q[k] += exists[k] * step * slope[k] * (free[k] > 0 ? mean : 1);
       phi[k] = free[k] > 0 ? mean * m / (m + added_mass[k]) : 1;  // m a over the sum of all forces
+      Q[k] += exists[k] * step * slope[k] * phi[k];
     }
     for (int i = 0; i < 3; ++i) {
       const double *R = array(reacting_force + i), *N = array(silent_force + i);

@@ -5,12 +5,12 @@
 //   phi = (1 + theta/6) / (1 + 2 theta/3 + theta^2/6) = (1 - exp(-theta))/theta + O(theta^3)
 //   F_fluid = m a - F_other                   what the integrator adds to the other forces so that it kicks by a
 //   J += h F_fluid                            impulse on each particle, N s
-//   Q += h K phi                              its sensitivity dJ/du, kg, for the implicit drag of the flow
+//   Q += h K phi m/M                          its sensitivity dJ/du, kg, for the implicit drag of the flow
 //
 // phi is the mean of the relaxation towards the fluid over a sub-step: third order in theta for a linear drag, and L-stable: a particle
 // much lighter than its drag takes the fluid's velocity within one sub-step, without ringing. F_other must be complete: bonds, contacts and
 // walls come before the fluid. Particles that a clamp holds (Tile::free = 0) feel the force without relaxing: phi = 1. Forces that do not
-// react on the fluid (weight and buoyancy) act on the particle and are left out of J.
+// react on the fluid (weight, buoyancy, pressure gradient) act on the particle and are left out of J.
 // Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I).
 // Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
 #include <memory>

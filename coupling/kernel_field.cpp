@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "solver/rotating_zone.hpp"
 
 namespace snag {
 
@@ -56,10 +57,19 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
 }
 
 void KernelField::set_acceleration() {
-  acceleration_.resize(flow_.mesh.n_cells);
+  const Mesh& mesh = flow_.mesh;
+  const RotatingZone* turning = flow_.rotating_zone;
+  const Vec3 omega = turning ? turning->rotation_speed(flow_.time) : Vec3{};
   const double rate = last_step_ > 0 ? 1 / last_step_ : 0;
-  for (int c = 0; c < flow_.mesh.n_cells; ++c)
-    acceleration_[c] = rate * (flow_.velocity[c] - flow_.velocity_old[c]) + flow_.velocity_gradient[c] * flow_.velocity[c];
+  const bool moved = turning && turning->slides() && last_step_ > 0;  // the difference is that of a cell that moved along
+  acceleration_.resize(mesh.n_cells);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const Vec3& u = flow_.velocity[c];
+    const bool turns = turning && mesh.cell_zone[c] == turning->zone();
+    const Vec3 cell_velocity = turns ? cross(omega, mesh.cell_centre[c] - turning->origin()) : Vec3{};
+    acceleration_[c] = rate * (u - flow_.velocity_old[c]) + flow_.velocity_gradient[c] * (u - cell_velocity);
+    if (turns && !moved) acceleration_[c] += cross(omega, u);
+  }
 }
 
 /// At boundaries k of the cell counts: the slope towards a wall is that on the side of the fluid.

@@ -2,7 +2,11 @@
 // The water of the flow solver at the particles: kernel averages, frozen over the sub-steps of one fluid step.
 //
 //   solid fraction: volumes of the particles spread by the kernel and averaged back; grad k by Gauss over the faces of the cells
-//   Du/Dt = (u^n - u^(n-1))/dt + G u      from the last step's length dt; before the first step the flow counts as steady
+//   Du/Dt = (u^n - u^(n-1))/dt + G (u - u_c) + [Omega x u],   u_c = Omega x (x - origin) in a turning zone, 0 elsewhere
+//
+// from the last step's length dt, in a cell that moves with u_c. Omega x u belongs to a zone that stands in the turning frame (motion =
+// "frame"), where the difference is that of components in this frame. Before the first step the flow counts as steady, in a turning zone
+// as seen from it: Omega x u there for either motion.
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"

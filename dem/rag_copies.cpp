@@ -3,19 +3,9 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "base/random_numbers.hpp"
 
 namespace snag {
-
-namespace {
-
-/// Well mixed bits of a number (the finaliser of splitmix64).
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
-}  // namespace
 
 std::vector<Parameter> RagCopies::parameters() {
   return {
@@ -56,7 +46,7 @@ std::vector<RagPiece> copies_of(const RagPiece& piece, const RagCopies& copies, 
 
 double release_share(int seed, int index) {
   const std::uint64_t start = static_cast<std::uint64_t>(seed) << 32 | static_cast<std::uint32_t>(index);
-  return static_cast<double>(mixed(start + 0x9e3779b97f4a7c15ULL) >> 11) * 0x1p-53;
+  return static_cast<double>(mixed(start) >> 11) * 0x1p-53;
 }
 
 }  // namespace snag

@@ -259,7 +259,7 @@ double leave_one_out(const Fit& fit) {
     const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + own * others.covariance * own.transpose());
     const Eigen::VectorXd z = factor.matrixL().solve(own_rho + own * others.d);
     const Eigen::MatrixXd &L = factor.matrixLLT(), &C = fit.whitening.factor[p].matrixLLT();
-    sum -= 0.5 * z.squaredNorm() + L.diagonal().array().log().sum() + C.diagonal().array().log().sum() +
+    sum -= 0.5 * z.squaredNorm() + 0.5 * fit.whitening.log_ratio[p] + L.diagonal().array().log().sum() + C.diagonal().array().log().sum() +
            0.5 * n * std::log(2 * std::numbers::pi);
   }
   return sum;

@@ -161,6 +161,10 @@ std::vector<std::string> overrides_of_candidates(const std::string& text) {
 
 }  // namespace
 
+std::string calibration_of(const Observable& observable) {
+  return observable.calibration_group.empty() ? "bias of " + observable.id : observable.calibration_group;
+}
+
 Experiment read_experiment(const std::filesystem::path& path) {
   const auto text = file_text(path);
   if (!text) throw Error(ExitCode::io, path.string() + ": cannot be read; check the path");

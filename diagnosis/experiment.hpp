@@ -20,6 +20,9 @@ struct Observable {
   std::string calibration_group;  // empty: of its own
 };
 
+/// Name of the deviation that an observable's bias shares with its calibration group, or has of its own.
+std::string calibration_of(const Observable& observable);
+
 /// One set of conditions under which replicates were measured.
 struct OperatingPoint {
   std::string id;

@@ -172,7 +172,9 @@ Whitening Fitter::whiten(const Linearization& at, double form_error) const {
     const Eigen::MatrixXd C = model_covariance(point, at.responses[p], at.numerical_error[p], parts, form_error);
     whitening.factor.emplace_back(C);
     const Eigen::MatrixXd& L = whitening.factor.back().matrixLLT();
-    whitening.log_determinant += 2 * L.diagonal().array().log().sum() + point.n_gaussian * std::log(2 * std::numbers::pi);
+    whitening.log_ratio.push_back(log_variance_ratio(point, at.responses[p]));
+    whitening.log_determinant +=
+        whitening.log_ratio.back() + 2 * L.diagonal().array().log().sum() + point.n_gaussian * std::log(2 * std::numbers::pi);
   }
   return whitening;
 }

@@ -2,7 +2,8 @@
 // The fit of one hypothesis (none, one effect, two) to the training points, and its Laplace evidence:
 //
 //   Phi = 1/2 |rho|^2 + 1/2 |nu|^2 + 1/2 |t|^2,   rho = C^-1/2 (y - f(theta, nu)),   t = (theta - mean)/sd
-//   log Z = log of the integral of exp(-Phi) over nu and the physical range of theta - 1/2 log |2 pi C|
+//   log Z = log of the integral of exp(-Phi) over nu and the physical range of theta - 1/2 log |2 pi C| - 1/2 log of the other rows'
+//   variance ratios
 //
 // C = data + numerics (from two time steps) + scatter of the runs/N + form error of each effect; the last three at the fitted state.
 #include <Eigen/Dense>
@@ -18,7 +19,8 @@ namespace snag {
 /// The covariances of the points with their factors.
 struct Whitening {
   std::vector<Eigen::LLT<Eigen::MatrixXd>> factor;  // by training point, Gaussian rows
-  double log_determinant = 0;                       // of 2 pi C, over all of them
+  std::vector<double> log_ratio;                    // by training point, of the other rows' variances over those of their data
+  double log_determinant = 0;                       // of 2 pi C, over all of them, and the ratios
 };
 
 /// What is known of the model at one state: everything that the covariance and the linear model of a hypothesis need.

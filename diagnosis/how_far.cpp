@@ -205,15 +205,24 @@ class HowFar {
 }  // namespace
 
 void measure_shrinkage(Responses& model, const Attribution& attribution, int chosen, Verdict& verdict) {
-  if (static_cast<int>(model.withheld().size()) < least_points) return;
+  const auto& withheld = model.withheld();
+  const auto has_cells = [&](int p) { return model.points()[p].n_gaussian > 0; };
+  if (std::count_if(withheld.begin(), withheld.end(), has_cells) < least_points) return;
   HowFar how_far(model, attribution);
   const Prediction before = how_far.predict(attribution.fits.front());
   const auto points = how_far.all_points();
-  verdict.gap.computable = true;
   verdict.gap.before = verdict.gap.after = HowFar::excess(before, points);
   verdict.gap.floor = HowFar::floor(before, points);
-  for (int i = 1; i < static_cast<int>(attribution.fits.size()); ++i) {
-    if (model.runs_left() < 2 * static_cast<int>(model.withheld().size())) break;
+  // The chosen one first: without it there is no gap after.
+  std::vector<int> order;
+  if (chosen > 0) order.push_back(chosen);
+  for (int i = 1; i < static_cast<int>(attribution.fits.size()); ++i)
+    if (i != chosen) order.push_back(i);
+  for (const int i : order) {
+    if (model.runs_left() < 2 * static_cast<int>(withheld.size())) {
+      if (i == chosen) return;
+      break;
+    }
     const Prediction after = how_far.predict(attribution.fits[i]);
     const Shrinkage shrinkage = how_far.shrinkage(before, after);
     if (i != chosen) {
@@ -223,6 +232,7 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
     verdict.shrinkage[attribution.names[i]] = shrinkage;
     verdict.gap.after = HowFar::excess(after, points), verdict.gap.floor = HowFar::floor(after, points);
   }
+  verdict.gap.computable = true;
   // What no effect of the library takes away: the gap after beyond the floor.
   verdict.gap.remainder = verdict.gap.after;
   verdict.shrinkage_regression = how_far.shrinkage(before, how_far.predict_regression(before));

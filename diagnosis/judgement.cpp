@@ -59,7 +59,9 @@ std::vector<std::string> shared_verdict(const std::map<std::string, double>& pro
 
 bool all_blind(const Responses& model, const Attribution& a) {
   std::map<std::string, std::string> unused;
-  const auto live = live_candidates(model, unused);
+  auto live = live_candidates(model, unused);
+  // A random effect has no signature to be too small.
+  std::erase_if(live, [&](int k) { return model.effects()[k].random; });
   return std::all_of(live.begin(), live.end(), [&](int k) { return a.identifiability.blind.contains(model.effects()[k].name); });
 }
 

@@ -35,6 +35,7 @@ class GaussianProcess {
       }
       block.range = ranges(point, base.responses[p]);
       n_gaussian_ += g;
+      log_ratio_ += log_variance_ratio(point, base.responses[p]);
       blocks_.push_back(std::move(block));
     }
   }
@@ -45,7 +46,7 @@ class GaussianProcess {
     const Eigen::Index m = blocks_.front().nuisances.cols();
     Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(m, m);
     Eigen::VectorXd projected = Eigen::VectorXd::Zero(m);
-    double value = -0.5 * n_gaussian_ * std::log(2 * std::numbers::pi);
+    double value = -0.5 * n_gaussian_ * std::log(2 * std::numbers::pi) - 0.5 * log_ratio_;
     for (const Block& block : blocks_) {
       const Eigen::LLT<Eigen::MatrixXd> factor(covariance(block, amplitude, length, growing));
       const Eigen::VectorXd r = factor.matrixL().solve(block.difference);
@@ -112,6 +113,7 @@ class GaussianProcess {
   const Responses& model_;
   std::vector<Block> blocks_;
   int n_observables_ = 0, n_gaussian_ = 0;
+  double log_ratio_ = 0;  // of the rows that are not Gaussian
 };
 
 }  // namespace

@@ -31,6 +31,12 @@ double row_value(const Row& row, const Observable& observable, const RunResult& 
   return sum;
 }
 
+// Logarithm of the time at which the runs of a point end; where that is not told they lasted as long as the tests.
+double log_end(const Row& row, const Simulator& simulator, int point) {
+  const double end = simulator.run_end(point);
+  return end > 0 ? std::log(end) : *std::max_element(row.values.begin(), row.values.end());
+}
+
 // Mean over the slots of the variance between runs.
 double variance_between(const Row& row, const Observable& observable, std::span<const RunResult> runs) {
   double variance = 0;
@@ -55,17 +61,19 @@ double variance_between(const Row& row, const Observable& observable, std::span<
 Responses::Responses(const Experiment& experiment, Simulator& simulator)
     : experiment_(experiment), simulator_(simulator), points_(summarize(experiment, simulator, random_effects_may_show(simulator))) {
   for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) (experiment.points[p].withheld ? withheld_ : training_).push_back(p);
-  std::set<std::string> told;
+  std::set<std::string> told, calibrations;
+  for (const Observable& observable : experiment.observables)
+    if (observable.bias_u > 0) calibrations.insert(calibration_of(observable));
   for (const Nuisance& n : simulator.nuisances()) {
-    if (n.u > 0) nuisances_.push_back({n.name, n.u, n.points, -1});
+    if (n.u > 0) nuisances_.push_back({n.name, n.u, n.points, -1, calibrations.contains(n.name)});
     told.insert(n.name);
   }
   std::vector<int> all(experiment.points.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
     const Observable& observable = experiment.observables[o];
-    if (observable.bias_u > 0 && !told.contains(observable.calibration_group))
-      nuisances_.push_back({"bias of " + observable.id, 1, all, o});
+    if (observable.bias_u > 0 && !told.contains(calibration_of(observable)))
+      nuisances_.push_back({"bias of " + observable.id, 1, all, o, true});
   }
   find_randomness();
   leave_out_rows_without_answer();
@@ -101,17 +109,22 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
 Response Responses::response(const Request& request, std::span<const RunResult> results) const {
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
-  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}, n_seeds, false};
+  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}, n_seeds, false, std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
     const Observable& observable = experiment_.observables[row.observable];
     double sum = 0, square = 0;
-    int counted = 0;
+    int counted = 0, came = 0;
     for (int s = 0; s < n_seeds; ++s) {
       values(i, s) = results[s].failure.empty() ? row_value(row, observable, results[s]) : std::numeric_limits<double>::quiet_NaN();
+      came += std::isfinite(values(i, s));
+      // A run that ended first says that the time is not earlier.
+      if (row.kind == Row::Kind::time && results[s].failure.empty() && !std::isfinite(values(i, s)))
+        values(i, s) = log_end(row, simulator_, request.point);
       if (std::isfinite(values(i, s))) sum += values(i, s), ++counted;
     }
+    response.later[i] = row.kind == Row::Kind::time && came == 0 && counted > 0;
     const double mean = counted > 0 ? sum / counted : std::numeric_limits<double>::quiet_NaN();
     for (int s = 0; s < n_seeds; ++s) {
       if (std::isfinite(values(i, s)))
@@ -200,13 +213,26 @@ Eigen::VectorXd residual(const PointSummary& point, const Response& response, co
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
     const double model = response.value[i];
-    if (!std::isfinite(model))
+    const bool later = !response.later.empty() && response.later[i];
+    if (later && std::none_of(row.censored.begin(), row.censored.end(), [](bool c) { return !c; }))
+      r[i] = 0;  // neither the tests nor the runs came to it
+    else if (later)
+      r[i] = deviance_residual(row, std::max(model, row.value), response.n_runs, response.scatter[i]);
+    else if (!std::isfinite(model))
       r[i] = is_gaussian(row) ? missing * row.u : missing;
     else
       r[i] = is_gaussian(row) ? row.value - model : deviance_residual(row, model, response.n_runs, response.scatter[i]);
   }
   if (g > 0) r.head(g) = covariance.matrixL().solve(r.head(g)).eval();
   return r;
+}
+
+double log_variance_ratio(const PointSummary& point, const Response& response) {
+  double sum = 0;
+  for (int i = point.n_gaussian; i < static_cast<int>(point.rows.size()); ++i)
+    if (std::isfinite(response.value[i]))
+      sum += std::log(variance_ratio(point.rows[i], response.value[i], response.n_runs, response.scatter[i]));
+  return sum;
 }
 
 }  // namespace snag

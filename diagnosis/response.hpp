@@ -23,6 +23,7 @@ struct Response {
   Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
   int n_runs = 1;
   bool failed = false;
+  std::vector<bool> later;  // by row: no run came to this time before it ended; `value` is the end
 };
 
 /// One deviation that is free in every hypothesis.
@@ -31,6 +32,7 @@ struct FreeNuisance {
   double u = 0;              // relative (calibration groups: 1)
   std::vector<int> points;   // that share it
   int bias_observable = -1;  // an additive bias of this observable, which needs no runs; -1: an input of the simulator
+  bool of_data = false;      // an error of the measurement, not of the model
 };
 
 class Responses {
@@ -49,7 +51,7 @@ class Responses {
   int n_seeds(const State& state) const;
   int n_runs() const { return simulator_.n_runs(); }
   /// Runs that [budget] still allows.
-  int runs_left() const { return experiment_.max_runs - simulator_.n_runs(); }
+  int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
   State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }
   bool acts_at(int nuisance, int point) const;
 
@@ -79,6 +81,9 @@ class Responses {
 };
 
 /// Residual of a response against the data: Gaussian rows whitened with the Cholesky factor of their covariance, then the others.
+/// Of a time that no run came to, the model says that it is later than the end of the run, no more.
 Eigen::VectorXd residual(const PointSummary& point, const Response& response, const Eigen::LLT<Eigen::MatrixXd>& covariance);
+/// Sum over the rows that are not Gaussian of the logarithm of their variance ratio.
+double log_variance_ratio(const PointSummary& point, const Response& response);
 
 }  // namespace snag

@@ -58,10 +58,14 @@ class Simulator {
   virtual const std::vector<Nuisance>& nuisances() const = 0;
   /// What the runs of a point answer with.
   virtual const std::vector<Slot>& slots(int point) const = 0;
+  /// Time at which the runs of a point end, s; NaN: not known.
+  virtual double run_end(int) const { return std::numeric_limits<double>::quiet_NaN(); }
   /// Runs all of them, in parallel where it can; equal requests are run once and kept.
   virtual std::vector<RunResult> run(std::span<const RunRequest> requests) = 0;
   /// Runs done so far, without those that were kept.
   virtual int n_runs() const = 0;
+  /// Distinct runs asked for so far, those that were kept among them: what a budget counts, the same after a new start.
+  virtual int n_used() const { return n_runs(); }
 };
 
 }  // namespace snag

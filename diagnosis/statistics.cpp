@@ -6,7 +6,6 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/hypergeometric.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
@@ -45,8 +44,6 @@ double chi_squared_tail(double value, double n) {
   if (n <= 0 || value <= 0) return 1;
   return std::isfinite(value) ? bm::cdf(bm::complement(bm::chi_squared(n), value)) : 0;
 }
-
-double student_quantile(double p, double degrees) { return bm::quantile(bm::students_t(degrees), p); }
 
 std::array<double, 2> clopper_pearson(int k, int n, double level) {
   const double a = (1 - level) / 2;

@@ -31,7 +31,6 @@ double two_sided_p(double z);
 double score_of_p(double p);
 /// P(chi2 with n degrees of freedom > value).
 double chi_squared_tail(double value, double n);
-double student_quantile(double p, double degrees);
 
 /// Clopper-Pearson interval of a probability after k of n.
 std::array<double, 2> clopper_pearson(int k, int n, double level = 0.95);

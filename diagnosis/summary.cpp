@@ -323,15 +323,22 @@ double deviance_residual(const Row& row, double model, int n_runs, double scatte
   }
   if (row.kind == Row::Kind::time) {
     const auto log_likelihood = [&](double median) { return log_likelihood_of_times(row.values, row.censored, median, row.sigma); };
-    const double best = row.u > 0 && std::isfinite(row.u) ? row.value : std::max(row.value, model);
-    const double own = row.sigma * row.sigma / n, shrink = std::sqrt(own / (own + scatter / n_runs));
-    return shrink * signed_deviance(row.value, model, best, log_likelihood);
+    // Of times that are all censored the likelihood grows with the median up to 1.
+    const double best = std::isfinite(row.u) ? row.value : std::numeric_limits<double>::infinity();
+    return signed_deviance(best, model, best, log_likelihood) / std::sqrt(variance_ratio(row, model, n_runs, scatter));
   }
-  // Spread: the variance of the noise and that of the runs; paths of a random effect are correlated in time, so they count as few.
-  const double noise = row.noise_u * row.noise_u, predicted = noise + model;
-  const double share = model / predicted, degrees = row.sigma * (1 - share) * (1 - share) + (n - 1) * share * (2 - share);
+  return (row.value - std::log(row.noise_u * row.noise_u + model)) / std::sqrt(2 / row.sigma * variance_ratio(row, model, n_runs, scatter));
+}
+
+double variance_ratio(const Row& row, double model, int n_runs, double scatter) {
+  const double n = row.n_replicates;
+  if (row.kind == Row::Kind::time) return 1 + scatter / n_runs / (row.sigma * row.sigma / n);
+  if (row.kind != Row::Kind::spread) return 1;
+  // The variance of the noise and that of the runs; paths of a random effect are correlated in time, so they count as few.
+  const double share = model / (row.noise_u * row.noise_u + model);
+  const double degrees = row.sigma * (1 - share) * (1 - share) + (n - 1) * share * (2 - share);
   const double u_runs = n_runs > 1 ? share * std::sqrt(2.0 / (n_runs - 1)) : 0;
-  return (row.value - std::log(predicted)) / std::sqrt(2 / std::max(degrees, 1.0) + u_runs * u_runs);
+  return (2 / std::max(degrees, 1.0) + u_runs * u_runs) * row.sigma / 2;
 }
 
 std::vector<PointSummary> summarize(const Experiment& experiment, const Simulator& simulator, bool spread, int max_bins) {

@@ -55,5 +55,8 @@ std::vector<PointSummary> summarize(const Experiment& experiment, const Simulato
 /// Signed deviance residual of a row with a likelihood of its own, for the model's mean (rate, probability, log-median, variance over
 /// seeds) from n_runs runs that scatter with this variance.
 double deviance_residual(const Row& row, double model, int n_runs, double scatter);
+/// Variance of the row under this model over that of the data alone (time, spread; the others: 1). The likelihood of the row is
+/// exp(-residual^2/2) over the square root of it.
+double variance_ratio(const Row& row, double model, int n_runs, double scatter);
 
 }  // namespace snag

@@ -52,10 +52,12 @@ class PointCells {
       const Response& moved = base_.by_nuisance[j][p_];
       if (moved.value.size() == 0) continue;
       const double change = (mean(moved.value) - cell.simulated) / nuisance_step;
-      (model_.nuisances()[j].bias_observable >= 0 ? bias : input) += change * change;
+      (model_.nuisances()[j].of_data ? bias : input) += change * change;
     }
     cell.u_input = std::sqrt(input);
-    double data = is_gaussian(row) ? point_.covariance.block(begin, begin, n, n).mean() : row.u * row.u;
+    // Of times that are all censored the median is not known; their scatter still is.
+    const double own_u = std::isfinite(row.u) ? row.u : row.sigma / std::sqrt(row.n_replicates);
+    double data = is_gaussian(row) ? point_.covariance.block(begin, begin, n, n).mean() : own_u * own_u;
     if (response.paths.cols() > 1 && is_gaussian(row)) {
       const Eigen::VectorXd means = response.paths.middleRows(begin, n).colwise().mean();
       cell.u_S = std::sqrt(means.squaredNorm() / (static_cast<double>(means.size()) - 1) / static_cast<double>(means.size()));
@@ -110,8 +112,9 @@ class PointCells {
     const Response& response = base_.responses[p_];
     const int N = response.n_runs;
     const int i = static_cast<int>(&row - point_.rows.data());
+    const bool later = !response.later.empty() && response.later[i];
     for (int s = 0; s < N; ++s)
-      simulated.push_back({response.value[i] + std::sqrt(response.scatter[i]) * (N > 1 ? normal_quantile((s + 0.5) / N) : 0), false});
+      simulated.push_back({response.value[i] + std::sqrt(response.scatter[i]) * (N > 1 ? normal_quantile((s + 0.5) / N) : 0), later});
     if (N > 1)
       from_p(log_rank(measured, simulated).p, "log_rank");
     else

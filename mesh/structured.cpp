@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "base/random_numbers.hpp"
 #include "base/words.hpp"
 #include "mesh/parts.hpp"
 #include "parallel/session.hpp"
@@ -37,13 +38,8 @@ struct Box {
       x[axis] += distortion * scatter(3 * node_id(i, j, k) + axis) * (upper[axis] - lower[axis]) / n[static_cast<std::size_t>(axis)];
     return x;
   }
-  /// A number in [-1, 1] that depends on the node only (mixing function of splitmix64, Steele et al. 2014).
-  static double scatter(std::int64_t key) {
-    auto z = static_cast<std::uint64_t>(key) + 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return 2 * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53 - 1;
-  }
+  /// A number in [-1, 1] that depends on the node only.
+  static double scatter(std::int64_t key) { return 2 * static_cast<double>(mixed(static_cast<std::uint64_t>(key)) >> 11) * 0x1p-53 - 1; }
 };
 
 constexpr std::array<std::array<int, 4>, 6> kuhn{{{0, 1, 2, 6}, {0, 3, 7, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}, {0, 7, 4, 6}, {0, 2, 3, 6}}};

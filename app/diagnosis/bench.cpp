@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
+#include "base/sha256.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -46,9 +47,14 @@ std::string content_of(const std::vector<ScoreRow>& rows) {
   return text;
 }
 
+/// Does not tell the number of the set.
+std::string name_of(const DiagnoseBenchOptions& options, int number) {
+  return "set_" + sha256(options.twin + options.level + "|" + std::to_string(options.seed) + "|" + std::to_string(number)).substr(0, 12);
+}
+
 /// One set: made and sealed, judged without its truth, opened and scored. Collective; the row counts on rank 0.
 ScoreRow judged(const DiagnoseBenchOptions& options, int number) {
-  const std::string name = numbered("set", number);
+  const std::string name = name_of(options, number);
   const auto folder = options.out / "sets" / name, sealed = options.out / "sealed" / (name + ".json");
   std::string fingerprint;
   together(world, [&] {

@@ -23,6 +23,7 @@ std::string share_text(double share) {
 
 struct Line {
   std::string name, value, interval, target;
+  int n = 0;
   bool met = true;
 };
 
@@ -30,12 +31,9 @@ std::vector<Line> lines_of(const ScoreCard& card) {
   std::vector<Line> lines;
   for (const Score& s : card.scores)
     lines.push_back({s.name, std::to_string(s.hits) + " of " + std::to_string(s.n) + " = " + share_text(s.share()),
-                     share_text(s.interval[0]) + " to " + share_text(s.interval[1]), s.target, s.met()});
-  lines.push_back({"expected calibration error", share_text(card.ece), "", "<= 0.08", card.ece <= 0.08});
-  lines.push_back({"Brier score", share_text(card.brier), "", "<= 0.25", card.brier <= 0.25});
-  lines.push_back(
-      {"shrinkage of right verdicts, median", share_text(card.shrinkage_median), "", ">= 0.90", !(card.shrinkage_median < 0.9)});
-  lines.push_back({"detection limit, gap over floor", share_text(card.detection_limit), "", "<= 2", card.detection_limit <= 2});
+                     share_text(s.interval[0]) + " to " + share_text(s.interval[1]), s.target, s.n, s.met()});
+  for (const Measure& m : card.measures)
+    lines.push_back({m.name, share_text(m.value) + " of " + std::to_string(m.n) + " sets", "", m.target, m.n, m.met()});
   return lines;
 }
 
@@ -90,20 +88,26 @@ std::string confusion(const ScoreCard& card) {
 std::string card_text(const ScoreCard& card) {
   std::string text = "score card";
   for (const Line& line : lines_of(card))
-    text += "\n  " + std::string(line.met ? "ok      " : "MISSED  ") + line.name + ": " + line.value +
-            (line.interval.empty() ? "" : " (" + line.interval + ")") + ", target " + line.target;
-  return text;
+    text += "\n  " +
+            std::string(line.n == 0 ? "-       "
+                        : line.met  ? "ok      "
+                                    : "MISSED  ") +
+            line.name + ": " + line.value + (line.interval.empty() ? "" : " (" + line.interval + ")") + ", target " + line.target;
+  return text + "\n  " + Truth::strengths;
 }
 
 std::string bench_page(const std::string& title, const std::vector<ScoreRow>& rows, const ScoreCard& card) {
   std::vector<std::vector<std::string>> table;
   for (const Line& line : lines_of(card))
     table.push_back({escaped(line.name), line.value, line.interval, escaped(line.target),
-                     line.met ? "<span class=\"pass\">met</span>" : "<span class=\"fail\">missed</span>"});
+                     line.n == 0 ? "-"
+                     : line.met  ? "<span class=\"pass\">met</span>"
+                                 : "<span class=\"fail\">missed</span>"});
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Snag: blind benchmark</title>\n<style>" +
          std::string(report_style) + "</style>\n</head>\n<body>\n<h1>Blind benchmark of the diagnosis: " + escaped(title) +
          "</h1>\n<p class=\"origin\">" + std::to_string(rows.size()) + " sealed sets, by version " + version_number + " (" + version_git +
-         ")</p>\n" + section("Scores", html::table({"Score", "found", "95 % interval", "target", ""}, table)) +
+         ")</p>\n" +
+         section("Scores", html::table({"Score", "found", "95 % interval", "target", ""}, table) + "<p>" + Truth::strengths + "</p>") +
          section("Reliability and detection", "<div class=\"plots\">" + reliability(card) + detection(rows) + "</div>") +
          section("What was said of what", confusion(card)) + "</body>\n</html>\n";
 }

@@ -19,8 +19,6 @@ namespace snag {
 
 namespace {
 
-constexpr const char* flow_field = "flow.amplitude";
-
 /// Slots of a point: what the data have, by observable and time, each once.
 std::vector<Slot> slots_of(const Experiment& experiment, int point) {
   std::set<std::pair<int, double>> timed;
@@ -53,9 +51,14 @@ bool is_length(const std::string& id) {
   return false;
 }
 
-/// Name of the nuisance that shifts an observable by its bias.
-std::string calibration_of(const Observable& observable) {
-  return observable.calibration_group.empty() ? "bias of " + observable.id : observable.calibration_group;
+/// Of the executable file: runs of another program are not these, committed or not.
+std::string program_fingerprint(MPI_Comm comm) {
+  static std::string known;
+  std::string own = known;
+  if (rank_of(comm) == 0 && own.empty()) own = sha256(file_text("/proc/self/exe").value_or(version_git));
+  own.resize(64);
+  MPI_Bcast(own.data(), 64, MPI_CHAR, 0, comm);
+  return known = own;
 }
 
 std::string text_of(const std::map<std::string, double>& values) {
@@ -73,6 +76,7 @@ std::string text_of(const std::map<std::string, double>& values) {
 
 CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder)
     : comm_(comm), folder_(folder), observables_(experiment.observables) {
+  const std::string program = folder_.empty() ? "" : program_fingerprint(comm_);
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
     PointCase base(experiment.points[p].case_file);
     if (base.has_mesh() && folder_.empty())
@@ -80,7 +84,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
     std::vector<Asked> asked;
-    std::string fingerprint = base.sha256() + version_git;
+    std::string fingerprint = base.sha256() + program;
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
       if (!base.has_mesh() && !is_observable_of_particles(id))
@@ -93,15 +97,12 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     points_.push_back({std::move(base), std::move(slots), std::move(asked), sha256(fingerprint)});
   }
   BaseCase facts = points_.front().base.facts();
-  std::set<std::string> everywhere(points_.front().base.forces().begin(), points_.front().base.forces().end());
+  std::set<std::string> held;  // a force that one point holds cannot be added to all
   for (const Point& point : points_) {
     facts = any_of(facts, point.base.facts());
-    std::erase_if(everywhere, [&](const std::string& name) {
-      const auto& forces = point.base.forces();
-      return std::find(forces.begin(), forces.end(), name) == forces.end();
-    });
+    held.insert(point.base.forces().begin(), point.base.forces().end());
   }
-  effects_ = library_effects(facts, {everywhere.begin(), everywhere.end()});
+  effects_ = library_effects(facts, {held.begin(), held.end()});
   find_nuisances(experiment);
   if (!folder_.empty()) read_cache(folder_ / "runs.tsv");
 }
@@ -187,7 +188,10 @@ RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange
 std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
   std::vector<Job> jobs;
   jobs.reserve(requests.size());
-  for (const RunRequest& request : requests) jobs.push_back(job_of(request));
+  for (const RunRequest& request : requests) {
+    jobs.push_back(job_of(request));
+    used_.insert(jobs.back().key);
+  }
   std::vector<const Job*> fresh;  // the same on every rank
   std::set<std::string> listed;
   for (const Job& job : jobs)

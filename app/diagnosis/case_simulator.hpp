@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "app/diagnosis/case_run.hpp"
 #include "app/diagnosis/point_case.hpp"
@@ -27,7 +28,9 @@ class CaseSimulator final : public Simulator {
   const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
   const std::vector<Slot>& slots(int point) const override { return points_[static_cast<std::size_t>(point)].slots; }
   std::vector<RunResult> run(std::span<const RunRequest> requests) override;
+  double run_end(int point) const override { return points_[static_cast<std::size_t>(point)].base.end(); }
   int n_runs() const override { return n_runs_; }
+  int n_used() const override { return static_cast<int>(used_.size()); }
 
  private:
   struct Point {
@@ -57,7 +60,8 @@ class CaseSimulator final : public Simulator {
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;
   std::unordered_map<std::string, RunResult> kept_;
-  std::ofstream cache_;  // open on rank 0
+  std::unordered_set<std::string> used_;  // keys of the runs that were asked for
+  std::ofstream cache_;                   // open on rank 0
   int n_runs_ = 0;
 };
 

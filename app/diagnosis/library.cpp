@@ -13,13 +13,6 @@ namespace snag {
 
 namespace {
 
-LibraryEffect weight() {
-  LibraryEffect effect{.name = "gravity",
-                       .prior = {.key = "gravity.acceleration_m_s2", .meaning = "weight and buoyancy, in units of 9.81 m/s2"}};
-  effect.prior.mean = 1, effect.prior.sd = 0.05, effect.prior.maximum = 2;
-  return effect;
-}
-
 /// A setting of the rags: of pieces of any shape.
 LibraryEffect setting_effect(const Candidate& candidate) {
   LibraryEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
@@ -32,9 +25,9 @@ std::vector<LibraryEffect> all_of_cases() {
   std::vector<LibraryEffect> all;
   for (const std::string& name : fluid_forces().names()) {
     const Card card = fluid_forces().make(name, "diagnosis")->card();
-    if (card.prior && name != "gravity") all.push_back({.name = name, .prior = *card.prior, .is_force = true});
+    // Gravity is no name in [coupling] forces: it acts where its table is given.
+    if (card.prior) all.push_back({.name = name, .prior = *card.prior, .is_force = name != "gravity"});
   }
-  all.push_back(weight());
   for (const Candidate& candidate : dem_candidates()) all.push_back(setting_effect(candidate));
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return all;
@@ -72,12 +65,16 @@ const LibraryEffect* library_effect(const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
+std::string seed_of(const std::string& force, std::uint64_t seed) {
+  return "coupling." + force + ".seed=" + std::to_string(seed % 1000000007);
+}
+
 std::vector<std::string> LibraryEffect::overrides(double theta, std::uint64_t seed,
                                                   const std::function<std::string(const std::string&)>& base) const {
   if (name == "gravity") return {prior.key + "=[0.0, 0.0, " + toml_text(-9.81 * theta) + "]"};
   if (added_to.empty()) {
     std::vector<std::string> all{prior.key + "=" + toml_text(theta)};
-    if (prior.random) all.push_back("coupling." + name + ".seed=" + std::to_string(seed % 1000000007));
+    if (prior.random) all.push_back(seed_of(name, seed));
     return all;
   }
   std::vector<std::string> all;

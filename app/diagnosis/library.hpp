@@ -20,6 +20,9 @@ struct LibraryEffect {
   std::vector<std::string> overrides(double theta, std::uint64_t seed, const std::function<std::string(const std::string&)>& base) const;
 };
 
+/// The override that gives a random force of a run its seed.
+std::string seed_of(const std::string& force, std::uint64_t seed);
+
 /// Null if there is none of that name.
 const LibraryEffect* library_effect(const std::string& name);
 /// Sorted by name.

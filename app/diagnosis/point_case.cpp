@@ -118,6 +118,54 @@ std::vector<std::string> listed_forces(const toml::table& root) {
   return names;
 }
 
+/// Changes of one case: values that effects give to keys, then factors on values; each key is written once.
+class KeyChanges {
+ public:
+  explicit KeyChanges(const toml::table& root) : root_(root) {}
+
+  /// "section.key=value", of every place that has the key. The last value counts.
+  void set(const std::string& text) {
+    const auto equals = text.find('=');
+    const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
+    const auto places = places_of(root_, key);
+    for (const Place& place : places) values_[place.key] = value;
+    if (places.empty()) values_[key] = value;
+  }
+  /// Of the numbers that the case has at a key.
+  void scale(const std::string& key, double factor) {
+    for (const Place& place : places_of(root_, key)) {
+      Scaled& scaled = factors_.emplace(place.key, Scaled{place.value, 1}).first->second;
+      scaled.factor *= factor;
+    }
+  }
+
+  std::vector<std::string> overrides() const {
+    std::vector<std::string> all;
+    for (const auto& [key, value] : values_)
+      if (!factors_.contains(key)) all.push_back(key + "=" + value);
+    for (const auto& [key, scaled] : factors_) {
+      const auto set = values_.find(key);
+      all.push_back(key + "=" +
+                    (set == values_.end() ? scaled_text(*scaled.value, scaled.factor) : scaled_text(set->second, scaled.factor)));
+    }
+    return all;
+  }
+
+ private:
+  struct Scaled {
+    const toml::node* value;
+    double factor;
+  };
+  static std::string scaled_text(const std::string& value, double factor) {
+    return snag::scaled_text(*toml::parse("value = " + value).get("value"), factor);
+  }
+  static std::string scaled_text(const toml::node& value, double factor) { return snag::scaled_text(value, factor); }
+
+  const toml::table& root_;
+  std::map<std::string, std::string> values_;
+  std::map<std::string, Scaled> factors_;
+};
+
 /// v turned by an angle about a unit axis (Rodrigues).
 Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
@@ -144,12 +192,6 @@ PointCase::PointCase(const std::filesystem::path& file) : file_(file), tree_(std
   }
   const View view = run.observe_settings.view();
   right_ = view.right, up_ = view.up;
-}
-
-std::vector<std::string> PointCase::scaled(const std::string& key, double factor) const {
-  std::vector<std::string> overrides;
-  for (const Place& place : places_of(tree_->root, key)) overrides.push_back(place.key + "=" + scaled_text(*place.value, factor));
-  return overrides;
 }
 
 void PointCase::check_nuisance(const std::string& key) const {
@@ -181,18 +223,20 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
                              std::uint64_t seed) const {
   CaseChange change;
   RunChange run;
+  KeyChanges keys(tree_->root);
   std::vector<std::string> forces = forces_;
   std::erase(forces, "gravity");
-  bool more_forces = false;
-  const auto append = [&](const std::vector<std::string>& more) {
-    change.overrides.insert(change.overrides.end(), more.begin(), more.end());
-  };
-  std::map<std::string, double> factors;  // of keys
+  const std::size_t n_base = forces.size();
+  for (const std::string& name : forces) {
+    const LibraryEffect* held = library_effect(name);
+    if (held && held->prior.random) keys.set(seed_of(name, seed));
+  }
   for (const auto& [name, theta] : effects) {
     if (theta == 0) continue;  // the base model to the bit
     if (const LibraryEffect* of_library = library_effect(name)) {
-      if (of_library->is_force) forces.push_back(name), more_forces = true;
-      append(of_library->overrides(theta, seed, [this](const std::string& key) { return value_of(key); }));
+      if (of_library->is_force && std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
+      for (const std::string& text : of_library->overrides(theta, seed, [this](const std::string& key) { return value_of(key); }))
+        keys.set(text);
     } else {
       effect_models().make(name, "diagnosis")->change(theta, seed, run);
     }
@@ -202,20 +246,21 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
     if (name == flow_field)
       run.flow_factor *= 1 + deviation;
     else if (name == drag_form)
-      for (const std::string& key : drag_factors_) append(scaled(key, 1 + deviation));
+      for (const std::string& key : drag_factors_) keys.scale(key, 1 + deviation);
     else
-      append(scaled(name, 1 + deviation));
+      keys.scale(name, 1 + deviation);
   }
-  if (more_forces) {
+  if (forces.size() > n_base) {
     for (std::string& name : forces) name = toml_text(name);
-    change.overrides.push_back("coupling.forces=[" + joined(forces) + "]");
+    keys.set("coupling.forces=[" + joined(forces) + "]");
   }
-  if (run.flow_factor != 1 && facts_.prescribed) append(scaled("flow.velocity_m_s", run.flow_factor));
+  if (run.flow_factor != 1 && facts_.prescribed) keys.scale("flow.velocity_m_s", run.flow_factor);
   const double varying = run.flow_factor * run.varying_factor;
   if (varying != 1)
-    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s"}) append(scaled(key, varying));
+    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s"}) keys.scale(key, varying);
   if (run.flow_factor != 1 && !facts_.prescribed)
-    for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) append(scaled(key, run.flow_factor));
+    for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) keys.scale(key, run.flow_factor);
+  change.overrides = keys.overrides();
   if (run.turn != 0) turn(run.turn, change.overrides);
   change.picture_scale = run.picture_scale;
   return change;
@@ -227,6 +272,8 @@ std::string PointCase::with_step_factor(double factor) const {
   const auto n = std::max(1.0, std::round(end / number("time.step_s") / factor));
   return "time.step_s=" + toml_text(end / n);
 }
+
+double PointCase::end() const { return places_of(tree_->root, "time.end_s").front().value->value<double>().value(); }
 
 CaseFile PointCase::with(const std::vector<std::string>& overrides) const { return CaseFile::parse(resolved_, file_.string(), overrides); }
 

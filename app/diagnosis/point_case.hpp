@@ -32,11 +32,13 @@ class PointCase {
   const std::vector<std::string>& forces() const { return forces_; }
   bool has_mesh() const { return !facts_.prescribed; }
 
-  /// The case of a run with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name that is
-  /// neither an effect nor a key of the case.
+  /// The case of a run of this seed with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name
+  /// that is neither an effect nor a key of the case.
   CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed) const;
   /// The override that changes the number of steps by 1/factor.
   std::string with_step_factor(double factor) const;
+  /// Time at which a run ends, s.
+  double end() const;
   const std::string& resolved() const { return resolved_; }
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
@@ -48,7 +50,6 @@ class PointCase {
 
  private:
   struct Tree;
-  std::vector<std::string> scaled(const std::string& key, double factor) const;
   void turn(double angle, std::vector<std::string>& overrides) const;
 
   std::filesystem::path file_;

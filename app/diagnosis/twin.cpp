@@ -1,5 +1,7 @@
 #include "app/diagnosis/twin.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -40,8 +42,8 @@ struct Making {
   const TwinPlan& plan;
   TwinExperiment experiment;
   Truth truth;
-  std::vector<PointCase> cases;    // of the truth: with its own drag law
-  std::vector<std::string> forms;  // values of keys that choose the other functional forms
+  std::vector<PointCase> cases;              // of the truth: with its own drag law
+  std::map<std::string, std::string> forms;  // by effect: values of keys that choose the other functional forms
   Deviations deviations;
   Vec3 picture_centre;  // about which the camera's scale is wrong
   OutsideForce outside;
@@ -63,12 +65,13 @@ const TwinInstrument& instrument_of(const Making& m, const std::string& id) {
   return *std::find_if(m.experiment.instruments.begin(), m.experiment.instruments.end(), [&](const auto& i) { return i.id == id; });
 }
 
-/// Values without noise at a point; `acts`: with what the truth adds.
-std::vector<double> run_of(const Making& m, std::size_t point, const std::vector<Asked>& asked, bool acts,
-                           const std::map<std::string, double>& deviations) {
-  CaseChange change = m.cases[point].change(acts ? m.truth.theta : std::map<std::string, double>{}, deviations, m.plan.seed);
-  if (acts) change.overrides.insert(change.overrides.end(), m.forms.begin(), m.forms.end());
-  std::vector<double> values = run_for(m.cases[point].with(change.overrides), asked, 0.5, acts ? m.outside : OutsideForce());
+/// Values without noise at a point with these effects in the form of the truth, and a force of no effect.
+std::vector<double> run_with(const Making& m, const std::map<std::string, double>& theta, const OutsideForce& outside, std::size_t point,
+                             const std::vector<Asked>& asked, const std::map<std::string, double>& deviations) {
+  CaseChange change = m.cases[point].change(theta, deviations, m.plan.seed);
+  for (const auto& [name, form] : m.forms)
+    if (theta.contains(name)) change.overrides.push_back(form);
+  std::vector<double> values = run_for(m.cases[point].with(change.overrides), asked, 0.5, outside);
   const double s = change.picture_scale;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const std::string& id = asked[i].observable;
@@ -82,9 +85,15 @@ std::vector<double> run_of(const Making& m, std::size_t point, const std::vector
   return values;
 }
 
+/// `acts`: with what the truth adds.
+std::vector<double> run_of(const Making& m, std::size_t point, const std::vector<Asked>& asked, bool acts,
+                           const std::map<std::string, double>& deviations) {
+  return acts ? run_with(m, m.truth.theta, m.outside, point, asked, deviations) : run_with(m, {}, {}, point, asked, deviations);
+}
+
 /// The second functional form of each force that has one.
-std::vector<std::string> other_forms(const Truth& truth, NormalNumbers& random) {
-  std::vector<std::string> forms;
+std::map<std::string, std::string> other_forms(const Truth& truth, NormalNumbers& random) {
+  std::map<std::string, std::string> forms;
   const auto known = fluid_forces().names();
   for (const auto& [name, theta] : truth.theta) {
     if (std::find(known.begin(), known.end(), name) == known.end()) continue;
@@ -93,8 +102,8 @@ std::vector<std::string> other_forms(const Truth& truth, NormalNumbers& random) 
       if (parameter.key != "form" || parameter.choices.size() < 2) continue;
       std::vector<std::string> others = parameter.choices;
       std::erase(others, *std::get<std::string*>(parameter.target));
-      forms.push_back("coupling." + name + ".form=\"" + others[static_cast<std::size_t>(random.index(static_cast<int>(others.size())))] +
-                      "\"");
+      forms[name] =
+          "coupling." + name + ".form=\"" + others[static_cast<std::size_t>(random.index(static_cast<int>(others.size())))] + "\"";
     }
   }
   return forms;
@@ -151,6 +160,38 @@ Deviations draw_deviations(const Making& m, NormalNumbers& random) {
   return all;
 }
 
+/// What is left of the weaker of two effects when the other one may have any strength: a set whose second effect cannot be seen cannot be
+/// told.
+double weaker_of_pair(const Making& m, const std::vector<Asked>& asked, const std::vector<double>& variance,
+                      const std::vector<std::vector<double>>& columns) {
+  std::vector<std::vector<double>> alone;  // what each adds to the other
+  for (const auto& [name, theta] : m.truth.theta) {
+    auto without = m.truth.theta;
+    without.erase(name);
+    alone.emplace_back();
+    for (std::size_t p = 0; p + n_withheld < m.cases.size(); ++p) {
+      const auto both = run_of(m, p, asked, true, m.deviations[p]), other = run_with(m, without, m.outside, p, asked, m.deviations[p]);
+      for (std::size_t i = 0; i < asked.size(); ++i) {
+        const bool lognormal = instrument_of(m, asked[i].observable).kind == "lognormal";
+        const double change = lognormal ? std::log(both[i] / other[i]) : both[i] - other[i];
+        alone.back().push_back(std::isfinite(change) ? change : 0);
+      }
+    }
+  }
+  double weaker = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < alone.size(); ++e) {
+    auto free = columns;
+    constexpr double any_strength = 100;
+    for (std::size_t other = 0; other < alone.size(); ++other) {
+      if (other == e) continue;
+      free.push_back(alone[other]);
+      for (double& value : free.back()) value *= any_strength;
+    }
+    weaker = std::min(weaker, signal_size(alone[e], variance, free).detectability);
+  }
+  return weaker;
+}
+
 /// Signal over uncertainty of what acts, over the training points.
 void measure_gap(Making& m, const std::vector<Asked>& asked) {
   const std::size_t n_points = m.cases.size() - n_withheld, n = asked.size();
@@ -187,12 +228,14 @@ void measure_gap(Making& m, const std::vector<Asked>& asked) {
     }
   }
   for (auto& [name, column] : shared) columns.push_back(std::move(column));
-  const SignalSize size = signal_size(signal, variance, columns);
+  SignalSize size = signal_size(signal, variance, columns);
+  if (m.truth.theta.size() > 1) size.detectability = weaker_of_pair(m, asked, variance, columns);
   m.truth.detectability = size.detectability, m.truth.gap_over_floor = size.gap_over_floor;
 }
 
-std::string diagnosis_text(const Making& m, int number) {
-  std::string text = "[experiment]\nname = \"" + m.plan.twin + " " + std::to_string(number) + "\"\ndata = \"data.csv\"\n";
+/// Nothing in it tells the number of the set, and with it what is in it.
+std::string diagnosis_text(const Making& m, int seed) {
+  std::string text = "[experiment]\nname = \"" + m.plan.twin + " twin\"\ndata = \"data.csv\"\n";
   for (const TwinInstrument& i : m.experiment.instruments) {
     if (!in_subset(m.truth.subset, i.id)) continue;
     text += "[[observable]]\nid = \"" + i.id + "\"\nunit = \"" + i.unit + "\"\nkind = \"" + i.kind +
@@ -204,7 +247,7 @@ std::string diagnosis_text(const Making& m, int number) {
     text += "[[point]]\nid = \"" + id + "\"\ncase = \"point_" + id + ".toml\"\nrole = \"" +
             (p + n_withheld < m.cases.size() ? "train" : "withheld") + "\"\ninput_u = { " + joined(m.experiment.inputs) + " }\n";
   }
-  return text + "[budget]\nseed = " + std::to_string(number + 1) + "\n";
+  return text + "[budget]\nseed = " + std::to_string(seed) + "\n";
 }
 
 std::string data_text(const Making& m, const std::vector<Asked>& asked, NormalNumbers& random) {
@@ -234,7 +277,7 @@ std::string data_text(const Making& m, const std::vector<Asked>& asked, NormalNu
   return text;
 }
 
-/// Base cases go to the set, those of the truth, with another drag law, beside it for as long as they are read.
+/// Base cases go to the set, those of the truth, with another drag law, to a place of their own for as long as they are read.
 std::vector<PointCase> write_cases(const Making& m, const std::filesystem::path& folder, const std::string& drag) {
   std::vector<PointCase> cases;
   for (std::size_t p = 0; p < m.experiment.cases.size(); ++p) {
@@ -242,7 +285,7 @@ std::vector<PointCase> write_cases(const Making& m, const std::filesystem::path&
     write_atomically(folder / (std::string("point_") + static_cast<char>('A' + p) + ".toml"), text);
     const std::string law = "schiller_naumann";
     text.replace(text.find(law), law.size(), drag);
-    const auto own = folder / "truth.toml";
+    const auto own = std::filesystem::temp_directory_path() / (folder.filename().string() + "-" + std::to_string(getpid()) + ".toml");
     write_atomically(own, text);
     cases.emplace_back(own);
     std::filesystem::remove(own);
@@ -273,7 +316,7 @@ Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& f
   m.deviations = draw_deviations(m, random);
   const std::vector<Asked> asked = asked_of(m);
   if (!m.truth.theta.empty() || m.outside) measure_gap(m, asked);
-  write_atomically(folder / "DIAGNOSIS.toml", diagnosis_text(m, number));
+  write_atomically(folder / "DIAGNOSIS.toml", diagnosis_text(m, 1 + random.index(1000000)));
   write_atomically(folder / "data.csv", data_text(m, asked, random));
   return m.truth;
 }

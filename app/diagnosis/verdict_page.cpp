@@ -67,7 +67,8 @@ std::string strengths(const Verdict& v) {
 
 std::string how_far(const Verdict& v) {
   if (!v.gap.computable)
-    return "<p>Not computable: this takes at least three operating points that the fit did not see. Only the evidence speaks.</p>\n";
+    return "<p>Not computable: this takes paths or means of scalars at three operating points or more that the fit did not see, and runs "
+           "left in the budget for the chosen hypothesis there. Only the evidence speaks.</p>\n";
   std::string text = bars({{"gap before", html::number(v.gap.before), v.gap.before, false},
                            {"gap after", html::number(v.gap.after), v.gap.after, true},
                            {"noise floor", html::number(v.gap.floor), v.gap.floor, false},

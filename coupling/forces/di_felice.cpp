@@ -1,4 +1,4 @@
-// Drag in a suspension of void fraction epsilon = 1 - solid fraction:
+// Drag in a suspension of void fraction epsilon = 1 - solid fraction, at least 0.1 (coupling/void_fraction.hpp):
 //
 //   F = 1/2 rho C_d A epsilon^(2 - beta) |w| w,   C_d = (0.63 + 4.8/Re_s^(1/2))^2,   Re_s = epsilon rho |w| d/mu
 //   beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_s)^2/2)
@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "coupling/sphere_drag.hpp"
+#include "coupling/void_fraction.hpp"
 
 namespace snag {
 namespace {
@@ -30,7 +31,7 @@ struct DiFelice final : FluidForce {
     const double factor = drag_factor;
     const double* solid = fluid.solid_fraction;
     add_sphere_drag(fluid, particles, forces, [=](double Re, int p) {
-      const double epsilon = 1 - solid[p], Re_s = epsilon * Re, root = 0.63 * std::sqrt(Re_s) + 4.8;
+      const double epsilon = void_fraction(solid[p]), Re_s = epsilon * Re, root = 0.63 * std::sqrt(Re_s) + 4.8;
       const double x = 1.5 - log(std::max(Re_s, 1e-12)) / std::numbers::ln10;
       const double beta = 3.7 - 0.65 * exp(-0.5 * x * x);
       return factor * root * root * pow(epsilon, 1 - beta);

@@ -1,5 +1,5 @@
 // Drag in a suspension by Wen and Yu, in a packed bed by Ergun, with a smooth passage: F = (1 - s) K_e w + s K_w w,
-// with the solid fraction 1 - epsilon at the particle, w the slip in the gaps, Re = rho |w| d/mu, V = pi d^3/6:
+// with the solid fraction 1 - epsilon at the particle (0.9 at most), w the slip in the gaps, Re = rho |w| d/mu, V = pi d^3/6:
 //
 //   Wen and Yu:  K_w = 3/4 V (rho |w|/d) C_d(Re_s) epsilon^(-1.65),   Re_s = epsilon Re,   C_d of Schiller and Naumann
 //   Ergun:       K_e = V (150 (1 - epsilon) mu/(epsilon d^2) + 1.75 rho |w|/d)
@@ -7,6 +7,7 @@
 //   s = 1/2 + arctan(150 * 1.75 (epsilon - 0.8))/pi
 // Source: Gidaspow (1994), Multiphase Flow and Fluidization; passage of Huilin and Gidaspow (2003), Chem. Eng. Sci. 58, 3777-3792.
 #include "coupling/sphere_drag.hpp"
+#include "coupling/void_fraction.hpp"
 
 namespace snag {
 namespace {
@@ -30,10 +31,10 @@ struct Gidaspow final : FluidForce {
     const double factor = drag_factor;
     const double* solid = fluid.solid_fraction;
     add_sphere_drag(fluid, particles, forces, [=](double Re, int p) {
-      const double epsilon = 1 - solid[p], Re_s = epsilon * Re;
+      const double epsilon = void_fraction(solid[p]), Re_s = epsilon * Re;
       const double in_newton = Re_s >= 1000 ? 1 : 0, viscous = 24 * (1 + 0.15 * pow(Re_s, 0.687));
       const double wen_yu = (viscous + in_newton * (0.44 * Re_s - viscous)) * pow(epsilon, -2.65);
-      const double ergun = 4.0 / 3 * (150 * solid[p] / epsilon + 1.75 * Re);
+      const double ergun = 4.0 / 3 * (150 * (1 - epsilon) / epsilon + 1.75 * Re);
       const double s = 0.5 + std::atan(150 * 1.75 * (epsilon - 0.8)) / std::numbers::pi;
       return factor * (ergun + s * (wen_yu - ergun));
     });

@@ -21,12 +21,11 @@ struct Gravity final : FluidForce {
             .valid_for = "fluid of uniform density",
             .reacts_on_fluid = false,
             .prior = Prior{.key = "gravity.acceleration_m_s2",
-                           .meaning = "acceleration of gravity: the vector is (0, 0, -theta)",
-                           .unit = "m/s2",
-                           .mean = 9.81,
-                           .sd = 4,
+                           .meaning = "weight and buoyancy, in units of 9.81 m/s2: the vector is (0, 0, -9.81 theta)",
+                           .mean = 1,
+                           .sd = 0.05,
                            .minimum = 0,
-                           .maximum = 20}};
+                           .maximum = 2}};
   }
   std::vector<Parameter> parameters() override {
     return {{"acceleration", &acceleration, "m/s2", -1000, 1000, Basis::literature, "g; weight and buoyancy act where it is given."}};

@@ -4,6 +4,13 @@
 //   form "pressure"         -grad p alone
 //   form "along_particle"   rho du/dt along the way of the particle, du/dt = Du/Dt - (w . grad) u, w = u - v: as in the older literature
 //
+// The water does not feel the opposite force. In this solver it fills the whole volume, that of the particles too, so that its inertia
+// there, rho V_h Du/Dt, is in its equation already. With the drag F_d alone as reaction, water and particles of solid fraction phi sum to
+//
+//   rho Du/Dt = -grad p - n F_d,   m dv/dt = rho V_h Du/Dt + F_d    =>   (1 - phi) rho Du/Dt + phi rho_p dv/dt = -grad p
+//
+// which is the momentum of the mixture (n: particles per volume, phi = n V_h); a reaction would count phi rho Du/Dt twice.
+//
 // Source: Maxey and Riley (1983), Phys. Fluids 26, 883-889; along_particle: Tchen (1947).
 #include <numbers>
 
@@ -22,6 +29,7 @@ struct PressureGradient final : FluidForce {
             .equation = "F = theta V_h (-grad p + div tau) = theta rho V_h Du/Dt",
             .source = "Maxey and Riley (1983)",
             .valid_for = "particles smaller than the scale over which the acceleration of the fluid varies",
+            .reacts_on_fluid = false,
             .samples = {.velocity_gradient = form == "along_particle",
                         .pressure_gradient = form == "pressure",
                         .material_acceleration = form != "pressure"},

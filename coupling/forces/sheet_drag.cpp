@@ -4,7 +4,8 @@
 //   n: unit normal of the cloth from the bonded neighbours along and across the rows,   w_n = (w.n) n,   w_t = w - w_n
 //
 //   form "quadratic"   C_n, C_t as given: bluff plate, rough surface on both sides
-//   form "viscous"     C_n + 20.4/Re, C_t + 0.664/Re^(1/2), Re = rho |w| 2 r_p/mu: plates in creeping flow, laminar layers on both sides
+//   form "viscous"     C_n + 20.4/Re, C_t + 1.328/Re^(1/2), Re = rho |w| 2 r_p/mu: plates in creeping flow; laminar layers on both sides,
+//                      mean over a plate of the length 2 r_p, as if they began anew at each particle
 //
 // In a two-way coupling the velocity at the sheet is the resolved one, and C_n is the loss coefficient K of the cloth: the pressure drop
 // across it over 1/2 rho |w_n| w_n. Free-stream coefficients there would count the blockage of the sheet twice. Particles that have not
@@ -60,7 +61,7 @@ struct SheetDrag final : FluidForce {
       const double speed = std::sqrt(norm_squared(w)), speed_n = std::sqrt(norm_squared(w_n)), speed_t = std::sqrt(norm_squared(w_t));
       // C |w| with C = c/Re is c mu/(rho d), and with c/Re^(1/2) it is c |w|^(1/2) (mu/(rho d))^(1/2): finite at rest.
       const double K_n = 0.5 * rho * area * (C_n * speed_n + viscous * 20.4 / per_speed);
-      const double K_t = rho * area * (C_t * speed_t + viscous * 0.664 * std::sqrt(speed / per_speed));
+      const double K_t = rho * area * (C_t * speed_t + viscous * 1.328 * std::sqrt(speed / per_speed));
       const double b = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - b;
       force.x[p] = rest * force.x[p] + b * (K_n * w_n.x + K_t * w_t.x);
       force.y[p] = rest * force.y[p] + b * (K_n * w_n.y + K_t * w_t.y);

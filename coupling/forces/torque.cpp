@@ -3,8 +3,8 @@
 //   form "stokes"   C = 1
 //   form "dennis"   C = max(1, (12.9 Re_r^(1/2) + 128.4)/(64 pi)),   Re_r = rho |omega/2 - omega_p| d^2/mu
 //
-// Implicit in the spin. Source: Kirchhoff (1876); Dennis, Singh and Ingham (1980), J. Fluid Mech. 101, 257-279: T = 1/2 rho r^5 Omega^2
-// C_T, C_T = 12.9/Re_r^(1/2) + 128.4/Re_r above Re_r = 32.
+// Implicit in the spin. Only forces are spread to the water: it does not feel the opposite couple. Source: Kirchhoff (1876); Dennis, Singh
+// and Ingham (1980), J. Fluid Mech. 101, 257-279: T = 1/2 rho r^5 Omega^2 C_T, C_T = 12.9/Re_r^(1/2) + 128.4/Re_r above Re_r = 32.
 #include <algorithm>
 #include <numbers>
 
@@ -23,6 +23,7 @@ struct Torque final : FluidForce {
             .equation = "T = theta C pi mu d^3 (omega/2 - omega_p)",
             .source = "Kirchhoff (1876); Dennis, Singh and Ingham (1980)",
             .valid_for = "spheres; stokes Re_r < 32, dennis Re_r < 1000",
+            .reacts_on_fluid = false,
             .samples = {.velocity_gradient = true},
             .gives_torque = true,
             .prior = Prior{.key = "coupling.torque.coefficient",

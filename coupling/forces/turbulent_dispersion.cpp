@@ -1,7 +1,8 @@
 // Turbulence that the mean flow does not resolve, as the particle sees it:   u -> u + theta sigma q,   sigma = (2 k/3)^(1/2)
 //
-//   dq = -q dt/T + grad(sigma) dt/(1 + St) + (2/T)^(1/2) dW,   St = tau/T,  tau = m/(3 pi mu d)        normalised Langevin equation
-//   q(t + h) = e q + (1 - e) T grad(sigma)/(1 + St) + (1 - e^2)^(1/2) N(0, 1),   e = exp(-h/T)          exact for T and sigma constant
+//   dq = -q dt/T + theta grad(sigma) dt/(1 + St) + (2/T)^(1/2) dW,   St = tau/T,  tau = m/(3 pi mu d)        normalised Langevin equation
+//   q(t + h) = e q + (1 - e) T theta grad(sigma)/(1 + St) + (1 - e^2)^(1/2) N(0, 1),   e = exp(-h/T)          exact for T and sigma
+//   constant
 //
 //   form "lagrangian"   T = C_T k/epsilon
 //   form "crossing"     T = C_T k/epsilon/(1 + (|w|/sigma)^2)^(1/2): a particle that falls through the eddies leaves them sooner
@@ -15,8 +16,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/random_numbers.hpp"
 #include "coupling/fluid_force.hpp"
-#include "coupling/random_numbers.hpp"
 #include "dem/tile_particles.hpp"
 
 namespace snag {
@@ -33,7 +34,7 @@ struct TurbulentDispersion final : FluidForce {
 
   Card card() const override {
     return {.name = name,
-            .equation = "u -> u + theta sigma q, dq = -q dt/T + grad(sigma) dt/(1 + St) + (2/T)^(1/2) dW, T = C_T k/epsilon",
+            .equation = "u -> u + theta sigma q, dq = -q dt/T + theta grad(sigma) dt/(1 + St) + (2/T)^(1/2) dW, T = C_T k/epsilon",
             .source = "Thomson (1987), Bocksell and Loth (2006)",
             .valid_for = "isotropic turbulence given by k and epsilon; particles smaller than the eddies",
             .samples = {.turbulence = true},
@@ -79,7 +80,7 @@ struct TurbulentDispersion final : FluidForce {
       } else {
         const double e = std::exp(-particles.step / T);
         // grad sigma = grad k/(3 sigma)
-        const Vec3 drift = T / (1 + tau / T) / (3 * sigma + tiny) * fluid.turbulent_kinetic_energy_gradient[p];
+        const Vec3 drift = intensity * T / (1 + tau / T) / (3 * sigma + tiny) * fluid.turbulent_kinetic_energy_gradient[p];
         q = e * q + (1 - e) * drift + std::sqrt(1 - e * e) * draw();
       }
       at(q_x, p) = q.x, at(q_y, p) = q.y, at(q_z, p) = q.z;

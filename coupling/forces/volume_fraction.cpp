@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "coupling/drag_change.hpp"
+#include "coupling/void_fraction.hpp"
 
 namespace snag {
 namespace {
@@ -44,7 +45,7 @@ struct VolumeFraction final : FluidForce {
     const bool power = form == "power";
     const double* solid = fluid.solid_fraction;
     multiply_drag(fluid, particles, forces, [=](int p, const DragState&) {
-      const double grown = pow(std::max(1 - solid[p], 0.1), -theta);  // folds closer than the kernel resolves count as 0.9
+      const double grown = pow(void_fraction(solid[p]), -theta);
       return power ? grown : 1 + theta * solid[p];
     });
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/random_numbers.hpp"
 #include "base/words.hpp"
 #include "dem/bonds/bond_law.hpp"
 #include "dem/contacts/contact_solver.hpp"
@@ -58,13 +59,10 @@ void check_plan(const RagPiece& piece) {
                      " m3; over a length of " + words(length) + " m it must be at least " + words(smallest) + " m");
 }
 
-/// A number in [0, 1) that depends on the seed and its own number only (finaliser of SplitMix64, Steele et al. 2014).
+/// A number in [0, 1) that depends on the seed and its own number only.
 double random_number(int seed, int number) {
-  std::uint64_t z = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(seed)) << 32) + static_cast<std::uint64_t>(number);
-  z = (z + 1) * 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  const std::uint64_t z = (static_cast<std::uint64_t>(static_cast<std::uint32_t>(seed)) << 32) + static_cast<std::uint64_t>(number);
+  return static_cast<double>(mixed(z * 0x9e3779b97f4a7c15) >> 11) * 0x1p-53;  // number z of splitmix64 begun at 0
 }
 
 /// Plane waves on the lattice, at most two lengths of the sheet in each direction.

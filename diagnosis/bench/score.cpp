@@ -130,7 +130,7 @@ ScoreRow score_row(const std::string& line) {
 }
 
 double Score::share() const { return n > 0 ? static_cast<double>(hits) / n : nan; }
-bool Score::met() const { return n == 0 || (at_least ? share() >= limit : share() <= limit); }
+bool Score::met() const { return n > 0 && (at_least ? share() >= limit : share() <= limit); }
 
 ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   const auto clear_single = [](const ScoreRow& row) { return row.kind == "single" && row.strength >= 0.5 && row.detectability >= 3; };
@@ -139,6 +139,7 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   const auto says_outside = [](const ScoreRow& row) { return row.verdict == "outside"; };
   const auto attributes = [](const ScoreRow& row) { return row.verdict == "effects" && row.wording == "attributed"; };
   const auto clear_pair = [](const ScoreRow& row) { return row.kind == "pair" && row.detectability >= 3; };
+  constexpr double ideal = 1, rounding = 1e-9;  // shrinkage
   ScoreCard card;
   card.scores = {
       score(rows, "single effect at strength >= 1/2, detectable: named first", true, sphere ? 0.85 : 0.80, clear_single, hit),
@@ -158,14 +159,24 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   for (const auto& bin : card.reliability)
     if (!rows.empty()) card.ece += std::abs(bin.stated - bin.right) * bin.n / static_cast<double>(rows.size());
   std::vector<double> shrunk;
+  int covered = 0;
   for (const ScoreRow& row : rows) {
     card.brier += row.brier / static_cast<double>(rows.size());
     ++card.confusion[row.truth][said(row)];
-    if (hit(row) && std::isfinite(row.shrinkage) && row.detectability >= 3) shrunk.push_back(row.shrinkage);
+    if (hit(row) && std::isfinite(row.shrinkage) && row.detectability >= 3)
+      shrunk.push_back(row.shrinkage), covered += row.shrinkage_low <= ideal && row.shrinkage_high >= ideal - rounding;
   }
   std::sort(shrunk.begin(), shrunk.end());
   card.shrinkage_median = shrunk.empty() ? nan : shrunk[shrunk.size() / 2];
+  card.interval_coverage = shrunk.empty() ? nan : covered / static_cast<double>(shrunk.size());
   card.detection_limit = limit_of_detection(rows);
+  const int n = static_cast<int>(rows.size()), n_shrunk = static_cast<int>(shrunk.size());
+  const auto singles = std::count_if(rows.begin(), rows.end(), [](const ScoreRow& row) { return row.kind == "single"; });
+  card.measures = {{"expected calibration error", "<= 0.08", card.ece, 0, 0.08, n},
+                   {"Brier score", "<= 0.25", card.brier, 0, 0.25, n},
+                   {"shrinkage over ideal, median of right verdicts", ">= 0.9", card.shrinkage_median, 0.9, 1e9, n_shrunk},
+                   {"95 % intervals of the shrinkage that hold the ideal", "0.9 to 0.98", card.interval_coverage, 0.9, 0.98, n_shrunk},
+                   {"detection limit, gap over floor", "<= 2", card.detection_limit, 0, 2, static_cast<int>(singles)}};
   return card;
 }
 
@@ -181,6 +192,9 @@ std::string score_json(const ScoreCard& card) {
                               {"high", s.interval[1]},
                               {"target", s.target},
                               {"met", s.met()}});
+  for (const Measure& m : card.measures)
+    json["measures"].push_back({{"name", m.name}, {"value", number(m.value)}, {"n", m.n}, {"target", m.target}, {"met", m.met()}});
+  json["strengths"] = Truth::strengths;
   json["ece"] = card.ece, json["brier"] = card.brier;
   json["shrinkage_median"] = number(card.shrinkage_median), json["detection_limit"] = number(card.detection_limit);
   json["confusion"] = card.confusion;

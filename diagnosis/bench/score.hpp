@@ -39,16 +39,26 @@ struct Score {
   std::array<double, 2> interval{0, 1};
   bool at_least = true;  // the target is a least share; false: a largest one
   double limit = 0;
-  bool met() const;  // of the share itself; of no sets: true
+  bool met() const;  // of the share itself; of no sets: false
   double share() const;
+};
+
+/// A number that is no share of sets beside its target.
+struct Measure {
+  std::string name, target;
+  double value = 0, least = 0, largest = 0;  // the value; the range of the target
+  int n = 0;                                 // sets it stands on
+  bool met() const { return n > 0 && value >= least && value <= largest; }
 };
 
 /// What all rows say.
 struct ScoreCard {
   std::vector<Score> scores;
-  double ece = 0, brier = 0;    // expected calibration error of the first probability (10 bins); mean Brier score
-  double shrinkage_median = 0;  // of right verdicts
-  double detection_limit = 0;   // gap over floor from which P(hit) >= 0.8 in bins of equal counts; inf: nowhere
+  std::vector<Measure> measures;  // of the numbers below
+  double ece = 0, brier = 0;      // expected calibration error of the first probability (10 bins); mean Brier score
+  double shrinkage_median = 0;    // of right verdicts, over the ideal: a model that is the truth leaves the noise only, which is 1
+  double interval_coverage = 0;   // share of their 95 % intervals that hold the ideal
+  double detection_limit = 0;     // gap over floor from which P(hit) >= 0.8 in bins of equal counts; inf: nowhere
   std::map<std::string, std::map<std::string, int>> confusion;  // truth -> said -> sets
   struct Bin {
     double stated = 0, right = 0;  // means

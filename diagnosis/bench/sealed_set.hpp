@@ -20,9 +20,14 @@ struct Truth {
   double strength = 0;                  // of what acts, over what is physically expected
   std::string subset;                   // of observables: all | picture | passage
   int replicates = 1;
-  double detectability = 0;   // of what acts: signal over uncertainty, nuisances projected out
+  double detectability =
+      0;  // of what acts: signal over uncertainty, nuisances projected out; of a pair that of the weaker, given the other
   double gap_over_floor = 0;  // rms of the gap over rms of noise and inputs
 
+  /// How the strengths are drawn, in a sentence for the score card: a diagnosis that knows its priors knows as much.
+  static constexpr const char* strengths =
+      "True strengths are the one that is physically expected times 1/8, 1/4, 1/2 or 1 (pairs, outside: 1/2 or 1) times a uniform number "
+      "from 0.8 to 1.2, with either sign where both can be, within the physical range.";
   /// "added_mass+lift", "none", "outside": as the diagnosis names its hypotheses.
   std::string name() const;
 };

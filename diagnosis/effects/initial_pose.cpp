@@ -2,18 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random_numbers.hpp"
 #include "diagnosis/effects/effect_model.hpp"
 
 namespace snag {
 namespace {
-
-/// SplitMix64: the same bits for the same seed everywhere. Source: Steele, Lea and Flood (2014), OOPSLA, 453.
-std::uint64_t mixed(std::uint64_t z) {
-  z += 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
 
 /// Box and Muller.
 double normal_deviate(std::uint64_t seed) {

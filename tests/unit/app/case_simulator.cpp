@@ -2,6 +2,7 @@
 // ranks: 1 2 3
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -159,6 +160,44 @@ TEST_F(CaseSimulatorTest, KeepsRuns) {
   const auto results = again.run(requests);
   for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
   EXPECT_EQ(again.n_runs(), 0);
+  EXPECT_EQ(again.n_used(), 4);
+}
+
+/// Requirement: two changes of one number multiply, whichever effect and input they come from.
+TEST_F(CaseSimulatorTest, ChangesOfOneNumberMultiply) {
+  for (auto& point : experiment_.points) point.input_u.emplace_back("flow.velocity_m_s", 0.05);
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  RunRequest both, once;
+  both.nuisances = {{"flow.amplitude", 0.1}, {"flow.velocity_m_s", -0.1}};
+  once.nuisances = {{"flow.amplitude", 0.1}};
+  const PointCase base(folder_ / "case.toml");
+  const auto change = base.change({}, both.nuisances, 0);
+  EXPECT_EQ(std::count_if(change.overrides.begin(), change.overrides.end(),
+                          [](const std::string& text) { return text.starts_with("flow.velocity_m_s="); }),
+            1);
+  EXPECT_NE(values(simulator, both), values(simulator, once));
+  // The steady part is 1.1 x 0.9 of the base, the swinging one 1.1.
+  RunRequest same;
+  same.effects = {{"operating_point", -0.01}, {"flow_error", 1.1 / 0.99 - 1}};
+  const auto a = values(simulator, both), b = values(simulator, same);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9);
+}
+
+/// Requirement: a force that one point holds cannot be added; a random one of the base has the seed of the run.
+TEST_F(CaseSimulatorTest, ForcesOfTheBase) {
+  std::string text = swung_sphere;
+  const std::string listed = "\"schiller_naumann\"";
+  text.replace(text.find(listed), listed.size(), listed + ", \"added_mass\", \"turbulent_dispersion\"");
+  if (rank_of(MPI_COMM_WORLD) == 0) std::ofstream(folder_ / "other.toml") << text;
+  MPI_Barrier(MPI_COMM_WORLD);
+  experiment_.points[1].case_file = folder_ / "other.toml";
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto& effects = simulator.effects();
+  const auto mass = std::find_if(effects.begin(), effects.end(), [](const Effect& effect) { return effect.name == "added_mass"; });
+  EXPECT_EQ(mass->blind, "the base case holds it");
+  const PointCase base(folder_ / "other.toml");
+  const auto overrides = base.change({}, {}, 7).overrides;
+  EXPECT_EQ(overrides, (std::vector<std::string>{"coupling.turbulent_dispersion.seed=7"}));
 }
 
 /// Requirement: an uncertain input that is no number of the case is refused by name.

@@ -182,6 +182,52 @@ TEST(Forces, SlopeIsFiniteAndNotNegative) {
   });
 }
 
+// Requirement: folds closer than the kernel resolves (solid fraction 1 and above) leave every force finite and a drag positive.
+TEST(Forces, FiniteWhereSolidsOverlap) {
+  for_each_force([](FluidForce& force, const std::string&) {
+    SphereState s = slanted_state();
+    for (const double solid : {0.9, 1.0, 1.05}) {
+      s.solid_fraction = solid;
+      const auto load = load_on_sphere(force, s);
+      EXPECT_TRUE(std::isfinite(norm(load.force)) && std::isfinite(load.slope)) << solid;
+      EXPECT_GE(load.slope, 0) << solid;
+      if (force.card().role == Role::drag) {
+        EXPECT_GT(dot(load.force, s.fluid_velocity - s.velocity), 0) << solid;
+        EXPECT_GT(load.slope, 0) << solid;
+      }
+    }
+  });
+}
+
+// Requirement: the laminar layers on both sides of a sheet along the stream give the mean friction of a plate, 1.328/Re^(1/2) on each side
+// (Blasius 1908), and not the local one at its end.
+TEST(Forces, LaminarSheetIsThePlateOfBlasius) {
+  const auto sheet = fluid_forces().make("sheet_drag", "test");
+  for (const auto& parameter : sheet->parameters()) {
+    if (parameter.key == "form") **std::get_if<std::string*>(&parameter.target) = "viscous";
+    if (parameter.key == "tangential_coefficient") **std::get_if<double*>(&parameter.target) = 0;
+  }
+  const double Re = 1000;
+  auto along = drag_at(Re, 0, 0, "Blasius (1908)");
+  const SphereState& s = along.state;
+  const double d = s.diameter, U = norm(s.velocity);
+  along.state.next_in_row = {d, 0, 0}, along.state.next_row = {0, d, 0};
+  const double both_sides = 2 * 1.328 / std::sqrt(Re) * 0.5 * s.fluid_density * U * U * d * d;
+  const Vec3 force = load_on_sphere(*sheet, along.state).force;
+  EXPECT_NEAR(force.x, both_sides, 1e-12 * both_sides);
+  EXPECT_LT(std::hypot(force.y, force.z), 1e-12 * both_sides);
+}
+
+// Requirement: only forces are spread to the water: a model that gives a couple and no force does not say that the water feels it. Nor does
+// the water feel what carries the water that the particle displaces, for its inertia is in the equation of the water.
+TEST(Forces, SilentAreThoseThatTheWaterDoesNotFeel) {
+  for_each_force([](FluidForce& force, const std::string& name) {
+    const auto load = load_on_sphere(force, slanted_state());
+    const bool couple = norm(load.torque) > 0 && norm(load.force) == 0;
+    EXPECT_EQ(force.card().reacts_on_fluid, !couple && name != "gravity" && name != "pressure_gradient");
+  });
+}
+
 // Requirement: a force that gives torque or added mass says so on its card, for nothing else is read.
 TEST(Forces, CardsDeclareWhatIsGiven) {
   for_each_force([](FluidForce& force, const std::string&) {
@@ -262,6 +308,7 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
   }
   EXPECT_THROW(read("[coupling]\nforces = [\"gravity\", \"gravity\"]\n"), Error);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\n").forces.size(), 0u);
+  EXPECT_EQ(read("[coupling]\nmode = \"none\"\nforces = [\"torque\", \"pressure_gradient\"]\n").forces.size(), 0u);
   EXPECT_THROW(read_coupling(CaseFile::parse("[coupling]\nmode = \"two_way\"\n").root(), false), Error);
 }
 

@@ -23,5 +23,87 @@ TEST(Rows, CovarianceKeepsUnitsApart) {
   EXPECT_NEAR(C(1, 1) / 1e8, 1, 1e-6);
 }
 
+/// Answers every slot with one number, or with none.
+class Constant : public Simulator {
+ public:
+  explicit Constant(double value) : value_(value) {}
+  std::vector<Nuisance> known{};
+  const std::vector<Effect>& effects() const override { return effects_; }
+  const std::vector<Nuisance>& nuisances() const override { return known; }
+  const std::vector<Slot>& slots(int) const override { return slots_; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    return std::vector<RunResult>(requests.size(), {{value_}, ""});
+  }
+  int n_runs() const override { return 0; }
+
+ private:
+  double value_;
+  std::vector<Effect> effects_;
+  std::vector<Slot> slots_{{}};
+};
+
+Experiment of_one_row(const Observable& observable, const std::vector<Datum>& data) {
+  Experiment experiment;
+  experiment.observables = {observable}, experiment.data = data;
+  experiment.points.push_back({.id = "A", .case_file = {}});
+  return experiment;
+}
+
+/// Requirement: a bias that the simulator applies is free once, with a calibration group or without.
+TEST(Rows, BiasIsCountedOnce) {
+  const Experiment experiment =
+      of_one_row({.id = "x", .unit = "m", .noise_u = 1e-4, .bias_u = 1e-3, .calibration_group = ""}, {{.value = 0.5}});
+  Constant simulator(0.4);
+  EXPECT_EQ(Responses(experiment, simulator).nuisances().size(), 1u);
+  simulator.known = {{"bias of x", 1, {0}}};
+  const Responses responses(experiment, simulator);
+  ASSERT_EQ(responses.nuisances().size(), 1u);
+  EXPECT_TRUE(responses.nuisances()[0].of_data);
+}
+
+Row of_times(const std::vector<double>& seconds, bool censored) {
+  Row row;
+  row.kind = Row::Kind::time, row.n_replicates = static_cast<int>(seconds.size());
+  for (const double t : seconds) row.values.push_back(std::log(t)), row.censored.push_back(censored);
+  row.value = std::log(seconds.front()), row.sigma = 0.3;
+  row.u = censored ? std::numeric_limits<double>::infinity() : 0.3 / std::sqrt(row.n_replicates);
+  return row;
+}
+
+/// Requirement: 50 of 50 censored at the model's median are as unlikely as 50 heads; a model far later fits them.
+TEST(Rows, AllCensored) {
+  const Row row = of_times(std::vector<double>(50, 60.0), true);
+  EXPECT_NEAR(deviance_residual(row, std::log(60), 1, 0), std::sqrt(2 * 50 * std::log(2.0)), 1e-9);
+  EXPECT_NEAR(deviance_residual(row, std::log(600), 1, 0), 0, 1e-5);
+}
+
+/// Requirement: runs that end before the event fit tests that did so, contradict known times, and leave the row in.
+TEST(Rows, NoRunCameToTheEvent) {
+  const Observable exit{.id = "retention_time", .unit = "s", .kind = Observable::Kind::lognormal, .noise_u = 0.05, .calibration_group = ""};
+  for (const bool censored : {false, true}) {
+    std::vector<Datum> data;
+    for (int r = 0; r < 50; ++r)
+      data.push_back({.replicate = r, .value = censored ? 60.0 : 0.239 * (1 + 0.002 * (r - 25)), .censored = censored});
+    const Experiment experiment = of_one_row(exit, data);
+    Constant never(std::numeric_limits<double>::quiet_NaN());
+    Responses responses(experiment, never);
+    ASSERT_EQ(responses.points()[0].rows.size(), 1u);
+    const auto answer = responses.run(responses.base(), {0});
+    EXPECT_TRUE(answer[0].later[0]);
+    const Eigen::VectorXd r = residual(responses.points()[0], answer[0], Eigen::LLT<Eigen::MatrixXd>());
+    if (censored)
+      EXPECT_EQ(r[0], 0);
+    else
+      EXPECT_LT(r[0], -3);  // even if the runs lasted no longer than the longest test
+  }
+}
+
+/// Requirement: a likelihood of a model-dependent variance has its normaliser.
+TEST(Rows, VarianceOfScatteredRuns) {
+  const Row row = of_times(std::vector<double>(9, 1.0), false);  // variance of the mean 0.01
+  EXPECT_DOUBLE_EQ(variance_ratio(row, 0, 3, 0.09), 4);
+  EXPECT_NEAR(deviance_residual(row, 0.1, 3, 0.09), -0.1 / 0.2, 1e-9);
+}
+
 }  // namespace
 }  // namespace snag

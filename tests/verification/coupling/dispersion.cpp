@@ -63,14 +63,17 @@ TEST(Dispersion, VarianceAndCorrelationTime) {
 }
 
 /// Mean place in 0 .. 1 of tracers that began evenly spread between two walls that reflect them, with k rising along x.
-double mean_place(const std::string& form) {
+double mean_place(const std::string& form, double intensity = 1) {
   const int n = 400;
   RagSystem rags(MPI_COMM_SELF, {}, tracers(n, 1.0 / n));
   PrescribedFlow flow = turbulent_water();
   flow.turbulent_kinetic_energy = 0.015, flow.turbulent_kinetic_energy_gradient = {0.135, 0, 0};  // tenfold from wall to wall
   flow.dissipation_rate = 0.15;
-  CoupledSolver solver(
-      read_coupling(CaseFile::parse(dispersion + "[coupling.turbulent_dispersion]\nform = \"" + form + "\"\n").root(), false), rags, flow);
+  CoupledSolver solver(read_coupling(CaseFile::parse(dispersion + "[coupling.turbulent_dispersion]\nform = \"" + form +
+                                                     "\"\nintensity = " + std::to_string(intensity) + "\n")
+                                         .root(),
+                                     false),
+                       rags, flow);
   double sum = 0;
   int count = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -99,6 +102,16 @@ TEST(Dispersion, WellMixed) {
   EXPECT_GT(std::abs(without - 0.5), 0.03);
 }
 
+// Requirement: so they do where the fluctuation is half or twice that of k.
+TEST(Dispersion, WellMixedAtOtherIntensities) {
+  if (size_of(MPI_COMM_WORLD) > 1) GTEST_SKIP() << "one rank is enough";
+  for (const double intensity : {0.5, 2.0}) {
+    const double place = mean_place("lagrangian", intensity);
+    std::printf("  intensity %.1f: mean place %.4f\n", intensity, place);
+    EXPECT_NEAR(place, 0.5, 0.015) << intensity;
+  }
+}
+
 /// A small cloth with history and dispersion whose tiles change hands every few steps.
 struct WanderingCloth {
   RagSystem rags;
@@ -108,7 +121,8 @@ struct WanderingCloth {
       : rags(comm, {},
              [] {
                RagSettings sheet(RagSettings::Shape::rag);
-               sheet.length = 0.012, sheet.width = 0.06, sheet.radius = 1e-3, sheet.velocity = {0.2, 0.1, 0};
+               sheet.length = 0.004, sheet.width = 0.14, sheet.radius = 1e-3, sheet.velocity = {0.2, 0.1, 0};
+               sheet.lengthwise = {0, 1, 0}, sheet.crosswise = {-1, 0, 0};  // five tiles along x
                return std::vector<RagPiece>{make_piece(sheet, "test")};
              }()),
         solver(read_coupling(CaseFile::parse("[coupling]\nforces = [\"schiller_naumann\", \"turbulent_dispersion\", \"history\", "
@@ -120,7 +134,7 @@ struct WanderingCloth {
     if (++steps % 3 == 0)
       rags.migrate([&](const std::vector<Vec3>& centres) {
         std::vector<int> owner;
-        for (const Vec3& c : centres) owner.push_back((static_cast<int>(std::floor((c.x + c.y) * 60)) + 5 + steps) % size_of(rags.comm()));
+        for (const Vec3& c : centres) owner.push_back((static_cast<int>(std::floor(c.x * 30)) + 5 + steps) % size_of(rags.comm()));
         return owner;
       });
     solver.step(1e-4);

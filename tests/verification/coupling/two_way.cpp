@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
 
 #include "coupling/coupled_solver.hpp"
+#include "dem/tile_particles.hpp"
 #include "mesh/structured.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -155,6 +157,76 @@ TEST_P(TwoWayExchange, RanksDoNotMatter) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, TwoWayExchange, testing::ValuesIn(kernel_shapes().names()));
+
+// Requirement: neutrally buoyant particles that fill a fifth of a water driven by a body force move with it, and both accelerate as that
+// water alone does, for the mixture has its density.
+TEST(PressureGradientExchange, NeutralSuspensionAcceleratesAsWater) {
+  const Mesh mesh = structured_box(world, {0, 0, 0}, {0.06, 0.04, 0.08}, {3, 2, 4});
+  Flow flow(mesh);
+  std::vector<RagPiece> pieces;
+  const double cell = 0.02, phi = 0.2, d = std::cbrt(6 * phi / std::numbers::pi) * cell;
+  for (int c = 0; c < 24; ++c) {
+    RagSettings settings(RagSettings::Shape::particle);
+    settings.diameter = d, settings.density = flow.density;
+    settings.position = cell * Vec3{c % 3 + 0.5, c / 3 % 2 + 0.5, c / 6 + 0.5};
+    pieces.push_back(make_piece(settings, "test"));
+  }
+  RagSystem rags(world, {}, pieces);
+  const double G = 2, dt = 1e-4;  // m/s2, s; all stay in their cells
+  const auto advance = [&](double step) {
+    flow.velocity_old = flow.velocity;
+    const double inertia = flow.density / step;
+    for (int c = 0; c < mesh.n_cells; ++c)
+      flow.velocity[c] = (inertia * flow.velocity[c] + flow.reaction[c] + Vec3{flow.density * G, 0, 0}) / (inertia + flow.drag[c]);
+    mesh.halo.exchange(flow.velocity);
+  };
+  const std::string forces = "[coupling]\nkernel = \"cell\"\nforces = [\"free_stream_drag\", \"pressure_gradient\", \"added_mass\"]\n";
+  CoupledSolver solver(read_coupling(CaseFile::parse(forces).root()), rags, flow, advance);
+  const int steps = 200;
+  for (int n = 0; n < steps; ++n) solver.step(dt);
+  const double exact = G * dt * steps;
+  double water = 0, particles = 0;  // largest differences
+  for (int c = 0; c < mesh.n_cells; ++c) water = std::max(water, norm(flow.velocity[c] - Vec3{exact, 0, 0}));
+  for (const Tile& tile : rags.tiles())
+    for_particles(tile, [&](int k, int, int) { particles = std::max(particles, norm(tile.vector(Tile::vx, k) - Vec3{exact, 0, 0})); });
+  std::printf("  water and particles off by %.4f and %.4f of the velocity\n", water / exact, particles / exact);
+  EXPECT_LT(water, 0.02 * exact);
+  EXPECT_LT(particles, 0.02 * exact);
+}
+
+// Requirement: the sensitivity that a load reports is the change of its impulse with the velocity of the water, with added mass too and for
+// particles that are held.
+TEST(Sensitivity, IsTheChangeOfTheImpulse) {
+  const FluidForces forces = [] {
+    const std::string text = "[coupling]\nforces = [\"free_stream_drag\", \"added_mass\"]\n";
+    return std::move(read_coupling(CaseFile::parse(text).root(), false).forces);
+  }();
+  RagSettings settings(RagSettings::Shape::particle);
+  settings.diameter = 1e-3, settings.density = 300;
+  RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test")});
+  Tile& tile = rags.tiles()[0];
+  const int k = tile.index(0, 0);
+  const double step = 0.02, du = 1e-6, m = rags.rags()[0].mass;
+  for (const double is_free : {1.0, 0.0}) {
+    tile.free[k] = is_free;
+    double Q = 0;
+    const auto impulse = [&](double u) {
+      PrescribedFlow flow;
+      flow.velocity = {u, 0, 0};
+      PrescribedField field(flow);
+      FluidLoad load(forces, field, rags.rags());
+      tile.set_vector(Tile::fx, k, {});
+      load.begin_step(rags.tiles(), 0);
+      load.add(0, tile, step);
+      Q = load.sensitivity(0, k);
+      return load.impulse(0, k).x;
+    };
+    const double change = (impulse(du) - impulse(0)) / du;
+    std::printf("  dJ/du %.6f, Q %.6f of the mass\n", change / m, Q / m);
+    EXPECT_NEAR(Q, change, 1e-9 * change);
+    EXPECT_GT(Q, 0.05 * m);
+  }
+}
 
 // Requirement: momentum that leaks is found out: an error of 1e-9 of what was exchanged, and a velocity that is not the one the force was
 // applied with.

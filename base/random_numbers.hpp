@@ -8,7 +8,7 @@
 
 namespace snag {
 
-/// Mixing function of splitmix64, Steele, Lea and Flood (2014).
+/// Mixing function of splitmix64: well mixed bits of a number. Source: Steele, Lea and Flood (2014), OOPSLA, 453.
 inline std::uint64_t mixed(std::uint64_t z) {
   z += 0x9e3779b97f4a7c15U;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;

@@ -1,0 +1,74 @@
+// ranks: 1 3
+// The acceleration of the water that particles feel in a zone that turns.
+#include <gtest/gtest.h>
+
+#include "coupling/kernel_field.hpp"
+#include "dem/rag_system.hpp"
+#include "dem/tile_particles.hpp"
+#include "tests/verification/solver/turning_rings.hpp"
+
+namespace snag {
+namespace {
+
+struct Motion {
+  const char* name;  // of [rotating_zone] motion
+  Vec3 stream;       // added to the rotation, m/s
+  bool begun;        // a step was made
+};
+
+class SolidBodyRotation : public testing::TestWithParam<Motion> {};
+
+// Requirement: in water that turns like a solid body at 100 rad/s, Du/Dt = -Omega^2 r, and Omega x u where a stream is added: in the zone
+// that slides, in one that stands in the turning frame, and in the cells around; before the first step too.
+TEST_P(SolidBodyRotation, AcceleratesTowardsTheAxis) {
+  const double speed = 100, dt = 1e-7, start = 0.3;
+  test::Shells shells = test::plane_rings(0.05, 0.15, 0.25, 48);
+  shells.origin = {0.02, -0.01, 0.03};
+  Mesh mesh = test::ring_mesh(shells);
+  const auto zone = test::turning_rotor(mesh, shells, speed, GetParam().name, start);
+  Flow flow(mesh);
+  flow.rotating_zone = zone.get();
+  const Vec3 omega{0, 0, speed};
+  for (int c = 0; c < mesh.n_all_cells(); ++c) {
+    const Vec3 r = mesh.cell_centre[c] - shells.origin, u = GetParam().stream + cross(omega, r);
+    Vec3 rate;  // of a cell that turns, or stands in the turning frame
+    if (mesh.cell_zone[c] == zone->zone()) rate = cross(omega, cross(omega, r)) - (zone->slides() ? Vec3{} : cross(omega, u));
+    flow.velocity[c] = u;
+    flow.velocity_old[c] = u - dt * rate;
+    flow.velocity_gradient[c] = {Vec3{0, -speed, 0}, Vec3{speed, 0, 0}, Vec3{}};
+  }
+  const auto shape = kernel_shapes().make("cell", "test");
+  Kernel kernel(*shape, 1e-3, mesh);
+  std::vector<RagPiece> pieces;
+  for (const double r : {0.1, 0.2}) {
+    RagSettings settings(RagSettings::Shape::particle);
+    settings.diameter = 1e-3, settings.density = 1000, settings.position = shells.origin + Vec3{0.6 * r, 0.8 * r, 0.05};
+    pieces.push_back(make_piece(settings, "test"));
+  }
+  const RagSystem rags(MPI_COMM_WORLD, {}, pieces);
+  KernelField field(flow, kernel, rags.rags(), false);
+  if (GetParam().begun) field.set_last_step(dt);
+  field.sample(rags.tiles(), {.material_acceleration = true});
+  EXPECT_EQ(kernel.n_outside(), 0);
+  for (std::size_t t = 0; t < rags.tiles().size(); ++t) {
+    const FluidSamples fluid = field.at(t, rags.tiles()[t], 0);
+    for_particles(rags.tiles()[t], [&](int k, int, int) {
+      const Vec3 exact = cross(omega, fluid.velocity[k]), found = fluid.material_acceleration[k];
+      std::printf("  at %.2f m/s: Du/Dt %.2f along Omega x u, exact %.2f m/s2\n", norm(fluid.velocity[k]), dot(found, unit(exact)),
+                  norm(exact));
+      EXPECT_LT(norm(found - exact), 1e-4 * norm(exact));
+      EXPECT_GT(norm(exact), 600);
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Motions, SolidBodyRotation,
+                         testing::Values(Motion{"sliding", {}, true}, Motion{"sliding", {3, -2, 0}, true}, Motion{"frame", {}, true},
+                                         Motion{"frame", {3, -2, 0}, true}, Motion{"sliding", {}, false}, Motion{"frame", {}, false}),
+                         [](const auto& motion) {
+                           const Motion& m = motion.param;
+                           return m.name + std::string(m.begun ? "" : "_at_the_start") + (m.stream == Vec3{} ? "" : "_in_a_stream");
+                         });
+
+}  // namespace
+}  // namespace snag
