@@ -8,6 +8,23 @@
 
 namespace snag {
 
+/// Arrays in which fields keep the fluid at the particles: the first component of each.
+namespace sampled {
+enum Array {
+  velocity = 0,
+  gradient = 3,
+  pressure_gradient = 12,
+  acceleration = 15,
+  k = 18,
+  epsilon = 19,
+  k_gradient = 20,
+  solid = 23,
+  width = 24,
+  n_fields = 25
+};
+inline constexpr double undisturbed = 1e9;  // disturbance width where the particle's own force is not in the fluid, m
+}  // namespace sampled
+
 class FluidField {
  public:
   virtual ~FluidField() = default;

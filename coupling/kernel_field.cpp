@@ -8,21 +8,7 @@
 
 namespace snag {
 
-namespace {
-enum Field {
-  velocity = 0,
-  gradient = 3,
-  pressure_gradient = 12,
-  acceleration = 15,
-  k = 18,
-  epsilon = 19,
-  k_gradient = 20,
-  solid = 23,
-  width = 24,
-  n_fields = 25
-};
-constexpr double undisturbed = 1e9;  // m
-}  // namespace
+using namespace sampled;
 
 void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   particles_ = ParticleList(tiles);

@@ -10,19 +10,7 @@ namespace snag {
 namespace {
 
 constexpr double water_viscosity = 1.003e-3;  // Pa s, at 20 degrees Celsius
-enum Field {
-  velocity = 0,
-  gradient = 3,
-  pressure_gradient = 12,
-  acceleration = 15,
-  k = 18,
-  epsilon = 19,
-  k_gradient = 20,
-  solid = 23,
-  width = 24,
-  n_fields = 25
-};
-constexpr double undisturbed = 1e9;  // m
+using namespace sampled;
 
 }  // namespace
 
