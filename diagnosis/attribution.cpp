@@ -18,8 +18,9 @@ namespace {
 /// second effect has to bring 6 nats (a surplus second effect mops up what the first leaves); a tenth is for what nobody listed.
 constexpr double prior_none = 0.6, prior_effects = 0.3, prior_outside = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
-constexpr double screening_width = 10;
-constexpr int least_kept = 3, most_kept = 8, most_pairs = 5;
+/// A linear model of a gap of hundreds of nats is off by a share of them.
+constexpr double screening_width = 10, share_not_linear = 0.05;
+constexpr int least_kept = 3, most_kept = 8, most_pairs = 5, most_pairs_around_base = 2, n_screened_again = 3;
 constexpr double blind_detectability = 3;
 
 class Attributor {
@@ -109,7 +110,7 @@ class Attributor {
 
   std::vector<Screened> screened_singles(const Screening& screening) {
     std::vector<Screened> singles;
-    const double none = screening.screen({}).log_evidence;
+    const double none = none_screened_ = screening.screen({}).log_evidence;
     result_.screening["none"] = 0;
     for (const int k : candidates_) {
       singles.push_back(screening.screen({{k}}));
@@ -121,11 +122,13 @@ class Attributor {
   }
 
   void fit_singles(const std::vector<Screened>& singles) {
+    const double width =
+        std::max(screening_width, share_not_linear * (singles.empty() ? 0 : singles.front().log_evidence - none_screened_));
     for (std::size_t i = 0; i < singles.size() && i < most_kept; ++i) {
-      if (i >= least_kept && singles[i].log_evidence < singles.front().log_evidence - screening_width) break;
+      if (i >= least_kept && singles[i].log_evidence < singles.front().log_evidence - width) break;
       if (!affordable(runs_of_fit(1))) break;
       report("fit of " + name_of(singles[i].hypothesis, model_.effects()), 0.15 + 0.4 * static_cast<double>(i) / most_kept);
-      add(fitter_.fit(singles[i].hypothesis, start(singles[i])));
+      add(fitter_.fit(singles[i].hypothesis, start(singles[i]), singles[i].forms));
     }
   }
 
@@ -140,51 +143,75 @@ class Attributor {
     return theta;
   }
 
-  // Pairs: the best single effect with every other one, screened again around its fit; and what the first screening holds for better
-  // than any single effect.
+  Hypothesis pair_of(int a, int b) const {
+    if (model_.effects()[b].name < model_.effects()[a].name) std::swap(a, b);
+    return {{a, b}};
+  }
+
+  // The fits of single effects that are not random, the best first.
+  std::vector<int> best_singles() const {
+    std::vector<int> order;
+    for (int i = 1; i < static_cast<int>(result_.fits.size()); ++i)
+      if (!model_.effects()[result_.fits[i].hypothesis.effects[0]].random) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return result_.weight[a] > result_.weight[b]; });
+    return order;
+  }
+
+  // Pairs: the best single effects with every other one, screened again around their fits. Where two effects act, the first screening is
+  // far from linear, and either of them, or a third that stands for both, may lead among the single ones.
   void fit_pairs(const Screening& first_screening) {
-    std::vector<Screened> pairs;
-    int best = 0;
-    for (int i = 1; i < static_cast<int>(result_.fits.size()); ++i) {
-      const bool fixed = !model_.effects()[result_.fits[i].hypothesis.effects[0]].random;
-      if (fixed && (best == 0 || result_.weight[i] > result_.weight[best])) best = i;
-    }
-    if (best == 0 || candidates_.size() < 2) return;
-    const auto pair_of = [&](int a, int b) {
-      Hypothesis pair{{a, b}};
-      if (model_.effects()[b].name < model_.effects()[a].name) std::swap(pair.effects[0], pair.effects[1]);
-      return pair;
-    };
-    const int of_best = result_.fits[best].hypothesis.effects[0];
+    if (candidates_.size() < 2) return;
     const double gain_wanted = nats_of_second - 3;  // the linear model may be off by some nats
-    if (affordable(static_cast<int>(candidates_.size()) + runs_of_fit(2))) {
-      report("second effects", 0.6);
-      const Screening second(model_, fitter_, candidates_, result_.fits[best].at);
-      for (const int k : candidates_)
-        if (k != of_best) pairs.push_back(second.screen(pair_of(of_best, k)));
-      std::erase_if(pairs, [&](const Screened& s) { return s.log_evidence < result_.fits[best].log_evidence + gain_wanted; });
+    std::map<std::string, Screened> pairs;          // by name, each where it looks best
+    const std::vector<int> singles = best_singles();
+    for (std::size_t i = 0; i < singles.size() && i < n_screened_again; ++i) {
+      const Fit& single = result_.fits[singles[i]];
+      const int own = single.hypothesis.effects[0];
+      if (!affordable(static_cast<int>(candidates_.size()) + runs_of_fit(2))) break;
+      report("second effects beside " + result_.names[singles[i]], 0.6);
+      const Screening second(model_, fitter_, candidates_, single.at);
+      for (const int k : candidates_) {
+        if (k == own) continue;
+        Screened screened = second.screen(pair_of(own, k));
+        if (screened.log_evidence < result_.fits[singles.front()].log_evidence + gain_wanted) continue;
+        const std::string name = name_of(screened.hypothesis, model_.effects());
+        const auto found = pairs.find(name);
+        if (found == pairs.end() || found->second.log_evidence < screened.log_evidence) pairs.insert_or_assign(name, std::move(screened));
+      }
     }
-    std::vector<Screened> others;
+    std::vector<Screened> order = best_first(std::move(pairs)), of_base = pairs_around_base(first_screening);
+    std::erase_if(of_base, [&](const Screened& s) {
+      return std::any_of(order.begin(), order.end(),
+                         [&](const Screened& other) { return other.hypothesis.effects == s.hypothesis.effects; });
+    });
+    order.resize(std::min<std::size_t>(order.size(), most_pairs));
+    order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
+    for (std::size_t i = 0; i < order.size() && affordable(runs_of_fit(2)); ++i) {
+      report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
+      add(fitter_.fit(order[i].hypothesis, start(order[i]), order[i].forms));
+    }
+  }
+
+  static std::vector<Screened> best_first(std::map<std::string, Screened> by_name) {
+    std::vector<Screened> order;
+    for (auto& [name, screened] : by_name) order.push_back(std::move(screened));
+    std::stable_sort(order.begin(), order.end(), [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; });
+    return order;
+  }
+
+  // Pairs that look better than every single effect from the base model already.
+  std::vector<Screened> pairs_around_base(const Screening& screening) const {
     double best_single = -std::numeric_limits<double>::infinity();
-    for (const int k : candidates_) best_single = std::max(best_single, first_screening.screen({{k}}).log_evidence);
+    for (const int k : candidates_) best_single = std::max(best_single, screening.screen({{k}}).log_evidence);
+    std::map<std::string, Screened> pairs;
     for (std::size_t a = 0; a < candidates_.size(); ++a) {
       for (std::size_t b = a + 1; b < candidates_.size(); ++b) {
-        if (candidates_[a] == of_best || candidates_[b] == of_best) continue;
-        Screened screened = first_screening.screen(pair_of(candidates_[a], candidates_[b]));
-        if (screened.log_evidence > best_single + gain_wanted) others.push_back(std::move(screened));
+        Screened screened = screening.screen(pair_of(candidates_[a], candidates_[b]));
+        if (screened.log_evidence > best_single + nats_of_second)
+          pairs.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
       }
     }
-    const auto better = [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; };
-    std::stable_sort(pairs.begin(), pairs.end(), better), std::stable_sort(others.begin(), others.end(), better);
-    for (std::size_t i = 0; i < std::max(pairs.size(), others.size()); ++i) {
-      for (const auto* list : {&pairs, &others}) {
-        if (i >= list->size() || (list == &others && i >= most_pairs / 2) || i >= most_pairs || !affordable(runs_of_fit(2))) continue;
-        // Far below the best pair there is nothing to gain.
-        if ((*list)[i].log_evidence < list->front().log_evidence - screening_width) continue;
-        report("fit of " + name_of((*list)[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
-        add(fitter_.fit((*list)[i].hypothesis, start((*list)[i])));
-      }
-    }
+    return best_first(std::move(pairs));
   }
 
   Responses& model_;
@@ -193,6 +220,7 @@ class Attributor {
   Attribution result_;
   std::vector<int> candidates_, random_;
   int n_singles_ = 1;
+  double none_screened_ = 0;  // log evidence of the base model in the screening
 };
 
 }  // namespace

@@ -135,7 +135,13 @@ bool has_cell_of_its_own(const Responses& model, const Fit& pair, const Fit& sin
   }
   for (std::size_t o = 0; o < along.size(); ++o)
     if (along[o] > seen * std::sqrt(square[o])) return true;
-  return false;
+  // Inputs that are off without the second effect and are not with it show it too.
+  const auto m = static_cast<Eigen::Index>(model.nuisances().size());
+  const auto inputs = [m](const Fit& fit) -> Eigen::VectorXd {
+    return (fit.solution.d - fit.linear.prior).segment(fit.linear.lower.size(), m);
+  };
+  const Eigen::VectorXd alone = inputs(single), taken = alone - inputs(pair);
+  return alone.dot(taken) > seen * taken.norm();
 }
 
 }  // namespace snag

@@ -17,7 +17,7 @@ std::vector<EffectEstimate> estimates(const Responses& model, const Fit& fit);
 
 /// True if the second effect of a pair is seen somewhere: a cell (observable, third of the time, point) where the other effect alone
 /// leaves a mean residual of more than 3 and the pair less; or an observable where what the pair takes away stands out from the residual
-/// of the other effect alone by more than 3, at one point or over all of them.
+/// of the other effect alone by more than 3, at one point or over all of them; or the inputs, which the other effect alone needs far off.
 bool has_cell_of_its_own(const Responses& model, const Fit& pair, const Fit& single);
 
 }  // namespace snag

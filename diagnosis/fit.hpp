@@ -1,10 +1,12 @@
 #pragma once
 // The fit of one hypothesis (none, one effect, two) to the training points, and its Laplace evidence:
 //
-//   Phi = 1/2 |rho|^2 + 1/2 |nu|^2 + 1/2 |t|^2,   rho = C^-1/2 (y - f(theta, nu)),   t = (theta - mean)/sd
-//   log Z = log of the integral of exp(-Phi) over nu and the physical range of theta - 1/2 log |2 pi C| - 1/2 log of the other rows'
+//   Phi = 1/2 |rho|^2 + 1/2 |nu|^2 + 1/2 |xi|^2 + 1/2 |t|^2,   rho = C^-1/2 (y - f(theta, nu, xi)),   t = (theta - mean)/sd
+//   log Z = log of the integral of exp(-Phi) over nu, xi and the physical range of theta - 1/2 log |2 pi C| - 1/2 log of the other rows'
 //   variance ratios
 //
+// xi: shares of the other forms under which the laws of the effects are written (State::shares). The spread between them is what is known
+// of the form of a law, so one of them in full is one standard deviation.
 // C = data + numerics (from two time steps) + scatter of the runs/N + form error of each effect; the last three at the fitted state.
 #include <Eigen/Dense>
 #include <array>
@@ -29,6 +31,8 @@ struct Linearization {
   std::vector<Response> responses;                  // by training point
   std::vector<Eigen::VectorXd> numerical_error;     // f(2 dt) - f(dt), by training point
   std::vector<std::vector<Response>> by_nuisance;   // [nuisance][training point] after half a standard uncertainty; empty: not there
+  std::vector<std::vector<Response>> by_share;      // [other form][training point] with half more of it
+  std::vector<Response> origin;                     // responses that these two depart from
   std::vector<std::vector<Eigen::VectorXd>> parts;  // [effect of the hypothesis][training point]: what it adds to f
 };
 
@@ -50,7 +54,7 @@ struct Fit {
   Hypothesis hypothesis;
   Linearization at;  // the fitted state; its responses are those of the runs there
   Whitening whitening;
-  LinearModel linear;          // around the fitted state: strengths in prior standard deviations, then nuisances
+  LinearModel linear;          // around the fitted state: strengths in prior standard deviations, nuisances, shares of other forms
   LinearSolution solution;     // of it; d is what a last step would change
   std::vector<int> first_row;  // of each training point in rho, and the end
   double log_evidence = 0;     // over all errors of form
@@ -69,20 +73,27 @@ class Fitter {
   Whitening whiten(const Linearization& at, double form_error = widest_form_error) const;
   /// Residual over all training points.
   Eigen::VectorXd residual(const std::vector<Response>& responses, const Whitening& whitening) const;
-  /// Derivative of the residual by the nuisances of a linearization.
-  Eigen::MatrixXd nuisance_columns(const Linearization& at, const Whitening& whitening) const;
+  /// Derivative of the residual by the nuisances of a linearization, and by its shares of other forms.
+  Eigen::MatrixXd nuisance_columns(const Linearization& at, const Whitening& whitening) const {
+    return columns(at, at.by_nuisance, whitening);
+  }
+  Eigen::MatrixXd share_columns(const Linearization& at, const Whitening& whitening) const { return columns(at, at.by_share, whitening); }
   std::vector<int> first_rows() const;
-  /// Fit from a start of the strengths. Runs: about 10 a training point and effect.
-  Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start);
+  /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
+  /// share it takes the lead, and the better of the two fits is kept. Runs: about 10 a training point and effect.
+  Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
 
  private:
-  State state_of(const Hypothesis& hypothesis, const Eigen::VectorXd& t, const Eigen::VectorXd& nuisances) const;
+  Fit fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms);
+  Eigen::MatrixXd columns(const Linearization& at, const std::vector<std::vector<Response>>& moved, const Whitening& whitening) const;
+  State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
   Linearization start_from_base(const State& state);
+  void add_shares(Linearization& at);
   std::vector<Eigen::VectorXd> numerical_error(const State& state, const std::vector<Response>& responses);
   Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
                                  const Whitening& whitening);
   void descend(Fit& fit, Eigen::VectorXd& x, int iterations);
-  void linearize_at_fit(Fit& fit, const Eigen::VectorXd& x, const Linearization& nuisances_at, double form_error);
+  void linearize_at_fit(Fit& fit, const Eigen::VectorXd& x, double form_error);
   double objective(const Fit& fit, const Eigen::VectorXd& x, const std::vector<Response>& responses) const;
 
   Responses& model_;

@@ -33,21 +33,37 @@ class HowFar {
   Prediction predict(const Fit& fit) {
     const auto& withheld = model_.withheld();
     const State state = withheld_state(fit);
-    const auto responses = model_.run(state, withheld), coarse = model_.run(state, withheld, 2);
+    const State leading = lead_of(state);
+    const auto responses = model_.run(state, withheld), lead = model_.run(leading, withheld), coarse = model_.run(leading, withheld, 2);
     std::vector<std::vector<Response>> moved_strength, moved_input;
     const int k = static_cast<int>(fit.linear.lower.size()), m = static_cast<int>(model_.nuisances().size());
+    // What the fit leaves open of the effects: their strengths and the shares of their forms, by index in its linear model.
+    std::vector<Eigen::Index> open;
     for (int e = 0; e < k; ++e) {
       State moved = state;
       const Effect& effect = model_.effects()[fit.hypothesis.effects[e]];
       moved.effects[e].second = std::clamp(state.effects[e].second + fit.theta_sd[e], effect.minimum, effect.maximum);
+      moved_strength.push_back(model_.run(moved, withheld)), open.push_back(e);
+    }
+    for (Eigen::Index s = 0; s < state.shares.size() && k > 0; ++s) {
+      State moved = state;
+      open.push_back(k + m + s);
+      moved.shares[s] += std::sqrt(fit.solution.covariance(open.back(), open.back()));
       moved_strength.push_back(model_.run(moved, withheld));
     }
+    const auto n_open = static_cast<Eigen::Index>(open.size());
     Eigen::VectorXd posterior = Eigen::VectorXd::Ones(m);
     for (int j = 0; j < m; ++j) {
-      State moved = state;
+      State moved = leading;
       moved.nuisances[j] += 1;
       moved_input.push_back(model_.run(moved, withheld));
       if (!fit.hypothesis.effects.empty()) posterior[j] = std::sqrt(fit.solution.covariance(k + j, k + j));
+    }
+    std::vector<std::vector<Response>> without;
+    for (int e = 0; e < k; ++e) {
+      State less = leading;
+      less.effects[e].second = 0;
+      without.push_back(model_.run(less, withheld));
     }
     Prediction prediction;
     for (std::size_t p = 0; p < withheld.size(); ++p) {
@@ -60,13 +76,20 @@ class HowFar {
       Eigen::VectorXd data(g);
       for (int i = 0; i < g; ++i) data[i] = point.rows[i].value;
       const Eigen::VectorXd error = (responses[p].value.head(g) - data).cwiseQuotient(u);
-      Eigen::MatrixXd strength(g, k), input(g, m);
-      for (int e = 0; e < k; ++e) strength.col(e) = scaled(moved_strength[e][p], responses[p]);
-      for (int j = 0; j < m; ++j) input.col(j) = scaled(moved_input[j][p], responses[p]) * posterior[j];
-      const Eigen::VectorXd scatter = responses[p].scatter.head(g).cwiseQuotient(u.cwiseAbs2()) / responses[p].n_runs;
+      Eigen::MatrixXd strength(g, n_open), input(g, m);
+      for (Eigen::Index e = 0; e < n_open; ++e) strength.col(e) = scaled(moved_strength[static_cast<std::size_t>(e)][p], responses[p]);
+      for (int j = 0; j < m; ++j) input.col(j) = scaled(moved_input[j][p], lead[p]) * posterior[j];
+      // Noise, step, scatter of the runs and the error of form that the effect was found with, as in the fit.
+      const auto change = [&](const Response& a, const Response& b) {
+        return Eigen::VectorXd((a.value - b.value).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
+      };
+      std::vector<Eigen::VectorXd> parts;
+      for (int e = 0; e < k; ++e) parts.push_back(change(lead[p], without[static_cast<std::size_t>(e)][p]));
+      std::vector<const Eigen::VectorXd*> own;
+      for (const auto& part : parts) own.push_back(&part);
       const Eigen::MatrixXd scale = u.cwiseInverse().asDiagonal();
-      Eigen::MatrixXd V = scale * point.covariance * scale;
-      V.diagonal() += scaled(coarse[p], responses[p]).cwiseAbs2() + scatter + Eigen::VectorXd::Constant(g, 1e-9);
+      Eigen::MatrixXd V = scale * model_covariance(point, responses[p], change(coarse[p], lead[p]), own, fit.form_error) * scale;
+      V.diagonal().array() += 1e-9;
       // The best inputs turn an error e into V (V + B B^T)^-1 e.
       const Eigen::MatrixXd projection = (V + input * input.transpose()).llt().solve(V).transpose();
       const Eigen::MatrixXd covariance = projection * V;
@@ -76,12 +99,10 @@ class HowFar {
       prediction.covariance.push_back(covariance), prediction.projection.push_back(projection);
       prediction.by_strength.push_back(projection * strength);
     }
-    prediction.strength_factor = Eigen::MatrixXd::Identity(k, k);
-    for (int a = 0; a < k; ++a)
-      for (int b = 0; b < k; ++b)
-        prediction.strength_factor(a, b) =
-            fit.solution.covariance(a, b) / std::sqrt(fit.solution.covariance(a, a) * fit.solution.covariance(b, b));
-    if (k > 0) prediction.strength_factor = Eigen::LLT<Eigen::MatrixXd>(prediction.strength_factor).matrixL();
+    const Eigen::MatrixXd covariance = fit.solution.covariance(open, open);
+    const Eigen::VectorXd sd = covariance.diagonal().cwiseSqrt();
+    prediction.strength_factor = covariance.cwiseQuotient(sd * sd.transpose());
+    if (n_open > 0) prediction.strength_factor = Eigen::LLT<Eigen::MatrixXd>(prediction.strength_factor).matrixL();
     return prediction;
   }
 

@@ -172,8 +172,8 @@ class Judge {
       const auto &own = a_.fits[first].hypothesis.effects, &other = fit.hypothesis.effects;
       const bool surplus = other.size() > own.size() &&
                            std::all_of(own.begin(), own.end(), [&](int k) { return std::count(other.begin(), other.end(), k) > 0; });
-      const Eigen::Index bounded = fit.linear.lower.size(), m = fit.linear.J.cols() - bounded;
-      const Eigen::VectorXd nuisances = (fit.solution.d - fit.linear.prior).tail(m);
+      const Eigen::Index bounded = fit.linear.lower.size(), m = static_cast<Eigen::Index>(model_.nuisances().size());
+      const Eigen::VectorXd nuisances = (fit.solution.d - fit.linear.prior).segment(bounded, m);
       constexpr double far = 3;
       const bool in_band = m == 0 || nuisances.cwiseAbs().maxCoeff() < far;
       if (!surplus && in_band && a_.leave_one_out[i] > a_.leave_one_out[best]) best = i;

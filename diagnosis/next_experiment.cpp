@@ -27,7 +27,7 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   C += numerical * numerical.transpose();
   for (const auto& by_nuisance : a.at.by_nuisance) {
     if (by_nuisance[p].value.size() == 0) continue;
-    const Eigen::VectorXd change = (by_nuisance[p].value - a.at.responses[p].value).segment(begin, n) / nuisance_step;
+    const Eigen::VectorXd change = (by_nuisance[p].value - a.at.origin[p].value).segment(begin, n) / nuisance_step;
     if (change.allFinite()) C += change * change.transpose();
   }
   C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;

@@ -11,6 +11,9 @@ namespace snag {
 
 namespace {
 
+/// Standard deviation of the law that holds from the form next to it, over the difference to another form.
+constexpr double between_forms = 1.0 / 3;
+
 bool random_effects_may_show(const Simulator& simulator) {
   const auto& effects = simulator.effects();
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return e.random && e.blind.empty(); });
@@ -91,11 +94,37 @@ int Responses::n_seeds(const State& state) const {
   return random ? seeds_of_random_ : 1;
 }
 
+std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>& effects) {
+  std::vector<OtherForm> others;
+  for (std::size_t e = 0; e < state.effects.size(); ++e) {
+    const Effect& effect = effects[state.effects[e].first];
+    for (int form = 0; form < effect.n_forms + effect.n_deviations; ++form)
+      if (form != state.form(e)) others.push_back({e, form, form < effect.n_forms ? between_forms : 1});
+  }
+  return others;
+}
+
+State lead_of(State state) {
+  state.shares.resize(0);
+  return state;
+}
+
+Response beside(const Response& mixture, const Response& lead, Response moved) {
+  const Eigen::VectorXd difference = mixture.value - lead.value;
+  for (Eigen::Index i = 0; i < difference.size(); ++i)
+    if (std::isfinite(difference[i])) moved.value[i] += difference[i];
+  return moved;
+}
+
 std::vector<RunRequest> Responses::requests_of(const Request& request) const {
   RunRequest run;
   run.point = request.point, run.step_factor = request.step_factor;
-  for (const auto& [k, theta] : request.state.effects)
-    if (theta != 0) run.effects[effects()[k].name] = theta;
+  for (std::size_t e = 0; e < request.state.effects.size(); ++e) {
+    const auto& [k, theta] = request.state.effects[e];
+    if (theta == 0) continue;
+    run.effects[effects()[k].name] = theta;
+    if (request.state.form(e) != 0) run.forms[effects()[k].name] = request.state.form(e);
+  }
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     const double deviation = request.state.nuisances[static_cast<Eigen::Index>(j)];
     if (deviation != 0 && nuisances_[j].bias_observable < 0 && acts_at(static_cast<int>(j), request.point))
@@ -147,17 +176,54 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
   return response;
 }
 
+// The state with the leading forms only, then one with each other form that has a share.
+std::vector<Responses::Part> Responses::parts_of(const Request& request) const {
+  std::vector<Part> all{{request, 1}};
+  const auto others = other_forms(request.state, effects());
+  for (Eigen::Index s = 0; s < request.state.shares.size(); ++s) {
+    const OtherForm& other = others[static_cast<std::size_t>(s)];
+    if (request.state.shares[s] == 0 || request.state.effects[other.effect].second == 0) continue;
+    all.push_back({request, other.sd * request.state.shares[s]});
+    auto& forms = all.back().request.state.forms;
+    forms.resize(std::max(forms.size(), other.effect + 1), 0);
+    forms[other.effect] = other.form;
+  }
+  return all;
+}
+
+void Responses::add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const {
+  const Eigen::VectorXd change = share * (other.value - lead.value);
+  for (Eigen::Index i = 0; i < change.size(); ++i) {
+    if (!std::isfinite(change[i])) continue;
+    sum.value[i] += change[i];
+    const Row::Kind kind = points_[point].rows[static_cast<std::size_t>(i)].kind;
+    if (kind == Row::Kind::count || kind == Row::Kind::spread) sum.value[i] = std::max(0.0, sum.value[i]);
+    if (kind == Row::Kind::event) sum.value[i] = std::clamp(sum.value[i], 0.0, 1.0);
+  }
+}
+
 std::vector<Response> Responses::run(const std::vector<Request>& requests) {
   std::vector<RunRequest> runs;
-  std::vector<std::size_t> begin{0};
+  std::vector<std::vector<Part>> parts;
   for (const Request& request : requests) {
-    for (RunRequest& run : requests_of(request)) runs.push_back(std::move(run));
-    begin.push_back(runs.size());
+    parts.push_back(parts_of(request));
+    for (const Part& part : parts.back())
+      for (RunRequest& run : requests_of(part.request)) runs.push_back(std::move(run));
   }
   const std::vector<RunResult> results = simulator_.run(runs);
   std::vector<Response> responses;
-  for (std::size_t i = 0; i < requests.size(); ++i)
-    responses.push_back(response(requests[i], std::span(results).subspan(begin[i], begin[i + 1] - begin[i])));
+  std::size_t begin = 0;
+  for (const std::vector<Part>& all : parts) {
+    std::vector<Response> of_parts;
+    for (const Part& part : all) {
+      const std::size_t n = static_cast<std::size_t>(n_seeds(part.request.state));
+      of_parts.push_back(response(part.request, std::span(results).subspan(begin, n)));
+      begin += n;
+    }
+    responses.push_back(of_parts.front());
+    for (std::size_t i = 1; i < all.size(); ++i)
+      add_share(responses.back(), of_parts.front(), of_parts[i], all[i].share, all[i].request.point);
+  }
   return responses;
 }
 

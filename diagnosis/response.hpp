@@ -14,7 +14,21 @@ namespace snag {
 struct State {
   std::vector<std::pair<int, double>> effects{};  // index into Simulator::effects, theta
   Eigen::VectorXd nuisances;                      // in standard uncertainties, by index of Nuisances
+  std::vector<int> forms{};                       // that leads, by effect; what is not there: the first
+  Eigen::VectorXd shares{};                       // of the other forms, in standard deviations, see other_forms(); what is not there: 0
+  int form(std::size_t effect) const { return effect < forms.size() ? forms[effect] : 0; }
 };
+
+/// Another form of an effect than the one that leads. A state answers with the mixture
+///   f = f_lead + sum over the other forms of sd share (f_form - f_lead),
+/// so that what lies between or beyond the forms has a place too. The law that holds is taken to be one of the forms give or take a third
+/// of what they differ by; a deviation is one standard deviation as it is.
+struct OtherForm {
+  std::size_t effect = 0;  // position in State::effects
+  int form = 0;
+  double sd = 1;
+};
+std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>& effects);
 
 /// What the runs of a state say at one point.
 struct Response {
@@ -34,6 +48,12 @@ struct FreeNuisance {
   int bias_observable = -1;  // an additive bias of this observable, which needs no runs; -1: an input of the simulator
   bool of_data = false;      // an error of the measurement, not of the model
 };
+
+/// The state with the leading forms only.
+State lead_of(State state);
+/// What was run beside the lead, beside the mixture: changes of inputs and steps are taken from the leading forms, which saves a run a
+/// form.
+Response beside(const Response& mixture, const Response& lead, Response moved);
 
 class Responses {
  public:
@@ -67,6 +87,12 @@ class Responses {
 
  private:
   std::vector<RunRequest> requests_of(const Request& request) const;
+  struct Part {
+    Request request;
+    double share = 0;
+  };
+  std::vector<Part> parts_of(const Request& request) const;
+  void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
   Response response(const Request& request, std::span<const RunResult> results) const;
   void find_randomness();
   void leave_out_rows_without_answer();

@@ -12,7 +12,8 @@ namespace snag {
 struct Screened {
   Hypothesis hypothesis;
   double log_evidence = 0;
-  Eigen::VectorXd theta;  // where the linear model puts the strengths
+  Eigen::VectorXd theta;     // where the linear model puts the strengths
+  std::vector<int> forms{};  // that lead, by effect
 };
 
 class Screening {
@@ -30,11 +31,15 @@ class Screening {
   double sham_rate(std::uint64_t seed) const;
   const std::vector<int>& candidates() const { return candidates_; }
   /// Signatures by row of a training point, not whitened.
-  const Eigen::VectorXd& signature(int candidate, int training_point) const { return signatures_.at(candidate)[training_point]; }
+  const Eigen::VectorXd& signature(int candidate, int training_point) const {
+    return signatures_.at(candidate).front()[static_cast<std::size_t>(training_point)];
+  }
 
  private:
   double projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
-  Eigen::VectorXd column(int effect, const Whitening& whitening, const Eigen::VectorXd& rho) const;
+  Eigen::VectorXd column(int effect, int form, const Whitening& whitening, const Eigen::VectorXd& rho) const;
+  bool present(int effect) const;
+  Eigen::MatrixXd share_columns(const Screened& screened, const Whitening& whitening, const Eigen::VectorXd& rho) const;
 
   Responses& model_;
   Fitter& fitter_;
@@ -43,9 +48,10 @@ class Screening {
   Whitening whitening_;
   Eigen::VectorXd rho_;
   Eigen::MatrixXd nuisances_, nuisance_precision_inverse_;
-  std::map<int, std::vector<Response>> probed_;
-  std::map<int, std::vector<Eigen::VectorXd>> signatures_;
-  std::map<int, Eigen::VectorXd> columns_;  // per prior standard deviation of theta, whitened
+  // By candidate and form; an effect around which was screened has the form that leads there only.
+  std::map<int, std::vector<std::vector<Response>>> probed_;
+  std::map<int, std::vector<std::vector<Eigen::VectorXd>>> signatures_;
+  std::map<int, std::vector<Eigen::VectorXd>> columns_;  // per prior standard deviation of theta, whitened
 };
 
 /// Strength at which an effect is probed: its prior mean, or one standard deviation where the mean is near zero.

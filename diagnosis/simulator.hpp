@@ -20,6 +20,8 @@ struct Effect {
   bool random = false;                // runs with another seed give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
   std::string blind{};                // why this base case cannot show it; empty: it can
+  int n_forms = 1;                    // functional forms under which its law is written; a run takes one by its index
+  int n_deviations = 0;               // indices after them: one standard deviation of something else that its law leaves open
 };
 
 /// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.
@@ -42,6 +44,7 @@ struct RunRequest {
   std::map<std::string, double> nuisances;  // relative deviation by name; absent: 0
   std::uint64_t seed = 0;                   // of random effects and of the initial pose
   double step_factor = 1;                   // time step over that of the case, for u_num
+  std::map<std::string, int> forms{};       // of the effects, by name; absent: the first
 };
 
 struct RunResult {

@@ -56,6 +56,7 @@ class CaseSimulator final : public Simulator {
   MPI_Comm comm_;
   std::filesystem::path folder_;
   std::vector<Observable> observables_;
+  double picture_size_;  // m
   std::vector<Point> points_;
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;

@@ -21,12 +21,25 @@ LibraryEffect setting_effect(const Candidate& candidate) {
   return effect;
 }
 
+/// The functional forms in which a force is written, the one of a case that names none first.
+std::vector<std::string> forms_of(FluidForce& force) {
+  for (const Parameter& parameter : force.parameters()) {
+    if (parameter.key != "form") continue;
+    std::vector<std::string> forms = parameter.choices;
+    const auto usual = std::find(forms.begin(), forms.end(), *std::get<std::string*>(parameter.target));
+    std::rotate(forms.begin(), usual, usual + 1);
+    return forms;
+  }
+  return {};
+}
+
 std::vector<LibraryEffect> all_of_cases() {
   std::vector<LibraryEffect> all;
   for (const std::string& name : fluid_forces().names()) {
-    const Card card = fluid_forces().make(name, "diagnosis")->card();
+    const auto force = fluid_forces().make(name, "diagnosis");
+    const Card card = force->card();
     // Gravity is no name in [coupling] forces: it acts where its table is given.
-    if (card.prior) all.push_back({.name = name, .prior = *card.prior, .is_force = name != "gravity"});
+    if (card.prior) all.push_back({.name = name, .prior = *card.prior, .is_force = name != "gravity", .forms = forms_of(*force)});
   }
   for (const Candidate& candidate : dem_candidates()) all.push_back(setting_effect(candidate));
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
@@ -69,12 +82,13 @@ std::string seed_of(const std::string& force, std::uint64_t seed) {
   return "coupling." + force + ".seed=" + std::to_string(seed % 1000000007);
 }
 
-std::vector<std::string> LibraryEffect::overrides(double theta, std::uint64_t seed,
+std::vector<std::string> LibraryEffect::overrides(double theta, int form, std::uint64_t seed,
                                                   const std::function<std::string(const std::string&)>& base) const {
   if (name == "gravity") return {prior.key + "=[0.0, 0.0, " + toml_text(-9.81 * theta) + "]"};
   if (added_to.empty()) {
     std::vector<std::string> all{prior.key + "=" + toml_text(theta)};
     if (prior.random) all.push_back(seed_of(name, seed));
+    if (form > 0) all.push_back("coupling." + name + ".form=\"" + forms.at(static_cast<std::size_t>(form)) + "\"");
     return all;
   }
   std::vector<std::string> all;
@@ -102,7 +116,9 @@ std::vector<Effect> library_effects(const BaseCase& facts, const std::vector<std
                    .maximum = p.maximum,
                    .random = p.random,
                    .acts_on_water = p.acts_on_water,
-                   .blind = held ? "the base case holds it" : reason_against(p, facts)});
+                   .blind = held ? "the base case holds it" : reason_against(p, facts),
+                   // The mean of random runs is no mixture of their forms.
+                   .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size()))});
   }
   for (const std::string& name : effect_models().names()) all.push_back(effect_models().make(name, "diagnosis")->effect(facts));
   std::sort(all.begin(), all.end(), [](const Effect& a, const Effect& b) { return a.name < b.name; });

@@ -23,6 +23,7 @@ namespace {
 
 constexpr const char* flow_field = "flow.amplitude";
 constexpr const char* drag_form = "drag_form";
+constexpr const char* drag_slope = "drag_form.slope";
 
 /// Value times factor, number by number, as TOML.
 std::string scaled_text(const toml::node& node, double factor) {
@@ -166,6 +167,14 @@ class KeyChanges {
   std::map<std::string, Scaled> factors_;
 };
 
+/// Adds to the exponent of Re in the drag, beside what the candidate of that name does.
+void add_exponent(double exponent, const std::map<std::string, double>& effects, KeyChanges& keys, std::vector<std::string>& forces) {
+  constexpr const char* name = "drag_exponent";
+  const auto effect = effects.find(name);
+  keys.set(std::string("coupling.") + name + ".exponent=" + toml_text(exponent + (effect == effects.end() ? 0 : effect->second)));
+  if (std::find(forces.begin(), forces.end(), name) == forces.end()) forces.emplace_back(name);
+}
+
 /// v turned by an angle about a unit axis (Rodrigues).
 Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
@@ -220,7 +229,7 @@ void PointCase::turn(double angle, std::vector<std::string>& overrides) const {
 }
 
 CaseChange PointCase::change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances,
-                             std::uint64_t seed) const {
+                             std::uint64_t seed, const std::map<std::string, int>& forms_of_effects) const {
   CaseChange change;
   RunChange run;
   KeyChanges keys(tree_->root);
@@ -233,23 +242,29 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
   }
   for (const auto& [name, theta] : effects) {
     if (theta == 0) continue;  // the base model to the bit
+    const auto chosen = forms_of_effects.find(name);
+    const int form = chosen == forms_of_effects.end() ? 0 : chosen->second;
     if (const LibraryEffect* of_library = library_effect(name)) {
       if (of_library->is_force && std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
-      for (const std::string& text : of_library->overrides(theta, seed, [this](const std::string& key) { return value_of(key); }))
+      for (const std::string& text : of_library->overrides(theta, form, seed, [this](const std::string& key) { return value_of(key); }))
         keys.set(text);
     } else {
-      effect_models().make(name, "diagnosis")->change(theta, seed, run);
+      effect_models().make(name, "diagnosis")->change(theta, form, seed, run);
     }
   }
+  double exponent = 0;
   for (const auto& [name, deviation] : nuisances) {
     if (deviation == 0) continue;
     if (name == flow_field)
       run.flow_factor *= 1 + deviation;
     else if (name == drag_form)
       for (const std::string& key : drag_factors_) keys.scale(key, 1 + deviation);
+    else if (name == drag_slope)
+      exponent += deviation;
     else
       keys.scale(name, 1 + deviation);
   }
+  if (exponent != 0) add_exponent(exponent, effects, keys, forces);
   if (forces.size() > n_base) {
     for (std::string& name : forces) name = toml_text(name);
     keys.set("coupling.forces=[" + joined(forces) + "]");
@@ -262,7 +277,7 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
     for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) keys.scale(key, run.flow_factor);
   change.overrides = keys.overrides();
   if (run.turn != 0) turn(run.turn, change.overrides);
-  change.picture_scale = run.picture_scale;
+  change.picture_scale = run.picture_scale, change.picture_centre = run.picture_centre;
   return change;
 }
 

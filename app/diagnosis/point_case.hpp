@@ -16,6 +16,7 @@ namespace snag {
 struct CaseChange {
   std::vector<std::string> overrides{};  // "section.key=value"
   double picture_scale = 1;
+  Vec3 picture_centre{};  // where the scale leaves lengths as they are, in sizes of the picture
 };
 
 class PointCase {
@@ -34,7 +35,9 @@ class PointCase {
 
   /// The case of a run of this seed with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name
   /// that is neither an effect nor a key of the case.
-  CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed) const;
+  /// `forms`: of the effects, by index; what is not there: the first.
+  CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed,
+                    const std::map<std::string, int>& forms = {}) const;
   /// The override that changes the number of steps by 1/factor.
   std::string with_step_factor(double factor) const;
   /// Time at which a run ends, s.

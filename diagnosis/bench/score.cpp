@@ -57,18 +57,32 @@ std::vector<ScoreCard::Bin> reliability_of(const std::vector<ScoreRow>& rows) {
   return bins;
 }
 
-/// Single effects by gap over floor, in bins of about ten: the lower end of the first bin from which all have four hits of five.
-double limit_of_detection(std::vector<ScoreRow> rows) {
-  std::erase_if(rows, [](const ScoreRow& row) { return row.kind != "single" || !std::isfinite(row.gap_over_floor); });
-  std::sort(rows.begin(), rows.end(), [](const ScoreRow& a, const ScoreRow& b) { return a.gap_over_floor > b.gap_over_floor; });
-  double limit = std::numeric_limits<double>::infinity();
-  constexpr std::size_t size = 10;
-  for (std::size_t first = 0; first + size <= rows.size(); first += size) {
-    const auto hits = std::count_if(rows.begin() + static_cast<long>(first), rows.begin() + static_cast<long>(first + size), hit);
-    if (static_cast<double>(hits) < 0.8 * size) break;
-    limit = rows[first + size - 1].gap_over_floor;
+/// Gap over floor at which four of five single effects are named, by a logistic curve in its logarithm, P = 1/(1 + exp(-a - b log g)), of
+/// greatest likelihood under a weak prior on a and b (N(0, 10^2)); infinite where that lies beyond every set, or where the curve falls.
+double limit_of_detection(const std::vector<ScoreRow>& rows) {
+  std::vector<std::pair<double, bool>> sets;
+  for (const ScoreRow& row : rows)
+    if (row.kind == "single" && row.gap_over_floor > 0 && std::isfinite(row.gap_over_floor))
+      sets.emplace_back(std::log(row.gap_over_floor), hit(row));
+  constexpr std::size_t least = 10;
+  if (sets.size() < least) return std::numeric_limits<double>::infinity();
+  double a = 0, b = 0;
+  constexpr double precision = 1e-2;
+  for (int i = 0; i < 100; ++i) {
+    double ga = -precision * a, gb = -precision * b, haa = precision, hab = 0, hbb = precision;
+    for (const auto& [x, is_hit] : sets) {
+      const double p = 1 / (1 + std::exp(-a - b * x)), w = p * (1 - p);
+      ga += is_hit - p, gb += (is_hit - p) * x, haa += w, hab += w * x, hbb += w * x * x;
+    }
+    const double det = haa * hbb - hab * hab;
+    const double da = (hbb * ga - hab * gb) / det, db = (haa * gb - hab * ga) / det;
+    const double shorter = 1 / std::max(1.0, std::hypot(da, db));
+    a += shorter * da, b += shorter * db;
   }
-  return limit;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const auto& [x, is_hit] : sets) largest = std::max(largest, x);
+  const double limit = (std::log(4.0) - a) / b;
+  return b > 0 && limit <= largest ? std::exp(limit) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ struct ScoreCard {
   double ece = 0, brier = 0;      // expected calibration error of the first probability (10 bins); mean Brier score
   double shrinkage_median = 0;    // of right verdicts, over the ideal: a model that is the truth leaves the noise only, which is 1
   double interval_coverage = 0;   // share of their 95 % intervals that hold the ideal
-  double detection_limit = 0;     // gap over floor from which P(hit) >= 0.8 in bins of equal counts; inf: nowhere
+  double detection_limit = 0;     // gap over floor from which P(hit) >= 0.8 by a logistic curve; inf: nowhere
   std::map<std::string, std::map<std::string, int>> confusion;  // truth -> said -> sets
   struct Bin {
     double stated = 0, right = 0;  // means

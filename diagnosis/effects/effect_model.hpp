@@ -24,6 +24,7 @@ struct RunChange {
   double flow_factor = 1;     // of the velocity of the whole flow field
   double varying_factor = 1;  // of the part that changes in space or time
   double picture_scale = 1;   // of all lengths that a camera tells
+  Vec3 picture_centre{};      // about this point, in sizes of the picture
   double turn = 0;            // of the pieces at the start, about the camera's line of sight, rad
 };
 
@@ -32,8 +33,8 @@ class EffectModel {
   virtual ~EffectModel() = default;
   /// Its record, with the reason why this base case cannot show it, if there is one.
   virtual Effect effect(const BaseCase& base) const = 0;
-  /// Adds an effect of strength theta to a run; `seed` is that of the run.
-  virtual void change(double theta, std::uint64_t seed, RunChange& run) const = 0;
+  /// Adds an effect of strength theta to a run; `form`: index among its forms and deviations, `seed`: that of the run.
+  virtual void change(double theta, int form, std::uint64_t seed, RunChange& run) const = 0;
 };
 
 /// All that are no forces, by the names of the candidates.

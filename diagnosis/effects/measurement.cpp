@@ -1,5 +1,6 @@
-// Scale of the camera: every length in a picture is (1 + theta) times the true one, about the origin of the coordinates; areas go with the
-// square, ratios and angles do not change. Calibrations of a camera in water are wrong by some per cent when refraction is left out.
+// Scale of the camera: every length in a picture is (1 + theta) times the true one, about a centre that nobody tells: the origin of the
+// coordinates, give or take the size of the picture in each direction. Areas go with the square, ratios and angles do not change.
+// Calibrations of a camera in water are wrong by some per cent when refraction is left out.
 #include "diagnosis/effects/effect_model.hpp"
 
 namespace snag {
@@ -18,9 +19,13 @@ struct Measurement final : EffectModel {
             .maximum = 0.3,
             .random = false,
             .acts_on_water = false,
-            .blind = {}};
+            .blind = {},
+            .n_deviations = 3};
   }
-  void change(double theta, std::uint64_t, RunChange& run) const override { run.picture_scale *= 1 + theta; }
+  void change(double theta, int form, std::uint64_t, RunChange& run) const override {
+    run.picture_scale *= 1 + theta;
+    if (form > 0) run.picture_centre[form - 1] = 1;
+  }
 };
 [[maybe_unused]] const bool registered = effect_models().add<Measurement>();
 

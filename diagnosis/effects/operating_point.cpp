@@ -20,7 +20,7 @@ struct OperatingPoint final : EffectModel {
             .acts_on_water = false,
             .blind = base.flows ? "" : "the water is at rest"};
   }
-  void change(double theta, std::uint64_t, RunChange& run) const override { run.flow_factor *= 1 + theta; }
+  void change(double theta, int, std::uint64_t, RunChange& run) const override { run.flow_factor *= 1 + theta; }
 };
 [[maybe_unused]] const bool registered = effect_models().add<OperatingPoint>();
 
