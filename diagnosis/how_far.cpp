@@ -59,12 +59,6 @@ class HowFar {
       moved_input.push_back(model_.run(moved, withheld));
       if (!fit.hypothesis.effects.empty()) posterior[j] = std::sqrt(fit.solution.covariance(k + j, k + j));
     }
-    std::vector<std::vector<Response>> without;
-    for (int e = 0; e < k; ++e) {
-      State less = leading;
-      less.effects[e].second = 0;
-      without.push_back(model_.run(less, withheld));
-    }
     Prediction prediction;
     for (std::size_t p = 0; p < withheld.size(); ++p) {
       const PointSummary& point = model_.points()[withheld[p]];
@@ -79,17 +73,10 @@ class HowFar {
       Eigen::MatrixXd strength(g, n_open), input(g, m);
       for (Eigen::Index e = 0; e < n_open; ++e) strength.col(e) = scaled(moved_strength[static_cast<std::size_t>(e)][p], responses[p]);
       for (int j = 0; j < m; ++j) input.col(j) = scaled(moved_input[j][p], lead[p]) * posterior[j];
-      // Noise, step, scatter of the runs and the error of form that the effect was found with, as in the fit.
-      const auto change = [&](const Response& a, const Response& b) {
-        return Eigen::VectorXd((a.value - b.value).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
-      };
-      std::vector<Eigen::VectorXd> parts;
-      for (int e = 0; e < k; ++e) parts.push_back(change(lead[p], without[static_cast<std::size_t>(e)][p]));
-      std::vector<const Eigen::VectorXd*> own;
-      for (const auto& part : parts) own.push_back(&part);
+      const Eigen::VectorXd scatter = responses[p].scatter.head(g).cwiseQuotient(u.cwiseAbs2()) / responses[p].n_runs;
       const Eigen::MatrixXd scale = u.cwiseInverse().asDiagonal();
-      Eigen::MatrixXd V = scale * model_covariance(point, responses[p], change(coarse[p], lead[p]), own, fit.form_error) * scale;
-      V.diagonal().array() += 1e-9;
+      Eigen::MatrixXd V = scale * point.covariance * scale;
+      V.diagonal() += scaled(coarse[p], lead[p]).cwiseAbs2() + scatter + Eigen::VectorXd::Constant(g, 1e-9);
       // The best inputs turn an error e into V (V + B B^T)^-1 e.
       const Eigen::MatrixXd projection = (V + input * input.transpose()).llt().solve(V).transpose();
       const Eigen::MatrixXd covariance = projection * V;

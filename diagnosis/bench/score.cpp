@@ -57,6 +57,14 @@ std::vector<ScoreCard::Bin> reliability_of(const std::vector<ScoreRow>& rows) {
   return bins;
 }
 
+/// Mean distance between the probability stated for what is likeliest and how often that is right.
+double calibration_error(const std::vector<ScoreRow>& rows) {
+  double error = 0;
+  for (const auto& bin : reliability_of(rows))
+    if (!rows.empty()) error += std::abs(bin.stated - bin.right) * bin.n / static_cast<double>(rows.size());
+  return error;
+}
+
 /// Gap over floor at which four of five single effects are named, by a logistic curve in its logarithm, P = 1/(1 + exp(-a - b log g)), of
 /// greatest likelihood under a weak prior on a and b (N(0, 10^2)); infinite where that lies beyond every set, or where the curve falls.
 double limit_of_detection(const std::vector<ScoreRow>& rows) {
@@ -170,8 +178,12 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
           rows, "attributed and wrong, all sets", false, 0.05, [](const ScoreRow&) { return true; },
           [&](const ScoreRow& row) { return attributes(row) && !hit(row); })};
   card.reliability = reliability_of(rows);
-  for (const auto& bin : card.reliability)
-    if (!rows.empty()) card.ece += std::abs(bin.stated - bin.right) * bin.n / static_cast<double>(rows.size());
+  card.ece = calibration_error(rows);
+  // Of effects that cannot be seen a diagnosis cannot know more than its prior.
+  std::vector<ScoreRow> telling = rows;
+  std::erase_if(telling, [&](const ScoreRow& row) { return !is_null(row) && row.detectability < 3; });
+  double brier_of_telling = 0;
+  for (const ScoreRow& row : telling) brier_of_telling += row.brier / static_cast<double>(telling.size());
   std::vector<double> shrunk;
   int covered = 0;
   for (const ScoreRow& row : rows) {
@@ -184,13 +196,15 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   card.shrinkage_median = shrunk.empty() ? nan : shrunk[shrunk.size() / 2];
   card.interval_coverage = shrunk.empty() ? nan : covered / static_cast<double>(shrunk.size());
   card.detection_limit = limit_of_detection(rows);
-  const int n = static_cast<int>(rows.size()), n_shrunk = static_cast<int>(shrunk.size());
+  const int n = static_cast<int>(rows.size()), n_telling = static_cast<int>(telling.size()), n_shrunk = static_cast<int>(shrunk.size());
   const auto singles = std::count_if(rows.begin(), rows.end(), [](const ScoreRow& row) { return row.kind == "single"; });
   card.measures = {{"expected calibration error", "<= 0.08", card.ece, 0, 0.08, n},
                    {"Brier score", "<= 0.25", card.brier, 0, 0.25, n},
                    {"shrinkage over ideal, median of right verdicts", ">= 0.9", card.shrinkage_median, 0.9, 1e9, n_shrunk},
                    {"95 % intervals of the shrinkage that hold the ideal", "0.9 to 0.98", card.interval_coverage, 0.9, 0.98, n_shrunk},
-                   {"detection limit, gap over floor", "<= 2", card.detection_limit, 0, 2, static_cast<int>(singles)}};
+                   {"detection limit, gap over floor", "<= 2", card.detection_limit, 0, 2, static_cast<int>(singles)},
+                   {"calibration error of sets that can be told", "<= 0.08", calibration_error(telling), 0, 0.08, n_telling},
+                   {"Brier score of sets that can be told", "<= 0.25", brier_of_telling, 0, 0.25, n_telling}};
   return card;
 }
 
