@@ -78,8 +78,8 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     : comm_(comm), folder_(folder), observables_(experiment.observables) {
   const std::string program = folder_.empty() ? "" : program_fingerprint(comm_);
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
-    PointCase base(experiment.points[p].case_file);
-    if (base.has_mesh() && folder_.empty())
+    PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
+    if (base.is_whole_run() && folder_.empty())
       throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
     for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
@@ -87,7 +87,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     std::string fingerprint = base.sha256() + program;
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
-      if (!base.has_mesh() && !is_observable_of_particles(id))
+      if (!base.is_whole_run() && !is_observable_of_particles(id))
         throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": observable \"" + id +
                                          "\" is no number of a case without a mesh; there are x, y, z, vx, vy, vz, area, elongation_ratio, "
                                          "orientation, retention_time, recirculations, stuck, exited");
@@ -146,7 +146,7 @@ RunResult CaseSimulator::done(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   RunResult result;
   try {
-    result.values = run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor);
+    result.values = run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor, {}, &store_);
   } catch (const std::exception& failure) {
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
     result.failure = failure.what();
@@ -186,18 +186,7 @@ RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange
   return raw;
 }
 
-std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
-  std::vector<Job> jobs;
-  jobs.reserve(requests.size());
-  for (const RunRequest& request : requests) {
-    jobs.push_back(job_of(request));
-    used_.insert(jobs.back().key);
-  }
-  std::vector<const Job*> fresh;  // the same on every rank
-  std::set<std::string> listed;
-  for (const Job& job : jobs)
-    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
-
+void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
   // Every rank fills in its own runs; the bits of the others are zero.
   constexpr std::size_t text_size = 512;
   std::vector<std::uint64_t> bits;
@@ -206,9 +195,9 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   for (std::size_t j = 0; j < fresh.size(); ++j) {
     const std::size_t n = slots(fresh[j]->request->point).size(), first = bits.size();
     bits.resize(first + n, 0);
-    const bool mesh = has_mesh(*fresh[j]);
-    if (!mesh && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
-    const RunResult result = mesh ? done_together(*fresh[j]) : done(*fresh[j]);
+    const bool whole_run = is_whole_run(*fresh[j]);
+    if (!whole_run && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
+    const RunResult result = whole_run ? done_together(*fresh[j]) : done(*fresh[j]);
     for (std::size_t i = 0; i < n; ++i) bits[first + i] = std::bit_cast<std::uint64_t>(result.values[i]);
     std::strncpy(&failures[j * text_size], result.failure.c_str(), text_size - 1);
   }
@@ -225,6 +214,24 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   }
   if (cache_.is_open()) cache_.flush();
   n_runs_ += static_cast<int>(fresh.size());
+}
+
+std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
+  std::vector<Job> jobs;
+  jobs.reserve(requests.size());
+  for (const RunRequest& request : requests) {
+    jobs.push_back(job_of(request));
+    used_.insert(jobs.back().key);
+  }
+  std::vector<const Job*> fresh;  // the same on every rank
+  std::set<std::string> listed;
+  for (const Job& job : jobs)
+    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
+
+  // In portions, each of which is kept when it is done: a diagnosis that is stopped goes on from there.
+  constexpr std::size_t per_rank = 8;
+  const std::size_t portion = per_rank * static_cast<std::size_t>(size_of(comm_));
+  for (std::size_t j = 0; j < fresh.size(); j += portion) run_portion(std::span(fresh).subspan(j, std::min(portion, fresh.size() - j)));
 
   std::vector<RunResult> results;
   results.reserve(jobs.size());
