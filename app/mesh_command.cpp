@@ -40,7 +40,7 @@ Action add_mesh(CLI::App& app) {
   return [command, options] {
     if (!options->judged.empty()) return judge(options->judged, options->scale);
     const std::vector<std::string> rest = command->remaining();
-    if (!rest.empty()) return generate_mesh(rest);
+    if (!rest.empty()) return generate_mesh(MPI_COMM_WORLD, rest);
     if (rank_of(MPI_COMM_WORLD) == 0) std::cout << command->help();
     return ExitCode::usage;
   };

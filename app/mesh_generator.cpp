@@ -1,7 +1,5 @@
 #include "app/mesh_generator.hpp"
 
-#include <mpi.h>
-
 #include <filesystem>
 
 #include "base/child_process.hpp"
@@ -19,12 +17,12 @@ int run_generator(std::vector<std::string> arguments) {
 
 }  // namespace
 
-ExitCode generate_mesh(std::vector<std::string> arguments) {
+ExitCode generate_mesh(MPI_Comm comm, std::vector<std::string> arguments) {
   int code = 0;
-  together(MPI_COMM_WORLD, [&] {
-    if (rank_of(MPI_COMM_WORLD) == 0) code = run_generator(std::move(arguments));
+  together(comm, [&] {
+    if (rank_of(comm) == 0) code = run_generator(std::move(arguments));
   });
-  MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  MPI_Bcast(&code, 1, MPI_INT, 0, comm);
   return static_cast<ExitCode>(code);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 // The mesh generator is a program of its own beside this one (only it is linked to the gmsh library).
+#include <mpi.h>
+
 #include <string>
 #include <vector>
 
@@ -7,8 +9,7 @@
 
 namespace snag {
 
-/// Run snag-mesh with these arguments on rank 0; its exit code on every rank. Collective over all ranks; throws Error(io) if it cannot be
-/// started.
-ExitCode generate_mesh(std::vector<std::string> arguments);
+/// Run snag-mesh with these arguments on rank 0; its exit code on every rank. Collective; throws Error(io) if it cannot be started.
+ExitCode generate_mesh(MPI_Comm comm, std::vector<std::string> arguments);
 
 }  // namespace snag

@@ -140,7 +140,9 @@ ExitCode run_case(const RunOptions& options) {
   std::unique_ptr<CheckpointReader> reader;
   if (options.resume) reader = std::make_unique<CheckpointReader>(world, folder / "checkpoint");
 
-  Simulation simulation(file, world, stored_partition(reader.get()), reader ? folder / "rags" : std::filesystem::path());
+  Simulation::Stored stored;
+  if (reader) stored = {.partition = stored_partition(reader.get()), .poses = folder / "rags"};
+  Simulation simulation(file, world, std::move(stored));
   if (reader && reader->stamp().case_sha256 != file.sha256())
     throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
                                      reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +

@@ -38,14 +38,14 @@ void read(const Table& root, Settings& settings) {
   root.table(section.name).read(section.parameters);
 }
 
-std::filesystem::path made_mesh(const MeshSettings& settings, const CaseFile& file) {
+std::filesystem::path made_mesh(MPI_Comm comm, const MeshSettings& settings, const CaseFile& file) {
   int process = static_cast<int>(getpid());
-  MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  MPI_Bcast(&process, 1, MPI_INT, 0, comm);
   auto path = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(process) + ".msh");
   std::vector<std::string> arguments{settings.geometry};
   if (!settings.parameters.empty()) arguments.push_back(file.path(settings.parameters).string());
   arguments.insert(arguments.end(), {"--out", path.string()});
-  const ExitCode code = generate_mesh(arguments);
+  const ExitCode code = generate_mesh(comm, arguments);
   if (code != ExitCode::ok)
     throw Error(code,
                 "[mesh] geometry = \"" + settings.geometry + "\": no mesh was made; try snag mesh " + settings.geometry + " by itself");
@@ -54,8 +54,8 @@ std::filesystem::path made_mesh(const MeshSettings& settings, const CaseFile& fi
 
 }  // namespace
 
-Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition, std::filesystem::path stored_poses)
-    : comm_(comm), stored_poses_(std::move(stored_poses)) {
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, WaterStore* store)
+    : comm_(comm), stored_(std::move(stored)), store_(store) {
   const Table root = file.root();
   read(root, case_settings);
   read(root, time_settings);
@@ -65,7 +65,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::v
   read(root, start_settings_);
   start_folder_ = file.path(start_settings_.from);
   time_settings.n_steps();
-  read_mesh(file, std::move(partition));
+  read_mesh(file);
   build_water(file);
   read_pump(root);
   build_rags(file);
@@ -76,9 +76,9 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::v
 
 Simulation::~Simulation() = default;
 
-void Simulation::read_mesh(const CaseFile& file, std::optional<std::vector<int>> partition) {
+void Simulation::read_mesh(const CaseFile& file) {
   read(file.root(), mesh_settings_);
-  ImportOptions options{.scale = mesh_settings_.scale, .partition = std::move(partition)};
+  ImportOptions options{.scale = mesh_settings_.scale, .partition = stored_.partition};
   for (const Table& table : file.root().tables("periodic")) {
     PeriodicSettings periodic;
     table.read(periodic.section().parameters);
@@ -89,12 +89,22 @@ void Simulation::read_mesh(const CaseFile& file, std::optional<std::vector<int>>
     if (mesh_settings_.file.empty()) return;
     throw Error(ExitCode::usage, "[mesh] gives both a file and a geometry; keep one of them");
   }
-  TemporaryMesh made;
-  if (!mesh_settings_.geometry.empty()) made.file = made_mesh(mesh_settings_, file);
-  const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
-  mesh = std::make_unique<Mesh>(import_gmsh(path, comm_, options));
-  mesh_quality = quality(*mesh);
-  if (!mesh_quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + mesh_quality.failures.front());
+  // Only standing meshes are shared: a turning one is left at some angle by the run before.
+  mesh_key_ = joined({file.path(mesh_settings_.file).string(), file.path(mesh_settings_.parameters).string(), mesh_settings_.geometry,
+                      words(mesh_settings_.scale)});
+  StoredMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
+  if (!kept || !kept->mesh) {
+    TemporaryMesh made;
+    if (!mesh_settings_.geometry.empty()) made.file = made_mesh(comm_, mesh_settings_, file);
+    const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
+    StoredMesh fresh{.mesh = std::make_shared<Mesh>(import_gmsh(path, comm_, options)), .quality = {}};
+    fresh.quality = quality(*fresh.mesh);
+    if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());
+    mesh = fresh.mesh, mesh_quality = fresh.quality;
+    if (kept) *kept = std::move(fresh);
+    return;
+  }
+  mesh = kept->mesh, mesh_quality = kept->quality;
 }
 
 void Simulation::build_water(const CaseFile& file) {
@@ -108,7 +118,18 @@ void Simulation::build_water(const CaseFile& file) {
   read(file.root(), settings);
   const auto gap_picture = std::filesystem::path(file.file()).replace_extension(".interface_gap.vtp");
   auto zone = read_rotating_zone(file.root(), *mesh, gap_picture);
-  water = std::make_unique<FlowSolver>(*mesh, settings, read_boundaries(file.root()), read_turbulence(file.root()), std::move(zone));
+  if (start_settings_.frozen && zone)
+    throw Error(ExitCode::usage, "[start] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
+  auto boundaries = read_boundaries(file.root());
+  auto turbulence = read_turbulence(file.root());
+  if (store_ && start_settings_.frozen) {
+    const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map), words(settings.density),
+                             words(settings.viscosity()), words(turbulence != nullptr)});
+    stored_water_ = &store_->waters[key];
+    water = stored_water_->solver;
+  }
+  if (!water) water = std::make_shared<FlowSolver>(*mesh, settings, std::move(boundaries), std::move(turbulence), std::move(zone));
+  if (stored_water_) stored_water_->solver = water;
 }
 
 void Simulation::read_pump(const Table& root) {
@@ -135,7 +156,7 @@ void Simulation::build_rags(const CaseFile& file) {
     throw Error(ExitCode::usage,
                 "[rotating_zone] motion = \"frame\" with rags: the mesh would stand while the walls turn; use \"sliding\"");
   place_at_patches(mesh.get(), pieces);
-  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_poses_);
+  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.poses);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
   if (way) rags->contacts()->mark_line({way->tongue(), way->direction(), way->tongue_reach()});
@@ -146,8 +167,12 @@ void Simulation::build_rags(const CaseFile& file) {
 void Simulation::couple(const CaseFile& file) {
   if (!rags) return;
   if (water) {
-    coupled = std::make_unique<CoupledSolver>(read_coupling(file.root()), *rags, water->flow,
-                                              [this](double dt) { flow_report = water->advance(dt); });
+    const bool frozen = start_settings_.frozen;
+    Coupling coupling = read_coupling(file.root());
+    if (frozen && coupling.settings.two_way())
+      throw Error(ExitCode::usage,
+                  "[start] frozen with [coupling] mode = \"two_way\": water that stands cannot feel the rags; use \"one_way\"");
+    coupled = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
   } else if (prescribed_) {
     coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
   } else {
@@ -158,6 +183,13 @@ void Simulation::couple(const CaseFile& file) {
   if (coupled) coupled->set_walls(walls);
 }
 
+void Simulation::move_water(double dt) {
+  if (start_settings_.frozen)
+    water->hold(dt);
+  else
+    flow_report = water->advance(dt);
+}
+
 void Simulation::step() {
   const double begun = MPI_Wtime();
   // At the beginning of a step: what the last one left behind for the outputs belongs to the rags that were there.
@@ -165,7 +197,7 @@ void Simulation::step() {
   if (coupled) {
     coupled->step(time_settings.step);
   } else if (water) {
-    flow_report = water->advance(time_settings.step);
+    move_water(time_settings.step);
   } else {
     rags->migrate();
     rags->advance(time_settings.step);
@@ -233,10 +265,24 @@ void Simulation::check_inside() {
   strays_told_ = true;
 }
 
-std::string Simulation::start() const {
-  if (start_settings_.from.empty()) return {};
+std::string Simulation::start() {
+  const bool frozen = start_settings_.frozen;
+  if (start_settings_.from.empty()) {
+    if (frozen) throw Error(ExitCode::usage, "[start] frozen: there is no water to stand still; give from, the output folder of a run");
+    return {};
+  }
   if (!water) throw Error(ExitCode::usage, "[start] from: this case computes no water; remove it, or give [mesh]");
-  return start_flow(*water, start_settings_, start_folder_);
+  if (!frozen) return start_flow(*water, start_settings_, start_folder_);
+  StoredWater own;
+  StoredWater& kept = stored_water_ ? *stored_water_ : own;
+  std::string told = "start: frozen water of " + start_folder_.string();
+  if (!kept.as_started) {
+    told = start_flow(*water, start_settings_, start_folder_) + ", frozen";
+    water->start();
+    kept.as_started.emplace(water->flow);
+  }
+  scale_flow(water->flow, *kept.as_started, start_settings_.velocity_factor);
+  return told;
 }
 
 void Simulation::save(CheckpointWriter& writer) const {

@@ -8,6 +8,7 @@
 #include "app/rag_poses.hpp"
 #include "app/settings.hpp"
 #include "app/start_flow.hpp"
+#include "app/water_store.hpp"
 #include "base/case_file.hpp"
 #include "coupling/coupled_solver.hpp"
 #include "dem/rag_system.hpp"
@@ -20,9 +21,14 @@ namespace snag {
 
 class Simulation {
  public:
-  /// Reads the whole case, refuses unknown keys, and builds. `partition`: rank of every cell, of a checkpoint; `stored_poses`: folder with
-  /// the poses of the run that is resumed. Collective; throws Error.
-  Simulation(const CaseFile& file, MPI_Comm comm, std::optional<std::vector<int>> partition = {}, std::filesystem::path stored_poses = {});
+  /// Of a run that is resumed.
+  struct Stored {
+    std::optional<std::vector<int>> partition;  // rank of every cell
+    std::filesystem::path poses;                // folder with the poses
+  };
+  /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn.
+  /// Collective; throws Error.
+  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, WaterStore* store = nullptr);
   ~Simulation();
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
@@ -32,7 +38,9 @@ class Simulation {
 
   /// Initial fields of the water from another run, if [start] names one; returns a line for the log, empty without. Collective; throws
   /// Error.
-  std::string start() const;
+  std::string start();
+  /// The water stays as [start] gives it.
+  bool frozen() const { return start_settings_.frozen; }
   /// Puts in the rags whose time has come, and checks them; to be called once before the first step, later ones do it themselves.
   /// Collective; throws Error(usage).
   void insert_rags();
@@ -46,10 +54,10 @@ class Simulation {
   ObserveSettings observe_settings;
 
   // absent parts are null
-  std::unique_ptr<Mesh> mesh;
+  std::shared_ptr<Mesh> mesh;
   MeshQuality mesh_quality;
   WallSet walls;
-  std::unique_ptr<FlowSolver> water;
+  std::shared_ptr<FlowSolver> water;
   std::optional<PumpSettings> pump;  // of a case with a rotating zone
   std::unique_ptr<RagPoses> poses;
   std::unique_ptr<RagSystem> rags;
@@ -64,11 +72,12 @@ class Simulation {
   Seconds seconds() const;
 
  private:
-  void read_mesh(const CaseFile& file, std::optional<std::vector<int>> partition);
+  void read_mesh(const CaseFile& file);
   void build_water(const CaseFile& file);
   void read_pump(const Table& root);
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
+  void move_water(double dt);
   void push_with_water(int rag);
   void remove_rags();
   void check_inside();
@@ -76,7 +85,11 @@ class Simulation {
   MPI_Comm comm_;
   MeshSettings mesh_settings_;
   StartSettings start_settings_;
-  std::filesystem::path start_folder_, stored_poses_;
+  std::filesystem::path start_folder_;
+  Stored stored_;
+  WaterStore* store_;
+  StoredWater* stored_water_ = nullptr;  // of the store, for frozen water
+  std::string mesh_key_;                 // of the store
   std::optional<PrescribedFlow> prescribed_;
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling

@@ -104,12 +104,34 @@ std::vector<std::int64_t> nearest_ids(CheckpointReader& reader, const Mesh& mesh
 }  // namespace
 
 Section StartSettings::section() {
-  return {.name = "start",
-          .meaning = "Water to start from instead of the initial velocity: that of another run, as of a steady one. Time begins at 0.",
-          .parameters = {file_setting("from", &from,
-                                      "Output folder of the other run, relative to the case file; its newest checkpoint gives velocity, "
-                                      "pressure, k and epsilon. On the same mesh, unless map is set."),
-                         setting("map", &map, "Each cell takes the values of the nearest cell of the other run, for another mesh.")}};
+  return {
+      .name = "start",
+      .meaning = "Water to start from instead of the initial velocity: that of another run, as of a steady one. Time begins at 0.",
+      .parameters = {file_setting("from", &from,
+                                  "Output folder of the other run, relative to the case file; its newest checkpoint gives velocity, "
+                                  "pressure, k and epsilon. On the same mesh, unless map is set."),
+                     setting("map", &map, "Each cell takes the values of the nearest cell of the other run, for another mesh."),
+                     setting("frozen", &frozen,
+                             "The water stays as it starts and carries the rags, which it does not feel (one_way): many rags through one "
+                             "flow in a moment. Not with a rotating zone."),
+                     {"velocity_factor", &velocity_factor, "1", 0, 100, Basis::assumed,
+                      "frozen: the velocities of the other run times this, k with its square, epsilon with its cube: the same flow at "
+                      "another rate, as long as the Reynolds number hardly matters."}}};
+}
+
+void scale_flow(Flow& flow, const Flow& as_started, double factor) {
+  const auto scale = [](auto& values, const auto& from, double by) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = by * from[i];
+  };
+  const double square = factor * factor;
+  flow.time = as_started.time, flow.time_step = as_started.time_step;
+  scale(flow.velocity, as_started.velocity, factor);
+  for (std::size_t c = 0; c < flow.velocity_gradient.size(); ++c) scale(flow.velocity_gradient[c], as_started.velocity_gradient[c], factor);
+  scale(flow.flux, as_started.flux, factor), scale(flow.eddy_viscosity, as_started.eddy_viscosity, factor);
+  scale(flow.pressure, as_started.pressure, square), scale(flow.pressure_gradient, as_started.pressure_gradient, square);
+  scale(flow.boundary_pressure, as_started.boundary_pressure, square);
+  scale(flow.turbulent_kinetic_energy, as_started.turbulent_kinetic_energy, square);
+  scale(flow.dissipation_rate, as_started.dissipation_rate, square * factor);
 }
 
 std::string start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder) {

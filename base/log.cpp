@@ -4,6 +4,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/terminal.hpp"
 
@@ -54,5 +56,8 @@ void error(const std::string& message) {
 }
 
 void flush() { logger().flush(); }
+
+Silence::Silence() : level_(logger().level()) { logger().set_level(std::max(logger().level(), spdlog::level::err)); }
+Silence::~Silence() { logger().set_level(static_cast<spdlog::level::level_enum>(level_)); }
 
 }  // namespace snag::log

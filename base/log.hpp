@@ -14,4 +14,16 @@ void warning(const std::string& message);
 void error(const std::string& message);
 void flush();
 
+/// As long as it lives nothing but errors is told: a run in memory that is one of many.
+class Silence {
+ public:
+  Silence();
+  ~Silence();
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  int level_;
+};
+
 }  // namespace snag::log

@@ -10,12 +10,14 @@ namespace snag {
 namespace {
 constexpr double far_away = 1e9;            // m
 constexpr double reach_over_diameter = 10;  // drag along a wall is then 3 % above that of free fluid
+constexpr double skin_over_reach = 0.025;   // a quarter of a diameter
 }  // namespace
 
 NearestWall::NearestWall(const WallSet& walls, const std::vector<Rag>& rags) : walls_(walls) {
   for (const Rag& rag : rags) reach_ = std::max(reach_, reach_over_diameter * rag.hydrodynamic_diameter);
-  for (const WallBody& body : walls.bodies())
-    surfaces_.push_back(body.triangles.empty() ? TriangleSurface() : TriangleSurface(body.triangles, reach_, reach_));
+  for (std::size_t b = 0; b < walls.bodies().size(); ++b)
+    if (const auto& triangles = walls.bodies()[b].triangles; !triangles.empty())
+      surfaces_.emplace(b, Surface{NearTriangles(triangles, reach_, skin_over_reach * reach_), {}});
 }
 
 void NearestWall::find(const Particles& particles, double time, double* distance, const VectorSum& normal) const {
@@ -43,11 +45,15 @@ void NearestWall::find_plane(const Particles& particles, const WallPlane& plane,
 
 void NearestWall::find_triangle(const Particles& particles, std::size_t body, const WallPose& pose, double* distance,
                                 const VectorSum& normal) const {
-  const TriangleSurface& surface = surfaces_[body];
+  auto& [triangles, all_known] = surfaces_.at(body);
+  const TriangleSurface& surface = triangles.surface();
+  std::vector<Known>& known = all_known[&particles.tile];
+  if (known.size() < particles.tile.exists.size()) known.resize(particles.tile.exists.size());
   for_particles(particles.tile, [&](int p, int, int) {
     const Vec3 x = pose.in_wall(particles.position[p]);
+    if (!(norm(x - known[p].place) < triangles.skin())) known[p].place = x, triangles.around(x, known[p].triangles);
     double nearest = std::min(std::abs(distance[p]), reach_);
-    for (const int t : surface.near(x)) {
+    for (const int t : known[p].triangles) {
       if (!surface.within(t, x, nearest)) continue;
       const TriangleDistance found = surface.distance(t, x);
       if (std::abs(found.distance) >= nearest) continue;

@@ -83,8 +83,12 @@ std::span<const int> VoxelGrid::at(const Vec3& x) const {
   return {list_.data() + start_[v], list_.data() + start_[v + 1]};
 }
 
-TriangleSurface::TriangleSurface(const std::vector<WallTriangle>& triangles, double reach, double far_reach)
-    : fine_(triangles, reach, reach, most_voxels), coarse_(triangles, far_reach, 2 * far_reach, most_voxels / 8) {
+TriangleSurface::TriangleSurface(const std::vector<WallTriangle>& triangles, double reach, double far_reach) : TriangleSurface(triangles) {
+  fine_ = VoxelGrid(triangles, reach, reach, most_voxels);
+  coarse_ = VoxelGrid(triangles, far_reach, 2 * far_reach, most_voxels / 8);
+}
+
+TriangleSurface::TriangleSurface(const std::vector<WallTriangle>& triangles) {
   for (const WallTriangle& t : triangles) {
     Vec3 lower = t.node[0], upper = t.node[0];
     for (const Vec3& x : t.node)

@@ -60,7 +60,9 @@ class VoxelGrid {
 class TriangleSurface {
  public:
   TriangleSurface() = default;
-  /// `reach`: largest distance asked for in near(); `far_reach`: the same of may_be_near(), m.
+  /// Distances only.
+  explicit TriangleSurface(const std::vector<WallTriangle>& triangles);
+  /// And the search: `reach`: largest distance asked for in near(); `far_reach`: the same of may_be_near(), m.
   TriangleSurface(const std::vector<WallTriangle>& triangles, double reach, double far_reach);
 
   std::span<const int> near(const Vec3& centre) const { return fine_.at(centre); }

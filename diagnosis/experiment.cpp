@@ -46,6 +46,7 @@ OperatingPoint read_point(const Table& table, const CaseFile& file) {
   case_setting.required = true;
   table.read({{.key = "id", .target = &point.id, .unit = "", .meaning = "name of the operating point", .required = true},
               case_setting,
+              setting("set", &point.set, "Values of the case that this point replaces, as for --set: \"time.end_s=0.2\"."),
               setting("role", &role, "train, or withheld: used for \"how far\" only.", {"train", "withheld"})});
   point.case_file = file.path(case_file);
   point.withheld = role == "withheld";

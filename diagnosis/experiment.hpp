@@ -28,6 +28,7 @@ struct OperatingPoint {
   std::string id;
   std::filesystem::path case_file;                        // the base model
   bool withheld = false;                                  // used for "how far" only
+  std::vector<std::string> set{};                         // values of the case that this point replaces, "section.key=value"
   std::vector<std::pair<std::string, double>> input_u{};  // relative standard uncertainty by key of the case
 };
 

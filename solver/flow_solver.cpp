@@ -84,7 +84,7 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
 }
 
 StepReport FlowSolver::advance(double dt) {
-  if (!started_) start();
+  start();
   StepReport report;
   const double begun = seconds();
   time_ = bdf(dt, flow.time_step > 0 ? flow.time_step_size : 0);
@@ -98,8 +98,15 @@ StepReport FlowSolver::advance(double dt) {
   return report;
 }
 
+void FlowSolver::hold(double dt) {
+  start();
+  flow.velocity_old = flow.velocity;
+  flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
+}
+
 /// The velocity as it was given becomes divergence-free, as an impulsive start makes it.
 void FlowSolver::start() {
+  if (started_) return;
   boundary_.update(flow, flow.time);
   flow.mesh.halo.exchange(flow.velocity);
   update_gradient();

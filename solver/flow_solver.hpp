@@ -55,6 +55,10 @@ class FlowSolver {
 
   /// Advance by dt, second order in space and time. Throws Error(diverged) that names step, field and place.
   StepReport advance(double dt);
+  /// The water stays as it is for dt: a frozen field, for bodies that it carries. Not for a rotating zone.
+  void hold(double dt);
+  /// What the first step does before it begins: the velocity as it was given becomes divergence-free, gradients and halos are made. Once.
+  void start();
 
   /// Force per time that the rags gave to the water in the last step: sum V (reaction - drag u) with the velocity at its end, N.
   Vec3 momentum_given() const;
@@ -67,7 +71,6 @@ class FlowSolver {
   const BoundarySet& boundary() const { return boundary_; }
 
  private:
-  void start();
   void balance_body_force();
   void begin_step(const TimeScheme& time, StepReport& report);
   void turn_mesh(double time);

@@ -86,7 +86,7 @@ std::filesystem::path pump_mesh(const std::filesystem::path& out, const std::str
   MPI_Bcast(&made, 1, MPI_INT, 0, world);
   if (made) return mesh;
   log::info("bench: making the mesh (" + level + ")");
-  const ExitCode code = generate_mesh({"pump", "--set", "resolution=\"" + level + "\"", "--out", unfinished.string()});
+  const ExitCode code = generate_mesh(MPI_COMM_WORLD, {"pump", "--set", "resolution=\"" + level + "\"", "--out", unfinished.string()});
   if (code != ExitCode::ok) throw Error(code, "bench: no mesh was made; try snag mesh pump by itself");
   together(world, [&] {
     if (rank_of(world) != 0) return;

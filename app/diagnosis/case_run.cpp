@@ -13,7 +13,9 @@
 #include "app/diagnosis/outline_moments.hpp"
 #include "app/simulation.hpp"
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/words.hpp"
+#include "dem/bonds/bond_law.hpp"
 #include "dem/tile_particles.hpp"
 
 namespace snag {
@@ -143,35 +145,62 @@ struct Slot {
   std::size_t place;
 };
 
-std::vector<Slot> slots_of(const std::vector<Asked>& asked) {
+std::vector<Slot> slots_of(const std::vector<Asked>& asked, bool has_window) {
   std::vector<Slot> slots;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const What w = what_of(asked[i].observable);
-    if (of_whole_run(w) != std::isnan(asked[i].time))
-      throw Error(ExitCode::usage, "observable \"" + asked[i].observable + "\" is asked " +
-                                       (of_whole_run(w) ? "at a time, but is a number of the whole run; leave t_s empty"
-                                                        : "without a time, but changes in time; give t_s"));
-    slots.push_back({of_whole_run(w) ? infinity : asked[i].time, w, i});
+    const bool timed = !std::isnan(asked[i].time);
+    if (timed ? of_whole_run(w) : !of_whole_run(w) && !has_window)
+      throw Error(ExitCode::usage,
+                  "observable \"" + asked[i].observable + "\" is asked " +
+                      (timed ? "at a time, but is a number of the whole run; leave t_s empty"
+                             : "without a time, but changes in time; give t_s, or a window of the camera in [observe] of the case"));
+    slots.push_back({timed ? asked[i].time : infinity, w, i});
   }
   std::stable_sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.time < b.time; });
   return slots;
 }
 
+/// Means over the instants at which the centre is in the window.
+class WindowMean {
+ public:
+  void add(What w, const Instant& now) {
+    const double value = seen_between(w, now, now, 1);
+    // An axis has no head: angles are averaged on twice the circle.
+    cosine_[w] += w == orientation ? std::cos(2 * value) : value, sine_[w] += std::sin(2 * value);
+    ++n_[w];
+  }
+  double mean(What w) const {
+    if (n_[w] == 0) return std::numeric_limits<double>::quiet_NaN();
+    return w == orientation ? 0.5 * std::atan2(sine_[w], cosine_[w]) : cosine_[w] / n_[w];
+  }
+
+ private:
+  std::array<double, n_observables> cosine_{}, sine_{};  // of other numbers: the first is their sum
+  std::array<int, n_observables> n_{};
+};
+
 /// Answers as the run goes by.
 class Observer {
  public:
   Observer(const RagSystem& rags, const ObserveSettings& settings, std::vector<Slot> slots, double end, double dt)
-      : rags_(rags), view_(settings.view()), journey_(settings, view_, end), slots_(std::move(slots)), dt_(dt) {
+      : rags_(rags), settings_(settings), view_(settings.view()), journey_(settings, view_, end), slots_(std::move(slots)), dt_(dt) {
     values_.resize(slots_.size(), std::numeric_limits<double>::quiet_NaN());
     for (const Slot& slot : slots_) {
       if (of_picture(slot.what)) picture_times_.push_back(slot.time);
-      whole_run_ = whole_run_ || of_whole_run(slot.what);
+      if (of_whole_run(slot.what))
+        whole_run_ = true;
+      else if (std::isinf(slot.time))
+        in_window_.push_back(slot.what), window_pictures_ = window_pictures_ || of_picture(slot.what);
     }
   }
 
   void look(double time) {
     Instant now{time, motion_of(rags_), {}};
-    if (needs_picture(time)) now.picture = outline_of(rags_, view_);
+    const bool seen = !in_window_.empty() && settings_.in_window(now.motion.position);
+    if (needs_picture(time) || (seen && window_pictures_)) now.picture = outline_of(rags_, view_);
+    if (seen)
+      for (const What w : in_window_) window_.add(w, now);
     const double tolerance = 1e-9 * dt_;
     for (; next_ < slots_.size() && slots_[next_].time <= time + tolerance; ++next_) {
       const Slot& slot = slots_[next_];
@@ -185,7 +214,7 @@ class Observer {
   std::vector<double> values() {
     const double size = 2 * rags_.rags().front().radius;
     for (const Slot& slot : slots_)
-      if (of_whole_run(slot.what)) values_[slot.place] = journey_.told(slot.what, size);
+      if (std::isinf(slot.time)) values_[slot.place] = of_whole_run(slot.what) ? journey_.told(slot.what, size) : window_.mean(slot.what);
     return values_;
   }
 
@@ -197,13 +226,16 @@ class Observer {
   }
 
   const RagSystem& rags_;
+  const ObserveSettings& settings_;
   View view_;
   Journey journey_;
+  WindowMean window_;
   std::vector<Slot> slots_;
+  std::vector<What> in_window_;  // asked as means over the window
   std::vector<double> values_, picture_times_;
   std::size_t next_ = 0;
   double dt_;
-  bool whole_run_ = false;
+  bool whole_run_ = false, window_pictures_ = false;
   Instant before_;
 };
 
@@ -221,32 +253,54 @@ double last_time(const std::vector<Slot>& slots, double end) {
   return last;
 }
 
+PlaceInPiece place_in_piece(const Tile& tile, const Rag& rag, int k, int column) {
+  const int n = rag.n_columns;
+  PlaceInPiece place{.x = tile.vector(Tile::x, k), .along = 0, .mean_abs_along = 0, .normal = {}};
+  if (n == 1) return place;
+  place.along = (2.0 * (tile.column + column) - (n - 1)) / (n - 1);
+  place.mean_abs_along = n % 2 == 0 ? 0.5 * n / (n - 1) : 0.5 * (n + 1) / n;
+  const double qw = tile.field(Tile::qw)[k], qx = tile.field(Tile::qx)[k], qy = tile.field(Tile::qy)[k], qz = tile.field(Tile::qz)[k];
+  place.normal = cross(carried_direction<0>(qw, qx, qy, qz), carried_direction<1>(qw, qx, qy, qz));
+  return place;
+}
+
 void kick(RagSystem& rags, const OutsideForce& outside, double time, double dt) {
-  for (Tile& tile : rags.tiles())
-    for_particles(tile, [&](int k, int, int) {
-      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, tile.vector(Tile::x, k)));
+  for (Tile& tile : rags.tiles()) {
+    const Rag& rag = rags.rags()[static_cast<std::size_t>(tile.rag)];
+    for_particles(tile, [&](int k, int column, int) {
+      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, place_in_piece(tile, rag, k, column)));
     });
+  }
 }
 
 }  // namespace
 
 bool is_observable_of_particles(const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
-std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside) {
-  std::vector<Slot> slots = slots_of(asked);
-  Simulation run(file, MPI_COMM_SELF);
-  if (!run.rags || run.mesh)
-    throw Error(ExitCode::usage, file.root().where() + ": must be a case of particles without a mesh, to be run in a moment");
+std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside,
+                            WaterStore* store) {
+  const log::Silence silence;
+  Simulation run(file, MPI_COMM_SELF, {}, store);
+  std::vector<Slot> slots = slots_of(asked, run.observe_settings.has_window());
+  if (!run.rags || (run.mesh && !run.frozen()))
+    throw Error(ExitCode::usage,
+                file.root().where() + ": must be a case of particles without a mesh or in frozen water, to be run in a moment");
+  run.start();
   run.insert_rags();
   const double end = run.time_settings.end;
   const std::int64_t n_steps = n_steps_of(run.time_settings, step_factor);
-  const double dt = end / static_cast<double>(n_steps);
+  const double dt = run.time_settings.step = end / static_cast<double>(n_steps);
   const double last = last_time(slots, end);
   Observer observer(*run.rags, run.observe_settings, std::move(slots), end, dt);
   observer.look(0);
   for (std::int64_t n = 0; n < n_steps && static_cast<double>(n) * dt < last * (1 - 1e-9); ++n) {
-    run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
+    // Without a mesh there are no openings to leave by, and nothing to be told of the way.
+    if (run.mesh)
+      run.step();
+    else
+      run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
     if (outside) kick(*run.rags, outside, (static_cast<double>(n) + 0.5) * dt, dt);
+    if (run.mesh && run.passage->all_exited()) break;
     observer.look(static_cast<double>(n + 1) * dt);
   }
   return observer.values();

@@ -90,8 +90,8 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     : comm_(comm), folder_(folder), observables_(experiment.observables), picture_size_(picture_size_of(experiment)) {
   const std::string program = folder_.empty() ? "" : program_fingerprint(comm_);
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
-    PointCase base(experiment.points[p].case_file);
-    if (base.has_mesh() && folder_.empty())
+    PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
+    if (base.is_whole_run() && folder_.empty())
       throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
     for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
@@ -99,7 +99,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     std::string fingerprint = base.sha256() + program;
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
-      if (!base.has_mesh() && !is_observable_of_particles(id))
+      if (!base.is_whole_run() && !is_observable_of_particles(id))
         throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": observable \"" + id +
                                          "\" is no number of a case without a mesh; there are x, y, z, vx, vy, vz, area, elongation_ratio, "
                                          "orientation, retention_time, recirculations, stuck, exited");
@@ -120,7 +120,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
 }
 
 /// A set-point of the flow is one of its own at every point; what has the same value at several points (a fluid, a particle) is the same
-/// thing there. Drag laws are the same everywhere.
+/// thing there. A drag law is the same everywhere, and off by the same, unless its error is said to be each point's own.
 void CaseSimulator::find_nuisances(const Experiment& experiment) {
   std::map<std::string, std::vector<int>> shared;  // name, value and uncertainty -> points
   std::map<std::string, std::pair<std::string, double>> record;
@@ -128,8 +128,9 @@ void CaseSimulator::find_nuisances(const Experiment& experiment) {
     for (const auto& [key, u] : experiment.points[p].input_u) {
       if (u <= 0) continue;
       std::string same = key + "|" + words(u) + "|" + points_[p].base.value_of(key);
-      if (key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos)
-        same += "|" + std::to_string(p);
+      const bool set_point =
+          key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos;
+      if (set_point || key == "drag_form_of_point") same += "|" + std::to_string(p);
       shared[same].push_back(static_cast<int>(p));
       record[same] = {key, u};
     }
@@ -162,7 +163,7 @@ RunResult CaseSimulator::done(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   RunResult result;
   try {
-    result.values = run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor);
+    result.values = run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor, {}, &store_);
   } catch (const std::exception& failure) {
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
     result.failure = failure.what();
@@ -203,18 +204,7 @@ RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange
   return raw;
 }
 
-std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
-  std::vector<Job> jobs;
-  jobs.reserve(requests.size());
-  for (const RunRequest& request : requests) {
-    jobs.push_back(job_of(request));
-    used_.insert(jobs.back().key);
-  }
-  std::vector<const Job*> fresh;  // the same on every rank
-  std::set<std::string> listed;
-  for (const Job& job : jobs)
-    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
-
+void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
   // Every rank fills in its own runs; the bits of the others are zero.
   constexpr std::size_t text_size = 512;
   std::vector<std::uint64_t> bits;
@@ -223,9 +213,9 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   for (std::size_t j = 0; j < fresh.size(); ++j) {
     const std::size_t n = slots(fresh[j]->request->point).size(), first = bits.size();
     bits.resize(first + n, 0);
-    const bool mesh = has_mesh(*fresh[j]);
-    if (!mesh && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
-    const RunResult result = mesh ? done_together(*fresh[j]) : done(*fresh[j]);
+    const bool whole_run = is_whole_run(*fresh[j]);
+    if (!whole_run && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
+    const RunResult result = whole_run ? done_together(*fresh[j]) : done(*fresh[j]);
     for (std::size_t i = 0; i < n; ++i) bits[first + i] = std::bit_cast<std::uint64_t>(result.values[i]);
     std::strncpy(&failures[j * text_size], result.failure.c_str(), text_size - 1);
   }
@@ -242,6 +232,24 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   }
   if (cache_.is_open()) cache_.flush();
   n_runs_ += static_cast<int>(fresh.size());
+}
+
+std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
+  std::vector<Job> jobs;
+  jobs.reserve(requests.size());
+  for (const RunRequest& request : requests) {
+    jobs.push_back(job_of(request));
+    used_.insert(jobs.back().key);
+  }
+  std::vector<const Job*> fresh;  // the same on every rank
+  std::set<std::string> listed;
+  for (const Job& job : jobs)
+    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
+
+  // In portions, each of which is kept when it is done: a diagnosis that is stopped goes on from there.
+  constexpr std::size_t per_rank = 8;
+  const std::size_t portion = per_rank * static_cast<std::size_t>(size_of(comm_));
+  for (std::size_t j = 0; j < fresh.size(); j += portion) run_portion(std::span(fresh).subspan(j, std::min(portion, fresh.size() - j)));
 
   std::vector<RunResult> results;
   results.reserve(jobs.size());

@@ -46,14 +46,16 @@ class CaseSimulator final : public Simulator {
   };
   void find_nuisances(const Experiment& experiment);
   Job job_of(const RunRequest& request) const;
+  void run_portion(std::span<const Job* const> fresh);
   RunResult done(const Job& job) const;
   RunResult done_together(const Job& job) const;
-  bool has_mesh(const Job& job) const { return points_[static_cast<std::size_t>(job.request->point)].base.has_mesh(); }
+  bool is_whole_run(const Job& job) const { return points_[static_cast<std::size_t>(job.request->point)].base.is_whole_run(); }
   RunResult as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const;
   void read_cache(const std::filesystem::path& file);
   void keep(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
+  mutable WaterStore store_;
   std::filesystem::path folder_;
   std::vector<Observable> observables_;
   double picture_size_;  // m

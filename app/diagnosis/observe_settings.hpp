@@ -10,13 +10,16 @@ namespace snag {
 
 struct ObserveSettings {
   Vec3 right{1, 0, 0}, up{0, 1, 0};
-  Vec3 exit_point, exit_normal;  // m; normal zero: no exit
+  Vec3 exit_point, exit_normal;     // m; normal zero: no exit
+  Vec3 window_lower, window_upper;  // m; equal: no window
 
   Section section();
   /// Unit vectors at right angles; throws Error(usage) if the two directions are parallel or zero.
   View view() const;
   /// Way beyond the exit, m; nothing without an exit.
   std::optional<double> beyond_exit(const Vec3& centre) const;
+  bool has_window() const { return norm(window_upper - window_lower) > 0; }
+  bool in_window(const Vec3& centre) const;
 };
 
 }  // namespace snag

@@ -10,6 +10,7 @@
 #include "app/diagnosis/library.hpp"
 #include "app/simulation.hpp"
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
 
@@ -22,8 +23,7 @@ struct PointCase::Tree {
 namespace {
 
 constexpr const char* flow_field = "flow.amplitude";
-constexpr const char* drag_form = "drag_form";
-constexpr const char* drag_slope = "drag_form.slope";
+constexpr const char *drag_form = "drag_form", *drag_form_of_point = "drag_form_of_point", *drag_slope = "drag_form.slope";
 
 /// Value times factor, number by number, as TOML.
 std::string scaled_text(const toml::node& node, double factor) {
@@ -93,12 +93,12 @@ BaseCase facts_of(const toml::table& root, const Simulation& run) {
     const auto places = places_of(root, key);
     return places.empty() ? nullptr : places.front().value;
   };
-  facts.prescribed = !run.mesh;
+  facts.prescribed = !run.mesh || run.frozen();
   facts.wall = !run.walls.empty();
   facts.gravity = root.contains("gravity");
   facts.gradient = run.mesh || !is_zero(value("flow.gradient_per_s"));
   facts.uniform = run.mesh || !is_zero(value("flow.velocity_m_s"));
-  facts.varies = facts.gradient || !is_zero(value("flow.amplitude_m_s"));
+  facts.varies = !run.frozen() && (facts.gradient || !is_zero(value("flow.amplitude_m_s")));
   facts.flows = facts.uniform || facts.varies;
   facts.turbulence = run.mesh || !is_zero(value("flow.turbulent_kinetic_energy_m2_s2"));
   std::int64_t n = 0;
@@ -186,15 +186,20 @@ PointCase::~PointCase() = default;
 PointCase::PointCase(PointCase&&) noexcept = default;
 PointCase& PointCase::operator=(PointCase&&) noexcept = default;
 
-PointCase::PointCase(const std::filesystem::path& file) : file_(file), tree_(std::make_unique<Tree>()) {
-  const CaseFile read = CaseFile::read(file);
-  const bool mesh = read.root().has("mesh");
-  const Simulation run(read, mesh ? MPI_COMM_WORLD : MPI_COMM_SELF);
+PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, WaterStore* store)
+    : file_(file), tree_(std::make_unique<Tree>()) {
+  const CaseFile read = CaseFile::read(file, overrides);
+  StartSettings start;
+  read.root().table("start").read(start.section().parameters);
+  const log::Silence silence;
+  const bool whole_run = read.root().has("mesh") && !start.frozen;
+  const Simulation run(read, whole_run ? MPI_COMM_WORLD : MPI_COMM_SELF, {}, store);
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
   facts_ = facts_of(tree_->root, run);
   forces_ = listed_forces(tree_->root);
+  for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {
     const std::string key = "coupling." + name + ".drag_factor";
     if (!places_of(tree_->root, key).empty()) drag_factors_.push_back(key);
@@ -204,12 +209,12 @@ PointCase::PointCase(const std::filesystem::path& file) : file_(file), tree_(std
 }
 
 void PointCase::check_nuisance(const std::string& key) const {
-  if (key == drag_form || (key == flow_field && facts_.prescribed)) return;
+  if (key == drag_form || key == drag_form_of_point || (key == flow_field && facts_.prescribed)) return;
   if (!places_of(tree_->root, key).empty()) return;
   throw Error(ExitCode::usage, file_.string() + ": input_u names \"" + key +
                                    "\", which is no number of this case; give a key of the case with its unit such as "
                                    "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
-                                   "whole prescribed flow, or \"drag_form\"");
+                                   "whole prescribed flow, \"drag_form\" or \"drag_form_of_point\"");
 }
 
 std::string PointCase::value_of(const std::string& key) const {
@@ -236,6 +241,7 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
   std::vector<std::string> forces = forces_;
   std::erase(forces, "gravity");
   const std::size_t n_base = forces.size();
+  if (crumpled_) keys.set("rag.seed=" + std::to_string(seed % 1000000007));  // each replicate is another crumple
   for (const std::string& name : forces) {
     const LibraryEffect* held = library_effect(name);
     if (held && held->prior.random) keys.set(seed_of(name, seed));
@@ -257,7 +263,7 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
     if (deviation == 0) continue;
     if (name == flow_field)
       run.flow_factor *= 1 + deviation;
-    else if (name == drag_form)
+    else if (name == drag_form || name == drag_form_of_point)
       for (const std::string& key : drag_factors_) keys.scale(key, 1 + deviation);
     else if (name == drag_slope)
       exponent += deviation;
@@ -272,7 +278,7 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
   if (run.flow_factor != 1 && facts_.prescribed) keys.scale("flow.velocity_m_s", run.flow_factor);
   const double varying = run.flow_factor * run.varying_factor;
   if (varying != 1)
-    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s"}) keys.scale(key, varying);
+    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s", "start.velocity_factor"}) keys.scale(key, varying);
   if (run.flow_factor != 1 && !facts_.prescribed)
     for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) keys.scale(key, run.flow_factor);
   change.overrides = keys.overrides();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/water_store.hpp"
 #include "base/case_file.hpp"
 #include "diagnosis/effects/effect_model.hpp"
 
@@ -22,7 +23,8 @@ struct CaseChange {
 class PointCase {
  public:
   /// Reads the base case and builds it once, so that what is wrong with it is told at once. Throws Error.
-  explicit PointCase(const std::filesystem::path& file);
+  /// `overrides`: values of the case that this point replaces; `store`: holds meshes and water of several cases.
+  explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, WaterStore* store = nullptr);
   ~PointCase();
   PointCase(PointCase&&) noexcept;
   PointCase& operator=(PointCase&&) noexcept;
@@ -31,7 +33,8 @@ class PointCase {
   const std::string& sha256() const { return sha256_; }
   /// Forces that the base case lists, gravity among them where it is given.
   const std::vector<std::string>& forces() const { return forces_; }
-  bool has_mesh() const { return !facts_.prescribed; }
+  /// The water is computed with the rags: a run of all ranks with an output folder, instead of one in memory.
+  bool is_whole_run() const { return !facts_.prescribed; }
 
   /// The case of a run of this seed with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name
   /// that is neither an effect nor a key of the case.
@@ -46,7 +49,8 @@ class PointCase {
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all
-  /// drag), or a number of the case by its resolved key, such as "particle.density_kg_m3".
+  /// drag, alike at all points), "drag_form_of_point" (all drag, at each point on its own: Reynolds numbers far apart), or a number of the
+  /// case by its resolved key, such as "particle.density_kg_m3".
   void check_nuisance(const std::string& key) const;
   /// Value of a number of the case, as TOML, "" if there is none; two points with equal values share its deviation.
   std::string value_of(const std::string& key) const;
@@ -59,6 +63,7 @@ class PointCase {
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
   BaseCase facts_;
+  bool crumpled_ = false;                           // a piece starts crumpled, by its seed
   std::vector<std::string> forces_, drag_factors_;  // drag_factors_: keys of the factors on drag
   Vec3 right_, up_;                                 // of the camera
 };

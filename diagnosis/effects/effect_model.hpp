@@ -11,7 +11,7 @@ namespace snag {
 
 /// What a candidate may know of the base case of an operating point.
 struct BaseCase {
-  bool prescribed = true;                                                // the water is a formula; false: it is computed on a mesh
+  bool prescribed = true;                                                // the water is a formula, or stands frozen; false: it is computed
   bool wall = false, gravity = false;                                    // given in the case
   bool flows = false;                                                    // the water moves
   bool uniform = false, varies = false;                                  // it has a uniform steady part; one that changes in space or time

@@ -1,0 +1,31 @@
+#pragma once
+// Meshes and frozen water that many runs of one process share, as those of a diagnosis do: read and started once, not at every run.
+// Runs that share are made one after another.
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "mesh/mesh.hpp"
+#include "mesh/quality.hpp"
+#include "solver/flow_solver.hpp"
+
+namespace snag {
+
+struct StoredMesh {
+  std::shared_ptr<Mesh> mesh;  // null: not read yet
+  MeshQuality quality;
+};
+
+struct StoredWater {
+  std::shared_ptr<FlowSolver> solver;  // null: not made yet
+  std::optional<Flow> as_started;      // at velocity_factor = 1
+};
+
+/// By all that decides about them, as text.
+struct WaterStore {
+  std::map<std::string, StoredMesh> meshes;
+  std::map<std::string, StoredWater> waters;
+};
+
+}  // namespace snag
