@@ -23,7 +23,7 @@ TEST(DiagnosisLibrary, PriorsAreThoseOfTheCards) {
     EXPECT_EQ(effect->prior.maximum, prior->maximum) << name;
     EXPECT_EQ(effect->is_force, name != "gravity") << name;
   }
-  const auto overrides = library_effect("gravity")->overrides(1, 0, [](const std::string&) { return ""; });
+  const auto overrides = library_effect("gravity")->overrides(1, 0, 0, [](const std::string&) { return ""; });
   ASSERT_EQ(overrides.size(), 1u);
   EXPECT_EQ(overrides[0], "gravity.acceleration_m_s2=[0.0, 0.0, -9.81]");
 }

@@ -104,7 +104,7 @@ TEST(TwinScore, Card) {
   EXPECT_FALSE(card.scores[0].met());
   EXPECT_TRUE(card.scores[4].met());
   for (const Score& score : score_card({}, true).scores) EXPECT_FALSE(score.met()) << score.name << " of no sets";
-  ASSERT_EQ(card.measures.size(), 5u);
+  ASSERT_EQ(card.measures.size(), 7u);
   EXPECT_FALSE(card.measures[0].met());  // calibration error
   EXPECT_FALSE(card.measures[2].met());  // no shrinkage was told
   EXPECT_FALSE(card.measures[4].met());  // too few sets for a limit of detection
