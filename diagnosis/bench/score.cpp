@@ -189,7 +189,8 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   for (const ScoreRow& row : rows) {
     card.brier += row.brier / static_cast<double>(rows.size());
     ++card.confusion[row.truth][said(row)];
-    if (hit(row) && std::isfinite(row.shrinkage) && row.detectability >= 3)
+    // What is said of a gap that no effect causes is no shrinkage by a cause.
+    if (row.verdict == "effects" && hit(row) && std::isfinite(row.shrinkage) && row.detectability >= 3)
       shrunk.push_back(row.shrinkage), covered += row.shrinkage_low <= ideal && row.shrinkage_high >= ideal - rounding;
   }
   std::sort(shrunk.begin(), shrunk.end());

@@ -1,19 +1,19 @@
 """snag diagnose finds what a base case lacks, the same on any number of ranks, goes on after a stop, and refuses what it cannot read."""
-# timeout: 600
+# timeout: 1200
 import json
 import math
 import shutil
 
 import harness
 
-# Scores whose targets are not reached yet: named first in 11 of 17, among the first three in 13 of 17, pairs told in 7 and 8 of
-# 15, and 13 of 70 effects of the library called outside, on two seeds together. Until then these shares are what is held.
+# Scores whose targets are not reached on every seed. On two seeds that nothing was chosen by (1 with 60 sets, 3 with 40) together: named
+# first in 14 of 17, among the first three in 16 of 17, pairs told in 11 of 15. What is missing are excesses of drag beside an uncertain drag
+# law, in part sets whose detectability the benchmark overstates (it takes uncertain inputs as linear and knows no slope of the drag law).
+# The scores beside, at least one of a pair (15 of 15) and no effect of the library called outside (0 of 70), hold their targets.
 HELD = {
-    "single effect at strength >= 1/2, detectable: named first": 0.6,
-    "the same: among the first three": 0.75,
-    "effects of the library: says outside": 0.2,
-    "pairs, detectable: both right": 0.3,
-    "pairs, detectable: at least one": 0.6,
+    "single effect at strength >= 1/2, detectable: named first": 0.7,
+    "the same: among the first three": 0.85,
+    "pairs, detectable: both right": 0.6,
 }
 
 EXAMPLE = harness.SOURCE_DIR / "cases" / "diagnose-sphere"

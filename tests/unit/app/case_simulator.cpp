@@ -135,7 +135,8 @@ TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
     ++count[nuisance.name];
     EXPECT_EQ(nuisance.points.size(), nuisance.name == "flow.amplitude" ? 1u : 2u) << nuisance.name;
   }
-  EXPECT_EQ(count, (std::map<std::string, int>{{"flow.amplitude", 2}, {"particle.density_kg_m3", 1}, {"drag_form", 1}, {"camera", 1}}));
+  EXPECT_EQ(count, (std::map<std::string, int>{
+                       {"flow.amplitude", 2}, {"particle.density_kg_m3", 1}, {"drag_form", 1}, {"drag_form.slope", 1}, {"camera", 1}}));
 }
 
 /// Requirement: an error of the drag law that is each point's own is not shared, and changes the drag as the shared one does.
