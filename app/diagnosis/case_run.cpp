@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
+#include "dem/bonds/bond_law.hpp"
 #include "dem/tile_particles.hpp"
 
 namespace snag {
@@ -252,11 +253,24 @@ double last_time(const std::vector<Slot>& slots, double end) {
   return last;
 }
 
+PlaceInPiece place_in_piece(const Tile& tile, const Rag& rag, int k, int column) {
+  const int n = rag.n_columns;
+  PlaceInPiece place{.x = tile.vector(Tile::x, k), .along = 0, .mean_abs_along = 0, .normal = {}};
+  if (n == 1) return place;
+  place.along = (2.0 * (tile.column + column) - (n - 1)) / (n - 1);
+  place.mean_abs_along = n % 2 == 0 ? 0.5 * n / (n - 1) : 0.5 * (n + 1) / n;
+  const double qw = tile.field(Tile::qw)[k], qx = tile.field(Tile::qx)[k], qy = tile.field(Tile::qy)[k], qz = tile.field(Tile::qz)[k];
+  place.normal = cross(carried_direction<0>(qw, qx, qy, qz), carried_direction<1>(qw, qx, qy, qz));
+  return place;
+}
+
 void kick(RagSystem& rags, const OutsideForce& outside, double time, double dt) {
-  for (Tile& tile : rags.tiles())
-    for_particles(tile, [&](int k, int, int) {
-      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, tile.vector(Tile::x, k)));
+  for (Tile& tile : rags.tiles()) {
+    const Rag& rag = rags.rags()[static_cast<std::size_t>(tile.rag)];
+    for_particles(tile, [&](int k, int column, int) {
+      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, place_in_piece(tile, rag, k, column)));
     });
+  }
 }
 
 }  // namespace

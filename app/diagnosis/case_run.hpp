@@ -7,6 +7,7 @@
 
 #include "app/water_store.hpp"
 #include "base/case_file.hpp"
+#include "base/vec3.hpp"
 
 namespace snag {
 
@@ -21,8 +22,16 @@ struct Asked {
 /// True for the names above.
 bool is_observable_of_particles(const std::string& name);
 
+/// Of a particle in its piece.
+struct PlaceInPiece {
+  Vec3 x;                     // m
+  double along = 0;           // lengthwise, -1 to 1 from end to end
+  double mean_abs_along = 0;  // mean of |along| over the columns of the piece
+  Vec3 normal;                // of the piece, here: lengthwise x crosswise, turned with it
+};
+
 /// Acceleration of a particle beside all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
-using OutsideForce = std::function<Vec3(double time, const Vec3& place)>;
+using OutsideForce = std::function<Vec3(double time, const PlaceInPiece& place)>;
 
 /// Runs a case in a prescribed flow or in frozen water of a mesh, up to the last time that is asked for (its end, if a number of the whole
 /// run is asked for; earlier, if every rag has left the mesh). NaN where there is no answer: a time beyond the end of the case, a retention

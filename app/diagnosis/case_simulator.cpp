@@ -108,7 +108,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
 }
 
 /// A set-point of the flow is one of its own at every point; what has the same value at several points (a fluid, a particle) is the same
-/// thing there. Drag laws are the same everywhere.
+/// thing there. A drag law is the same everywhere, and off by the same, unless its error is said to be each point's own.
 void CaseSimulator::find_nuisances(const Experiment& experiment) {
   std::map<std::string, std::vector<int>> shared;  // name, value and uncertainty -> points
   std::map<std::string, std::pair<std::string, double>> record;
@@ -116,8 +116,9 @@ void CaseSimulator::find_nuisances(const Experiment& experiment) {
     for (const auto& [key, u] : experiment.points[p].input_u) {
       if (u <= 0) continue;
       std::string same = key + "|" + words(u) + "|" + points_[p].base.value_of(key);
-      if (key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos)
-        same += "|" + std::to_string(p);
+      const bool set_point =
+          key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos;
+      if (set_point || key == "drag_form_of_point") same += "|" + std::to_string(p);
       shared[same].push_back(static_cast<int>(p));
       record[same] = {key, u};
     }

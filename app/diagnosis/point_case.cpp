@@ -23,7 +23,7 @@ struct PointCase::Tree {
 namespace {
 
 constexpr const char* flow_field = "flow.amplitude";
-constexpr const char* drag_form = "drag_form";
+constexpr const char *drag_form = "drag_form", *drag_form_of_point = "drag_form_of_point";
 
 /// Value times factor, number by number, as TOML.
 std::string scaled_text(const toml::node& node, double factor) {
@@ -201,12 +201,12 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
 }
 
 void PointCase::check_nuisance(const std::string& key) const {
-  if (key == drag_form || (key == flow_field && facts_.prescribed)) return;
+  if (key == drag_form || key == drag_form_of_point || (key == flow_field && facts_.prescribed)) return;
   if (!places_of(tree_->root, key).empty()) return;
   throw Error(ExitCode::usage, file_.string() + ": input_u names \"" + key +
                                    "\", which is no number of this case; give a key of the case with its unit such as "
                                    "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
-                                   "whole prescribed flow, or \"drag_form\"");
+                                   "whole prescribed flow, \"drag_form\" or \"drag_form_of_point\"");
 }
 
 std::string PointCase::value_of(const std::string& key) const {
@@ -252,7 +252,7 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
     if (deviation == 0) continue;
     if (name == flow_field)
       run.flow_factor *= 1 + deviation;
-    else if (name == drag_form)
+    else if (name == drag_form || name == drag_form_of_point)
       for (const std::string& key : drag_factors_) keys.scale(key, 1 + deviation);
     else
       keys.scale(name, 1 + deviation);

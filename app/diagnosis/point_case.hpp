@@ -46,7 +46,8 @@ class PointCase {
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all
-  /// drag), or a number of the case by its resolved key, such as "particle.density_kg_m3".
+  /// drag, alike at all points), "drag_form_of_point" (all drag, at each point on its own: Reynolds numbers far apart), or a number of the
+  /// case by its resolved key, such as "particle.density_kg_m3".
   void check_nuisance(const std::string& key) const;
   /// Value of a number of the case, as TOML, "" if there is none; two points with equal values share its deviation.
   std::string value_of(const std::string& key) const;

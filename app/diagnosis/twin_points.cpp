@@ -35,8 +35,9 @@ Flow flow_of(int kind, NormalNumbers& random, double speed) {
 
 std::string time_text(double end, double step) { return "[time]\nend_s = " + toml_text(end) + "\nstep_s = " + toml_text(step) + "\n"; }
 
-std::string exit_text(const std::string& point, const std::string& normal) {
-  return "[observe]\nright = [1.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nexit_point_m = " + point + "\nexit_normal = " + normal + "\n";
+/// A plane at height z that is passed downwards.
+std::string exit_text(const std::string& z) {
+  return "[observe]\nright = [1.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nexit_point_m = [0.0, 0.0, " + z + "]\nexit_normal = [0.0, 0.0, -1.0]\n";
 }
 
 constexpr const char* fall = "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n";
@@ -46,6 +47,14 @@ std::vector<double> sample_times(double end, int n) {
   std::vector<double> times;
   for (int i = 1; i <= n; ++i) times.push_back(end * i / n);
   return times;
+}
+
+/// What one picture in the x-z plane tells of a fibre or a rag, and a watch at the exit.
+void add_camera(TwinExperiment& twin, double place_u, double area_u, double angle_u) {
+  for (const char* id : {"x", "z"}) twin.instruments.push_back({id, "m", "gaussian", place_u, place_u, "camera"});
+  twin.instruments.push_back({"area", "m2", "gaussian", area_u, 0, ""});
+  twin.instruments.push_back({"orientation", "rad", "angle", angle_u, 0, ""});
+  twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
 }
 
 TwinExperiment sphere(NormalNumbers& random) {
@@ -60,7 +69,7 @@ TwinExperiment sphere(NormalNumbers& random) {
     text += "[[particle]]\ndiameter_m = " + toml_text(diameter) + "\ndensity_kg_m3 = " + toml_text(density) +
             "\nshear_modulus_Pa = 1e4\nposition_m = [0.0, " + toml_text(kind == 0 || kind == 2 ? from_wall : 10 * diameter) + ", 0.0]\n";
     text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, 0]\nnormal = [0, 1, 0]\n";
-    text += exit_text("[0.0, 0.0, -0.04]", "[0.0, 0.0, -1.0]");
+    text += exit_text("-0.04");
     twin.cases.push_back(text);
   }
   const double noise = between(1e-4, 4e-4);
@@ -70,14 +79,13 @@ TwinExperiment sphere(NormalNumbers& random) {
   twin.times = sample_times(end, 16);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"particle.density_kg_m3\" = 0.002", "\"flow.kinematic_viscosity_m2_s\" = 0.02",
                  "\"drag_form\" = 0.05"};
-  twin.subsets = {"all", "picture", "passage"};
   return twin;
 }
 
 TwinExperiment fibre(NormalNumbers& random) {
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   TwinExperiment twin;
-  const double length = between(0.02, 0.03), modulus = between(2e5, 1e6), density = between(1100, 1400), viscosity = between(1e-5, 4e-5);
+  const double length = between(0.02, 0.03), modulus = between(3e4, 1.5e5), density = between(1100, 1400), viscosity = between(1e-5, 4e-5);
   const double end = 0.4, speed = 0.1;
   for (const int kind : {1, 2, 3, 0, 3, 1, 2}) {
     const Flow flow = flow_of(kind, random, speed * between(0.7, 1.5));
@@ -85,20 +93,16 @@ TwinExperiment fibre(NormalNumbers& random) {
     std::string text = time_text(end, 1e-3) + fall + flow_text(flow, viscosity) + drag;
     text += "[[fibre]]\nlength_m = " + toml_text(length) + "\nn_points = 12\nyoungs_modulus_Pa = " + toml_text(modulus) +
             "\ndensity_kg_m3 = " + toml_text(density) +
-            "\ncentre_m = [0.0, 0.05, 0.0]\nlengthwise = " + toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) + "\n";
-    text +=
-        "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.06]\nnormal = [0, 0, 1]\n" + exit_text("[0.0, 0.0, -0.02]", "[0.0, 0.0, -1.0]");
+            "\nshear_modulus_Pa = 1e4\ncentre_m = [0.0, 0.05, 0.0]\nlengthwise = " + toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) +
+            "\n";
+    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.06]\nnormal = [0, 0, 1]\n" + exit_text(open_exit);
     twin.cases.push_back(text);
   }
-  const double noise = between(1e-4, 3e-4);
-  for (const char* id : {"x", "z"}) twin.instruments.push_back({id, "m", "gaussian", noise, noise, "camera"});
-  twin.instruments.push_back({"area", "m2", "gaussian", 1e-6, 0, ""});
-  twin.instruments.push_back({"orientation", "rad", "angle", 0.02, 0, ""});
-  twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
+  add_camera(twin, between(1e-4, 3e-4), 1e-6, 0.02);
   twin.times = sample_times(end, 12);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"fibre.density_kg_m3\" = 0.005", "\"fibre.youngs_modulus_Pa\" = 0.05",
                  "\"drag_form\" = 0.05"};
-  twin.subsets = {"all", "picture", "passage"};
+  twin.path = 0.02, twin.tip_acceleration = 20;
   return twin;
 }
 
@@ -110,19 +114,15 @@ TwinExperiment rag(NormalNumbers& random) {
     const Flow flow = flow_of(kind, random, speed * between(0.7, 1.5));
     const double angle = between(-0.6, 0.6);
     std::string text = time_text(end, 1e-3) + fall + flow_text(flow, viscosity) + drag;
-    text += "[[rag]]\nlength_mm = 56\nwidth_mm = 56\nradius_mm = 2\ncentre_m = [0.0, 0.0, 0.0]\nlengthwise = " +
+    text += "[[rag]]\nlength_mm = 56\nwidth_mm = 56\nradius_mm = 2\nshear_modulus_Pa = 1e4\ncentre_m = [0.0, 0.0, 0.0]\nlengthwise = " +
             toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) + "\ncrosswise = [0.0, 1.0, 0.0]\n";
-    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.1]\nnormal = [0, 0, 1]\n" + exit_text("[0.0, 0.0, -0.01]", "[0.0, 0.0, -1.0]");
+    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.1]\nnormal = [0, 0, 1]\n" + exit_text(open_exit);
     twin.cases.push_back(text);
   }
-  const double noise = between(2e-4, 5e-4);
-  for (const char* id : {"x", "z"}) twin.instruments.push_back({id, "m", "gaussian", noise, noise, "camera"});
-  twin.instruments.push_back({"area", "m2", "gaussian", 3e-5, 0, ""});
-  twin.instruments.push_back({"orientation", "rad", "angle", 0.03, 0, ""});
-  twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
+  add_camera(twin, between(2e-4, 5e-4), 3e-5, 0.03);
   twin.times = sample_times(end, 8);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"rag.mass_per_area_kg_m2\" = 0.02", "\"drag_form\" = 0.05"};
-  twin.subsets = {"all", "picture", "passage"};
+  twin.path = 0.02, twin.tip_acceleration = 5;
   return twin;
 }
 

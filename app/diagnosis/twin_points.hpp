@@ -17,10 +17,15 @@ struct TwinInstrument {
 struct TwinExperiment {
   std::vector<std::string> cases;  // text of a case file each; the last three are withheld
   std::vector<TwinInstrument> instruments;
-  std::vector<double> times;         // s, of samples
-  std::vector<std::string> inputs;   // lines of input_u, the same at every point
-  std::vector<std::string> subsets;  // that make sense: all | picture | passage
+  std::vector<double> times;                                      // s, of samples
+  std::vector<std::string> inputs;                                // lines of input_u, the same at every point
+  std::vector<std::string> subsets{"all", "picture", "passage"};  // that make sense: all | picture | passage
+  double path = 0.04;                                             // m, that a piece goes
+  double tip_acceleration = 0;                                    // m/s2, of the ends of a piece against its middle: what bends it plainly
 };
+
+/// Stands in the text of a case for the z of an exit that is still to be placed.
+inline constexpr const char* open_exit = "@exit@";
 
 /// Conditions drawn at random within what such an experiment would choose. Throws Error(usage) for an unknown twin.
 TwinExperiment twin_experiment(const std::string& twin, NormalNumbers& random);

@@ -9,6 +9,7 @@
 #endif
 #include "dem/bonds/tile_bonds.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace snag {
@@ -118,12 +119,39 @@ double n_whole_from_ring(const Tile& tile) {
   return n;
 }
 
-template <bool damped, bool breakage>
-void sweep(const BondLaws& laws, Tile& tile) {
+/// Rows that are in use. Kept between calls: to clear 90 kB would cost a short chain more than its bonds. What an earlier tile left beyond
+/// the places of this one is read, and dropped by selection; the place before the first one is never written.
+struct Workspace {
   Row rows[2];
   RowForces along, between[2];
-  Row *row = &rows[0], *next = &rows[1];
-  RowForces *below = &between[0], *above = &between[1];
+};
+
+Workspace& workspace() {
+  thread_local Workspace w;
+  return w;
+}
+
+/// Whether the tile has bonds along its one row only: most of a fibre's work is not to look for others.
+bool is_chain(const Tile& tile) {
+  return tile.ny == 1 && std::all_of(tile.bond_y.begin(), tile.bond_y.end(), [](double whole) { return whole == 0; });
+}
+
+template <bool damped, bool breakage>
+void sweep_chain(const BondLaws& laws, Tile& tile) {
+  static const RowForces none;
+  Workspace& w = workspace();
+  load(tile, 0, w.rows[0]);
+  evaluate<0, damped, breakage>(laws[0], w.rows[0], w.rows[0], &tile.bond_x[tile.stride], tile.stride, w.along);
+  gather(w.along, none, none, 0, tile);
+}
+
+template <bool damped, bool breakage>
+void sweep(const BondLaws& laws, Tile& tile) {
+  if (is_chain(tile)) return sweep_chain<damped, breakage>(laws, tile);
+  Workspace& w = workspace();
+  RowForces& along = w.along;
+  Row *row = &w.rows[0], *next = &w.rows[1];
+  RowForces *below = &w.between[0], *above = &w.between[1];
   load(tile, -1, *row);
   load(tile, 0, *next);
   evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[0], tile.stride, *below);

@@ -138,6 +138,20 @@ TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
   EXPECT_EQ(count, (std::map<std::string, int>{{"flow.amplitude", 2}, {"particle.density_kg_m3", 1}, {"drag_form", 1}, {"camera", 1}}));
 }
 
+/// Requirement: an error of the drag law that is each point's own is not shared, and changes the drag as the shared one does.
+TEST_F(CaseSimulatorTest, TellsOwnFromSharedErrorOfTheDragLaw) {
+  for (OperatingPoint& point : experiment_.points) point.input_u.emplace_back("drag_form_of_point", 0.05);
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  int own = 0;
+  for (const Nuisance& nuisance : simulator.nuisances()) {
+    if (nuisance.name != "drag_form_of_point") continue;
+    ++own;
+    EXPECT_EQ(nuisance.points.size(), 1u);
+  }
+  EXPECT_EQ(own, 2);
+  EXPECT_EQ(values(simulator, with_input("drag_form_of_point", 0.1)), values(simulator, with_input("drag_form", 0.1)));
+}
+
 /// Requirement: all ranks have the same answers; equal requests run once; a new start with the same folder runs nothing again.
 TEST_F(CaseSimulatorTest, KeepsRuns) {
   const auto cache = folder_ / "kept";

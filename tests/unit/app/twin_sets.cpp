@@ -1,0 +1,70 @@
+// Sets of the blind benchmark: what they hold is what diagnosis.md asks for, and can be measured.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "app/diagnosis/twin.hpp"
+#include "app/diagnosis/twin_set.hpp"
+
+namespace snag {
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// Requirement: truths outside the library are periodic force, stratification, gust, curved profile and skew camera; pieces with a shape
+/// may be curved, too.
+TEST(TwinSets, OutsideTruths) {
+  const auto of_sphere = outside_truths("sphere"), of_rag = outside_truths("rag");
+  for (const char* name : {"periodic", "stratified", "profile", "camera"})
+    EXPECT_EQ(std::count(of_sphere.begin(), of_sphere.end(), name), 1) << name;
+  EXPECT_EQ(std::count(of_sphere.begin(), of_sphere.end(), "curved"), 0);
+  EXPECT_EQ(std::count(of_rag.begin(), of_rag.end(), "curved"), 1);
+  TwinExperiment experiment;
+  experiment.times = {1}, experiment.tip_acceleration = 10;
+  NormalNumbers random(3);
+  for (const std::string& name : of_rag) EXPECT_TRUE(outside_truth(name, 1, experiment, random).acts()) << name;
+  EXPECT_FALSE(outside_truth("", 1, experiment, random).acts());
+}
+
+/// Requirement: what curves a piece neither pushes nor turns it.
+TEST(TwinSets, CurvatureHasNoNetForce) {
+  TwinExperiment experiment;
+  experiment.times = {1}, experiment.tip_acceleration = 10;
+  NormalNumbers random(3);
+  const OutsideTruth curved = outside_truth("curved", 1, experiment, random);
+  Vec3 force, torque;
+  double most = 0;
+  constexpr int n = 12;
+  for (int i = 0; i < n; ++i) {
+    const double along = (2.0 * i - (n - 1)) / (n - 1);
+    const Vec3 x{along, 0, 0}, f = curved.force(0, {.x = x, .along = along, .mean_abs_along = 0.5 * n / (n - 1), .normal = {0, 0, 1}});
+    force += f, torque += cross(x, f), most = std::max(most, norm(f));
+  }
+  EXPECT_GT(most, 1);
+  EXPECT_LT(norm(force), 1e-12);
+  EXPECT_LT(norm(torque), 1e-12);
+}
+
+/// Requirement: a set is the same each time it is made, and what its base case passes is passed within the time that is looked at.
+TEST(TwinSets, FibreSetsAreReproducibleAndPassTheirExit) {
+  const auto folder = std::filesystem::temp_directory_path() / "snag-twin-sets";
+  const TwinPlan plan{.twin = "fibre", .level = "L2", .seed = 5};
+  constexpr int null_set = 12;
+  EXPECT_EQ(make_twin(plan, null_set, folder / "a").kind, "null");
+  make_twin(plan, null_set, folder / "b");
+  for (const char* file : {"data.csv", "DIAGNOSIS.toml", "point_A.toml"})
+    EXPECT_EQ(text_of(folder / "a" / file), text_of(folder / "b" / file));
+  EXPECT_NE(text_of(folder / "a" / "data.csv").find("retention_time"), std::string::npos);
+  EXPECT_EQ(text_of(folder / "a" / "data.csv").find(",1\n"), std::string::npos) << "pieces that do not reach the exit";
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace snag
