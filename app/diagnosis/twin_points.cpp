@@ -35,9 +35,12 @@ Flow flow_of(int kind, NormalNumbers& random, double speed) {
 
 std::string time_text(double end, double step) { return "[time]\nend_s = " + toml_text(end) + "\nstep_s = " + toml_text(step) + "\n"; }
 
-/// A plane at height z that is passed downwards.
-std::string exit_text(const std::string& z) {
-  return "[observe]\nright = [1.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nexit_point_m = [0.0, 0.0, " + z + "]\nexit_normal = [0.0, 0.0, -1.0]\n";
+/// A plane that is passed downwards at height z, or downstream at x.
+std::string exit_text(char axis, const std::string& at) {
+  const bool downstream = axis == 'x';
+  return "[observe]\nright = [1.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nexit_point_m = [" +
+         (downstream ? at + ", 0.0, 0.0" : "0.0, 0.0, " + at) + "]\nexit_normal = [" + (downstream ? "1.0, 0.0, 0.0" : "0.0, 0.0, -1.0") +
+         "]\n";
 }
 
 constexpr const char* fall = "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n";
@@ -69,7 +72,7 @@ TwinExperiment sphere(NormalNumbers& random) {
     text += "[[particle]]\ndiameter_m = " + toml_text(diameter) + "\ndensity_kg_m3 = " + toml_text(density) +
             "\nshear_modulus_Pa = 1e4\nposition_m = [0.0, " + toml_text(kind == 0 || kind == 2 ? from_wall : 10 * diameter) + ", 0.0]\n";
     text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, 0]\nnormal = [0, 1, 0]\n";
-    text += exit_text("-0.04");
+    text += exit_text('z', "-0.04");
     twin.cases.push_back(text);
   }
   const double noise = between(1e-4, 4e-4);
@@ -95,14 +98,14 @@ TwinExperiment fibre(NormalNumbers& random) {
             "\ndensity_kg_m3 = " + toml_text(density) +
             "\nshear_modulus_Pa = 1e4\ncentre_m = [0.0, 0.05, 0.0]\nlengthwise = " + toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) +
             "\n";
-    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.06]\nnormal = [0, 0, 1]\n" + exit_text(open_exit);
+    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.06]\nnormal = [0, 0, 1]\n" + exit_text('z', open_exit);
     twin.cases.push_back(text);
   }
   add_camera(twin, between(1e-4, 3e-4), 1e-6, 0.02);
   twin.times = sample_times(end, 12);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"fibre.density_kg_m3\" = 0.005", "\"fibre.youngs_modulus_Pa\" = 0.05",
                  "\"drag_form\" = 0.05"};
-  twin.path = 0.02, twin.tip_acceleration = 20;
+  twin.path = 0.02, twin.tip_acceleration = 40;
   return twin;
 }
 
@@ -116,13 +119,13 @@ TwinExperiment rag(NormalNumbers& random) {
     std::string text = time_text(end, 1e-3) + fall + flow_text(flow, viscosity) + drag;
     text += "[[rag]]\nlength_mm = 56\nwidth_mm = 56\nradius_mm = 2\nshear_modulus_Pa = 1e4\ncentre_m = [0.0, 0.0, 0.0]\nlengthwise = " +
             toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) + "\ncrosswise = [0.0, 1.0, 0.0]\n";
-    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.1]\nnormal = [0, 0, 1]\n" + exit_text(open_exit);
+    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.1]\nnormal = [0, 0, 1]\n" + exit_text('x', open_exit);
     twin.cases.push_back(text);
   }
   add_camera(twin, between(2e-4, 5e-4), 3e-5, 0.03);
   twin.times = sample_times(end, 8);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"rag.mass_per_area_kg_m2\" = 0.02", "\"drag_form\" = 0.05"};
-  twin.path = 0.02, twin.tip_acceleration = 5;
+  twin.exit_axis = "x", twin.path = 0.02, twin.tip_acceleration = 10;
   return twin;
 }
 

@@ -20,11 +20,12 @@ struct TwinExperiment {
   std::vector<double> times;                                      // s, of samples
   std::vector<std::string> inputs;                                // lines of input_u, the same at every point
   std::vector<std::string> subsets{"all", "picture", "passage"};  // that make sense: all | picture | passage
-  double path = 0.04;                                             // m, that a piece goes
+  std::string exit_axis = "z";                                    // across the plane of the exit: x | z
+  double path = 0.15;                                             // m, that a piece goes
   double tip_acceleration = 0;                                    // m/s2, of the ends of a piece against its middle: what bends it plainly
 };
 
-/// Stands in the text of a case for the z of an exit that is still to be placed.
+/// Stands in the text of a case for the x or z of an exit that is still to be placed.
 inline constexpr const char* open_exit = "@exit@";
 
 /// Conditions drawn at random within what such an experiment would choose. Throws Error(usage) for an unknown twin.

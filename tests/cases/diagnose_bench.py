@@ -3,15 +3,9 @@
 # timeout: 36000
 # processors: 2
 import json
-import math
 
 import harness
-
-
-def chance(hits, n, p, at_least):
-    """Probability of so few hits (so many, if p is a largest share) of n when the share is p."""
-    counted = range(0, hits + 1) if at_least else range(hits, n + 1)
-    return sum(math.comb(n, k) * p**k * (1 - p) ** (n - k) for k in counted)
+from diagnose import chance
 
 
 class Benchmark(harness.CaseTest):
