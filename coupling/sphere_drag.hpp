@@ -8,11 +8,31 @@
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+#include <vector>
 
 #include "coupling/fluid_force.hpp"
 #include "coupling/vector_math.hpp"
 
 namespace snag {
+
+/// A drag law with its factor.
+struct SphereDrag : FluidForce {
+  double drag_factor = 1;
+  std::vector<Parameter> parameters() override {
+    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."}};
+  }
+};
+
+/// A drag law of particles of any shape, by their sphericity too.
+struct ShapeDrag : SphereDrag {
+  double sphericity = 1;
+  std::vector<Parameter> parameters() override {
+    auto records = SphereDrag::parameters();
+    records.push_back({"sphericity", &sphericity, "1", 0.05, 1, Basis::assumed,
+                       "phi: surface of the sphere of the same volume over the surface of the particle."});
+    return records;
+  }
+};
 
 /// `drag_times_Re(Re)` or, where it depends on more of the particle p than that, `drag_times_Re(Re, p)` is C_d Re.
 template <class Law>

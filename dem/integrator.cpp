@@ -90,24 +90,22 @@ void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_dri
   }
 }
 
-Box bounding_box(const Tile& tile) {
+Box bounding_box(const Tile& tile, int j) {
   constexpr double far = std::numeric_limits<double>::infinity();
-  double lower[3], upper[3];
+  Box box;
   const double* exists = tile.exists.data();
+  const int first = tile.index(0, j), end = first + tile.nx;
   for (int c = 0; c < 3; ++c) {
     const double* x = tile.field(Tile::x + c);
     double low = far, high = -far;
-    for (int j = 0; j < tile.ny; ++j) {
-      const int first = tile.index(0, j), end = first + tile.nx;
 #pragma omp simd reduction(min : low) reduction(max : high)
-      for (int k = first; k < end; ++k) {
-        const bool here = exists[k] > 0.5;
-        low = std::min(low, here ? x[k] : far), high = std::max(high, here ? x[k] : -far);
-      }
+    for (int k = first; k < end; ++k) {
+      const bool here = exists[k] > 0.5;
+      low = std::min(low, here ? x[k] : far), high = std::max(high, here ? x[k] : -far);
     }
-    lower[c] = low, upper[c] = high;
+    box.lower[c] = low, box.upper[c] = high;
   }
-  return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+  return box;
 }
 
 }  // namespace snag

@@ -24,10 +24,11 @@ struct Inertia {
 /// velocity.
 void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift);
 
-/// Lower and upper corner of the positions of the tile's particles (m); lower > upper if none exists.
+/// Lower and upper corner of the positions of particles (m); lower > upper if none exists.
 struct Box {
   Vec3 lower, upper;
 };
-Box bounding_box(const Tile& tile);
+/// Of the particles in row j of a tile.
+Box bounding_box(const Tile& tile, int j);
 
 }  // namespace snag

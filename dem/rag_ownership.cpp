@@ -68,68 +68,141 @@ void RagSystem::set_pointers() {
   }
 }
 
-/// Lower corners and negative upper corners of all tiles, by number.
-std::vector<double> RagSystem::all_boxes() {
-  std::vector<double> boxes(6 * owner_.size(), std::numeric_limits<double>::infinity());
+int RagSystem::n_rows_of(int number) const {
+  const TileGrid& grid = grids_[rag_of_tile(number)];
+  const int row = (number - grid.first_tile) / grid.columns;
+  return grid.row_start[row + 1] - grid.row_start[row];
+}
+
+/// Lower corners and negative upper corners of the rows of all tiles, by number and row.
+std::vector<double> RagSystem::all_row_boxes() {
+  std::vector<std::size_t> first(owner_.size() + 1, 0);
+  for (int t = 0; t < n_all_tiles(); ++t) first[t + 1] = first[t] + static_cast<std::size_t>(n_rows_of(t));
+  std::vector<double> boxes(6 * first.back(), std::numeric_limits<double>::infinity());
   boxes_.clear();
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    const Box box = bounding_box(tiles_[i]);
-    boxes_.push_back(box);
-    const std::array<double, 6> corners{box.lower.x, box.lower.y, box.lower.z, -box.upper.x, -box.upper.y, -box.upper.z};
-    std::copy(corners.begin(), corners.end(), &boxes[6 * numbers_[i]]);
-  }
+  for (std::size_t i = 0; i < tiles_.size(); ++i)
+    for (int j = 0; j < tiles_[i].ny; ++j) {
+      const Box box = bounding_box(tiles_[i], j);
+      boxes_.push_back(box);
+      const std::array<double, 6> corners{box.lower.x, box.lower.y, box.lower.z, -box.upper.x, -box.upper.y, -box.upper.z};
+      std::copy(corners.begin(), corners.end(), &boxes[6 * (first[numbers_[i]] + j)]);
+    }
   MPI_Allreduce(MPI_IN_PLACE, boxes.data(), static_cast<int>(boxes.size()), MPI_DOUBLE, MPI_MIN, comm_);
   return boxes;
 }
 
-bool RagSystem::near(int a, int b, const std::vector<double>& boxes) const {
-  for (const auto& [column, row] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-    if (neighbour_number(a, column, row) == b) return true;
-  if (!contacts_) return false;
-  const double reach = contacts_->cutoff() + 2 * ghost_path(*contacts_);
-  return box_distance_squared(&boxes[6 * a], &boxes[6 * b]) <= reach * reach;
-}
-
-/// True once a tile has left its box by more than what the ghosts were chosen for.
+/// True once a row has left its box by more than what the ghosts were chosen for.
 bool RagSystem::ghosts_outdated() const {
   const double margin = contacts_->skin() / 2 + ghost_path(*contacts_);
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    const Box now = bounding_box(tiles_[i]), &then = boxes_[i];
-    for (int c = 0; c < 3; ++c)
-      if (now.lower[c] < then.lower[c] - margin || now.upper[c] > then.upper[c] + margin) return true;
-  }
+  auto then = boxes_.begin();
+  for (const Tile& tile : tiles_)
+    for (int j = 0; j < tile.ny; ++j, ++then) {
+      const Box now = bounding_box(tile, j);
+      for (int c = 0; c < 3; ++c)
+        if (now.lower[c] < then->lower[c] - margin || now.upper[c] > then->upper[c] + margin) return true;
+    }
   return false;
 }
 
-/// For each rank that owns tiles near those of this rank: which tiles to send to it, which to receive, by ascending number. "Near" is
-/// mutual: what one side sends for a pair, the other expects.
-std::map<int, RagSystem::TileLists> RagSystem::exchange_lists() {
-  const int rank = rank_of(comm_);
-  const std::vector<double> boxes = contacts_ && size_of(comm_) > 1 ? all_boxes() : std::vector<double>();
-  std::map<int, TileLists> lists;
-  for (const int mine : numbers_)
-    for (int other = 0; other < n_all_tiles(); ++other)
-      if (owner_[other] >= 0 && owner_[other] != rank && near(mine, other, boxes)) {
-        lists[owner_[other]].send.push_back(mine);
-        lists[owner_[other]].receive.push_back(other);
-      }
-  for (auto& [other_rank, list] : lists)
-    for (std::vector<int>* numbers : {&list.send, &list.receive}) {
-      std::sort(numbers->begin(), numbers->end());
-      numbers->erase(std::unique(numbers->begin(), numbers->end()), numbers->end());
+/// What is sent and received, by rank and tile: of each tile the rows between the first and the last that are needed. "Needed" is found by
+/// both sides from the same numbers, so what one sends for a pair the other expects.
+class RagSystem::NeededRows {
+ public:
+  explicit NeededRows(const std::vector<int>& owner) : owner_(owner) {}
+  /// Rows of an owned tile and of another rank's tile that are near each other.
+  void add(int mine, int first, int end, int other, int other_first, int other_end) {
+    grow(lists_[owner_[other]].send, mine, first, end);
+    grow(lists_[owner_[other]].receive, other, other_first, other_end);
+  }
+  std::map<int, TileLists> lists() const {
+    std::map<int, TileLists> all;
+    for (const auto& [rank, rows] : lists_) {
+      for (const auto& [tile, range] : rows.send) all[rank].send.push_back(range);
+      for (const auto& [tile, range] : rows.receive) all[rank].receive.push_back(range);
     }
-  return lists;
+    return all;
+  }
+
+ private:
+  using Rows = std::map<int, TileRows>;
+  struct OfRank {
+    Rows send, receive;
+  };
+  static void grow(Rows& rows, int tile, int first, int end) {
+    TileRows& range = rows.try_emplace(tile, TileRows{tile, first, end}).first->second;
+    range.first = std::min(range.first, first), range.end = std::max(range.end, end);
+  }
+  const std::vector<int>& owner_;
+  std::map<int, OfRank> lists_;
+};
+
+void RagSystem::add_ring_sources(NeededRows& needed) const {
+  for (const int mine : numbers_)
+    for (const auto& [column, row] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      const int other = neighbour_number(mine, column, row);
+      if (other < 0 || owner_[other] < 0 || owner_[other] == rank_of(comm_)) continue;
+      const int n = n_rows_of(mine), n_other = n_rows_of(other);
+      if (row == 0) needed.add(mine, 0, n, other, 0, n_other);
+      if (row > 0) needed.add(mine, n - 1, n, other, 0, 1);
+      if (row < 0) needed.add(mine, 0, 1, other, n_other - 1, n_other);
+    }
+}
+
+void RagSystem::add_near_rows(NeededRows& needed) {
+  struct Rows {
+    const double* box = nullptr;
+    int n = 0;
+    std::array<double, 6> all{};  // box of all rows
+  };
+  const std::vector<double> boxes = all_row_boxes();
+  std::vector<Rows> tiles(owner_.size());
+  const double* box = boxes.data();
+  for (int t = 0; t < n_all_tiles(); ++t) {
+    tiles[t] = {box, n_rows_of(t)};
+    tiles[t].all.fill(std::numeric_limits<double>::infinity());
+    for (int j = 0; j < tiles[t].n; ++j, box += 6)
+      for (int c = 0; c < 6; ++c) tiles[t].all[c] = std::min(tiles[t].all[c], box[c]);
+  }
+  const double reach = contacts_->cutoff() + 2 * ghost_path(*contacts_);
+  const auto are_near = [&](const double* a, const double* b) { return box_distance_squared(a, b) <= reach * reach; };
+  for (const int mine : numbers_)
+    for (int other = 0; other < n_all_tiles(); ++other) {
+      if (owner_[other] < 0 || owner_[other] == rank_of(comm_) || !are_near(tiles[mine].all.data(), tiles[other].all.data())) continue;
+      for (int i = 0; i < tiles[mine].n; ++i)
+        for (int j = 0; j < tiles[other].n; ++j)
+          if (are_near(tiles[mine].box + 6 * i, tiles[other].box + 6 * j)) needed.add(mine, i, i + 1, other, j, j + 1);
+    }
+}
+
+/// For each rank that owns rows near those of this rank: which to send to it, which to receive.
+std::map<int, RagSystem::TileLists> RagSystem::exchange_lists() {
+  NeededRows needed(owner_);
+  add_ring_sources(needed);
+  if (contacts_ && size_of(comm_) > 1) add_near_rows(needed);
+  return needed.lists();
 }
 
 void RagSystem::find_ghosts() { set_ghosts(exchange_lists()); }
+
+void RagSystem::renew_ghosts() {
+  std::map<int, TileLists> lists = exchange_lists();
+  if (lists != lists_) set_ghosts(std::move(lists));
+}
 
 void RagSystem::set_ghosts(std::map<int, TileLists> new_lists) {
   lists_ = std::move(new_lists);
   const std::map<int, TileLists>& lists = lists_;
   ghost_numbers_.clear(), ghosts_.clear(), ghost_pointers_.clear();
-  for (const auto& [other_rank, list] : lists) ghost_numbers_.insert(ghost_numbers_.end(), list.receive.begin(), list.receive.end());
-  std::sort(ghost_numbers_.begin(), ghost_numbers_.end());
-  for (const int number : ghost_numbers_) ghosts_.push_back(tile_at_birth(number));
+  std::vector<TileRows> of_others;
+  for (const auto& [other_rank, list] : lists) of_others.insert(of_others.end(), list.receive.begin(), list.receive.end());
+  std::sort(of_others.begin(), of_others.end(), [](const TileRows& a, const TileRows& b) { return a.tile < b.tile; });
+  for (const auto& [number, first, end] : of_others) {
+    ghost_numbers_.push_back(number), ghosts_.push_back(tile_at_birth(number));
+    Tile& ghost = ghosts_.back();
+    for (int j = 0; j < ghost.ny; ++j)
+      if (j < first || j >= end) std::fill_n(&ghost.exists[ghost.index(0, j)], ghost.nx, 0.0);
+  }
+  if (contacts_) contacts_->renew_lists();
   for (const Tile& tile : ghosts_) ghost_pointers_.push_back(&tile);
 
   const auto place = [](const std::vector<int>& list, int number) {
@@ -140,8 +213,8 @@ void RagSystem::set_ghosts(std::map<int, TileLists> new_lists) {
   for (const auto& [other_rank, list] : lists) {
     TileHalo::Neighbour n;
     n.rank = other_rank;
-    for (const int number : list.send) n.send.push_back(place(numbers_, number));
-    for (const int number : list.receive) n.receive.push_back(place(ghost_numbers_, number));
+    for (const auto& [number, first, end] : list.send) n.send.push_back({place(numbers_, number), first, end});
+    for (const auto& [number, first, end] : list.receive) n.receive.push_back({place(ghost_numbers_, number), first, end});
     neighbours.push_back(std::move(n));
   }
   halo_ = std::make_unique<TileHalo>(comm_, std::move(neighbours), tiles_, ghosts_);
@@ -178,14 +251,18 @@ void RagSystem::migrate(const OwnerOf& owner_of) {
     if (owner_[t] >= 0 && (owner[t] < 0 || owner[t] >= size_of(comm_)))
       throw Error(ExitCode::invariant, "rags: tile " + std::to_string(t) + " was given to rank " + std::to_string(owner[t]) +
                                            ", must be 0 to " + std::to_string(size_of(comm_) - 1) + "; is a rag outside the mesh?");
-  if (owner != owner_) move_tiles(owner);
-  find_ghosts();
+  if (owner != owner_) {
+    move_tiles(owner);
+    find_ghosts();
+  } else {
+    renew_ghosts();
+  }
   halo_->exchange();
 }
 
 std::vector<double> RagSystem::pack(const Tile& tile) const {
   std::vector<double> values(static_cast<std::size_t>(Tile::n_state) * tile.nx * tile.ny);
-  pack_state(tile, values.data());
+  pack_state(tile, 0, tile.ny, values.data());
   for (const AlignedDoubles* mask : {&tile.free, &tile.bond_x, &tile.bond_y}) values.insert(values.end(), mask->begin(), mask->end());
   values.push_back(static_cast<double>(tile.memory.size()));
   values.insert(values.end(), tile.memory.begin(), tile.memory.end());
@@ -198,7 +275,7 @@ std::vector<double> RagSystem::pack(const Tile& tile) const {
 
 Tile RagSystem::unpack(int number, std::span<const double> values) {
   Tile tile = tile_at_birth(number);
-  const double* in = unpack_state(tile, values.data());
+  const double* in = unpack_state(tile, 0, tile.ny, values.data());
   for (AlignedDoubles* mask : {&tile.free, &tile.bond_x, &tile.bond_y}) {
     std::copy_n(in, mask->size(), mask->begin());
     in += mask->size();

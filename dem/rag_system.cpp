@@ -139,10 +139,7 @@ void RagSystem::exchange_ghosts() {
   if (contacts_ && size_of(comm_) > 1) {
     int outdated = ghosts_outdated(), any = 0;
     MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, comm_);
-    if (any) {
-      std::map<int, TileLists> lists = exchange_lists();
-      if (lists != lists_) set_ghosts(std::move(lists));
-    }
+    if (any) renew_ghosts();
   }
   halo_->exchange_ghosts();
 }

@@ -1,10 +1,10 @@
 #pragma once
 // All cloth of a run: tiles owned by this rank, their halo, bonds, contacts and walls, advanced in stable sub-steps.
 //
-// Every tile has one owner. Before the forces of a sub-step owned tiles get their rings filled from their lattice neighbours, and whole
-// tiles of other ranks that are near are present as ghosts (lattice neighbours always; with contacts also those whose bounding boxes come
-// within the contact cutoff). Forces on a particle are computed by its owner only, from the same numbers in the same order on any number of
-// ranks.
+// Every tile has one owner. Before the forces of a sub-step owned tiles get their rings filled from their lattice neighbours, and tiles of
+// other ranks that are near are present as ghosts, in rows: what the rings are copied from always; with contacts also rows whose bounding
+// boxes come within the contact cutoff. Other rows of a ghost do not exist. Forces on a particle are computed by its owner only, from the
+// same numbers in the same order on any number of ranks.
 #include <mpi.h>
 
 #include <cstdint>
@@ -22,13 +22,13 @@
 #include "dem/rag.hpp"
 #include "dem/rag_settings.hpp"
 #include "dem/tile.hpp"
+#include "dem/tile_halo.hpp"
 
 namespace snag {
 
 class CheckpointReader;
 class CheckpointWriter;
 class ContactSolver;
-class TileHalo;
 
 /// A force from outside (the fluid) on the particles of an owned tile, added once a sub-step to fx .. tz of all its particles. It acts over
 /// the whole sub-step: the impulse on a particle is force times `step`, to round-off.
@@ -127,15 +127,19 @@ class RagSystem {
   void exchange_ghosts();
   void evaluate_and_move(double step, double drift_step, TileForce* force);
   struct TileLists {
-    std::vector<int> send, receive;  // tile numbers
+    std::vector<TileRows> send, receive;  // by ascending number of the tile
     bool operator==(const TileLists&) const = default;
   };
   std::map<int, TileLists> exchange_lists();
   void find_ghosts();
+  void renew_ghosts();
   void set_ghosts(std::map<int, TileLists> lists);
   bool ghosts_outdated() const;
-  std::vector<double> all_boxes();
-  bool near(int a, int b, const std::vector<double>& boxes) const;
+  class NeededRows;
+  void add_ring_sources(NeededRows& needed) const;
+  void add_near_rows(NeededRows& needed);
+  std::vector<double> all_row_boxes();
+  int n_rows_of(int number) const;
   int neighbour_number(int number, int column_step, int row_step) const;
   void set_pointers();
   void move_tiles(const std::vector<int>& owner);
@@ -168,7 +172,7 @@ class RagSystem {
   std::vector<Tile> ghosts_;
   std::vector<Tile*> owned_pointers_;
   std::vector<const Tile*> ghost_pointers_;
-  std::vector<Box> boxes_;  // of the owned tiles when ghosts were chosen
+  std::vector<Box> boxes_;  // of the rows of the owned tiles when ghosts were chosen
   std::int64_t n_owned_particles_ = 0;
   std::unique_ptr<TileHalo> halo_;
   std::unique_ptr<ContactSolver> contacts_;

@@ -4,21 +4,25 @@
 
 namespace snag {
 
-double* pack_state(const Tile& tile, double* out) {
+double* pack_state(const Tile& tile, int first, int end, double* out) {
   for (int f = 0; f < Tile::n_state; ++f)
-    for (int j = 0; j < tile.ny; ++j) out = std::copy_n(tile.field(f) + tile.index(0, j), tile.nx, out);
+    for (int j = first; j < end; ++j) out = std::copy_n(tile.field(f) + tile.index(0, j), tile.nx, out);
   return out;
 }
 
-const double* unpack_state(Tile& tile, const double* in) {
+const double* unpack_state(Tile& tile, int first, int end, const double* in) {
   for (int f = 0; f < Tile::n_state; ++f)
-    for (int j = 0; j < tile.ny; ++j, in += tile.nx) std::copy_n(in, tile.nx, tile.field(f) + tile.index(0, j));
+    for (int j = first; j < end; ++j, in += tile.nx) std::copy_n(in, tile.nx, tile.field(f) + tile.index(0, j));
   return in;
 }
 
 namespace {
 
-std::size_t state_size(const Tile& tile) { return static_cast<std::size_t>(Tile::n_state) * tile.nx * tile.ny; }
+std::size_t state_size(std::span<const Tile> tiles, const std::vector<TileRows>& rows) {
+  std::size_t n = 0;
+  for (const TileRows& r : rows) n += static_cast<std::size_t>(Tile::n_state) * tiles[r.tile].nx * (r.end - r.first);
+  return n;
+}
 
 /// Copies n particles' states; places advance by `to_step`, `from_step`.
 void copy_line(Tile& to, int to_place, int to_step, const Tile& from, int from_place, int from_step, int n) {
@@ -33,12 +37,7 @@ void copy_line(Tile& to, int to_place, int to_step, const Tile& from, int from_p
 
 TileHalo::TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts)
     : comm_(comm), neighbours_(std::move(neighbours)), owned_(owned), ghosts_(ghosts), requests_(2 * neighbours_.size()) {
-  for (Neighbour& n : neighbours_) {
-    std::size_t out = 0, in = 0;
-    for (const int t : n.send) out += state_size(owned_[t]);
-    for (const int t : n.receive) in += state_size(ghosts_[t]);
-    n.out.resize(out), n.in.resize(in);
-  }
+  for (Neighbour& n : neighbours_) n.out.resize(state_size(owned_, n.send)), n.in.resize(state_size(ghosts_, n.receive));
 }
 
 void TileHalo::add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above) {
@@ -51,13 +50,13 @@ void TileHalo::exchange_ghosts() {
   for (Neighbour& n : neighbours_) MPI_Irecv(n.in.data(), static_cast<int>(n.in.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
   for (Neighbour& n : neighbours_) {
     double* out = n.out.data();
-    for (const int t : n.send) out = pack_state(owned_[t], out);
+    for (const auto& [t, first, end] : n.send) out = pack_state(owned_[t], first, end, out);
     MPI_Isend(n.out.data(), static_cast<int>(n.out.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
   }
   MPI_Waitall(r, requests_.data(), MPI_STATUSES_IGNORE);
   for (const Neighbour& n : neighbours_) {
     const double* in = n.in.data();
-    for (const int t : n.receive) in = unpack_state(ghosts_[t], in);
+    for (const auto& [t, first, end] : n.receive) in = unpack_state(ghosts_[t], first, end, in);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The halo of the tiles: whole ghost tiles from other ranks, then the rings of the owned tiles from their lattice neighbours.
+// The halo of the tiles: rows of ghost tiles from other ranks, then the rings of the owned tiles from their lattice neighbours.
 #include <mpi.h>
 
 #include <span>
@@ -10,12 +10,19 @@
 
 namespace snag {
 
+/// Rows first .. end of a tile, which is told by its number, or by its place in a list.
+struct TileRows {
+  int tile = 0, first = 0, end = 0;
+  bool operator==(const TileRows&) const = default;
+};
+
 class TileHalo {
  public:
-  /// One rank that tiles are exchanged with: places of owned tiles that it needs, places of ghosts that it owns, both by ascending number.
+  /// One rank that rows are exchanged with: those of owned tiles (by place) that it needs, those of ghosts that it owns, in the same order
+  /// on both sides.
   struct Neighbour {
     int rank = 0;
-    std::vector<int> send, receive;
+    std::vector<TileRows> send, receive;
     std::vector<double> out, in;
   };
 
@@ -42,8 +49,8 @@ class TileHalo {
   std::vector<MPI_Request> requests_;
 };
 
-/// State of the particles of a tile (without ring), field by field, row by row: n_state * nx * ny doubles.
-double* pack_state(const Tile& tile, double* out);
-const double* unpack_state(Tile& tile, const double* in);
+/// State of the particles in rows first .. end of a tile (without ring), field by field, row by row: n_state * nx doubles a row.
+double* pack_state(const Tile& tile, int first, int end, double* out);
+const double* unpack_state(Tile& tile, int first, int end, const double* in);
 
 }  // namespace snag

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "app/report/html.hpp"
 #include "app/report/page.hpp"
@@ -62,7 +63,7 @@ std::string strengths(const Verdict& v) {
         {escaped(name) + (estimate.absorbing ? " (far from what is physically expected: it may take up something else)" : ""),
          html::number(estimate.mean) + " ± " + html::number(estimate.sd) + (estimate.unit == "1" ? "" : " " + escaped(estimate.unit)),
          html::number(estimate.cochran_p)});
-  return rows.empty() ? "" : html::table({"Strength", "fitted", "p that the points agree"}, rows);
+  return rows.empty() ? "" : html::table({"Strength", "fitted", "p that the points agree on it"}, rows);
 }
 
 std::string how_far(const Verdict& v) {
@@ -80,8 +81,56 @@ std::string how_far(const Verdict& v) {
   for (const auto& [name, s] : v.shrinkage) rows.push_back(row(name, s));
   for (const auto& [name, s] : v.shrinkage_rejected) rows.push_back(row(name + ", rejected", s));
   rows.push_back(row("a correction without physics", v.shrinkage_regression));
-  return text + "<p>Mean squares over the cells of the withheld points, in units of the data's own uncertainty.</p>\n" +
+  return text +
+         "<p>Mean square differences at the withheld points, in units of the data's own uncertainty, less what noise alone makes (the "
+         "noise "
+         "floor). Remainder: what is left of the gap after the best that was tried.</p>\n" +
          html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
+}
+
+/// White where |z| is zero, over yellow to dark red at six and more.
+std::string heat(double z) {
+  const double t = std::min(std::abs(z) / 6, 1.0);
+  const auto channel = [t](double at_zero, double at_half, double at_one) {
+    return static_cast<int>(t < 0.5 ? at_zero + 2 * t * (at_half - at_zero) : at_half + (2 * t - 1) * (at_one - at_half));
+  };
+  char text[32];
+  std::snprintf(text, sizeof text, "rgb(%d,%d,%d)", channel(255, 254, 165), channel(255, 196, 15), channel(255, 79, 21));
+  return text;
+}
+
+/// A square for every cell: points beside each other, observables and the parts of their time below each other.
+std::string map_of_gap(const Verdict& v) {
+  constexpr double left = 190, top = 26, width = 56, height = 24;
+  std::vector<std::string> points, rows;
+  const auto place = [](std::vector<std::string>& list, const std::string& name) {
+    const auto found = std::find(list.begin(), list.end(), name);
+    if (found != list.end()) return static_cast<double>(found - list.begin());
+    list.push_back(name);
+    return static_cast<double>(list.size() - 1);
+  };
+  std::map<std::pair<std::string, std::string>, int> part;  // windows of an observable at a point so far
+  std::string cells;
+  for (const GapCell& c : v.where) {
+    std::string row = c.observable + (c.region == "all" ? "" : ", " + c.region);
+    if (const int n = ++part[{c.point, row}]; !std::isnan(c.window[0])) row += ", part " + std::to_string(n);
+    const double x = left + width * place(points, c.point), y = top + height * place(rows, row);
+    char z[32];
+    std::snprintf(z, sizeof z, std::abs(c.z) < 9.95 ? "%.1f" : "%.0f", c.z);
+    cells += "<rect x=\"" + words(x) + "\" y=\"" + words(y) + "\" width=\"" + words(width - 2) + "\" height=\"" + words(height - 2) +
+             "\" fill=\"" + heat(c.z) + "\"/><text x=\"" + words(x + width / 2 - 1) + "\" y=\"" + words(y + 0.66 * height) +
+             "\" text-anchor=\"middle\"" + (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
+  }
+  std::string labels;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    labels += "<text x=\"" + words(left + width * (static_cast<double>(i) + 0.5) - 1) + "\" y=\"18\" text-anchor=\"middle\">" +
+              escaped(points[i]) + "</text>\n";
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    labels += "<text x=\"" + words(left - 8) + "\" y=\"" + words(top + height * (static_cast<double>(i) + 0.66)) +
+              "\" text-anchor=\"end\">" + escaped(rows[i]) + "</text>\n";
+  const double all_width = std::max(760.0, left + width * static_cast<double>(points.size()));
+  return "<svg viewBox=\"0 0 " + words(all_width) + " " + words(top + height * static_cast<double>(rows.size()) + 4) +
+         "\" role=\"img\">\n" + labels + cells + "</svg>\n";
 }
 
 std::string window(const GapCell& cell) {
@@ -96,13 +145,15 @@ std::string where(const Verdict& v) {
   for (std::size_t i = 0; i < std::min<std::size_t>(cells.size(), 40); ++i) {
     const GapCell& c = *cells[i];
     const std::string remark = std::string(c.onset ? "begins here " : "") + (c.blind ? "blind " : "") + (c.withheld ? "withheld" : "");
-    rows.push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region)), escaped(c.point), window(c),
+    rows.push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
+                    html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
                     (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark});
   }
   const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
   return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
-         " cells differ beyond what their uncertainty explains (false discovery rate 0.05). z: difference over its uncertainty.</p>\n" +
-         html::table({"Observable", "Point", "Window", "z", ""}, rows);
+         " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
+         "standard uncertainty; points beside each other.</p>\n" +
+         map_of_gap(v) + html::table({"Cell", "measured (SI)", "simulated", "u of the difference", "difference/u", ""}, rows);
 }
 
 std::string evidence(const Verdict& v) {
@@ -132,7 +183,9 @@ std::string next(const Verdict& v) {
 
 std::string verdict_sentence(const Verdict& v) {
   if (v.verdict == "none") return "No gap beyond the uncertainty: nothing is missing that these data could show.";
-  if (v.verdict == "outside") return "There is a gap, and no effect of the library explains it.";
+  if (v.verdict == "outside")
+    return "There is a gap, and no effect of the library explains it." +
+           (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
   if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
   if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
   const auto p = v.probability.find([&] {

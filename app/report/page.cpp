@@ -14,7 +14,7 @@ h2 { font-size: 1.2rem; margin: 34px 0 10px; padding-bottom: 4px; border-bottom:
 table { border-collapse: collapse; width: 100%; margin: 8px 0; font-size: 0.93rem; }
 th, td { text-align: left; vertical-align: top; padding: 5px 12px 5px 0; border-bottom: 1px solid #dde3ea; overflow-wrap: anywhere; }
 th { color: #596575; font-weight: 600; }
-td { font-variant-numeric: tabular-nums; } td:first-child { width: 60%; } sup { line-height: 0; }
+td { font-variant-numeric: tabular-nums; } td:first-child:nth-last-child(-n+3) { width: 60%; } sup { line-height: 0; }
 .pass { color: #00734f; font-weight: 700; } .fail { color: #b3400e; font-weight: 700; } .idle { color: #596575; }
 .pictures, .plots { display: grid; gap: 14px; }
 .pictures { grid-template-columns: repeat(3, 1fr); } .plots { grid-template-columns: repeat(2, 1fr); }

@@ -1,4 +1,4 @@
-// Drag in a suspension of void fraction epsilon = 1 - solid fraction, at least 0.1 (coupling/void_fraction.hpp):
+// Drag in a suspension of void fraction epsilon = 1 - solid fraction, at least 0.1 (coupling/suspension_drag.hpp):
 //
 //   F = 1/2 rho C_d A epsilon^(2 - beta) |w| w,   C_d = (0.63 + 4.8/Re_s^(1/2))^2,   Re_s = epsilon rho |w| d/mu
 //   beta = 3.7 - 0.65 exp(-(1.5 - log10 Re_s)^2/2)
@@ -6,26 +6,17 @@
 // Source: di Felice (1994), Int. J. Multiphase Flow 20, 153-159; C_d of Dallavalle (1948).
 #include <algorithm>
 
-#include "coupling/sphere_drag.hpp"
-#include "coupling/void_fraction.hpp"
+#include "coupling/suspension_drag.hpp"
 
 namespace snag {
 namespace {
 
-struct DiFelice final : FluidForce {
+struct DiFelice final : SuspensionDrag {
   static constexpr const char* name = "di_felice";
-  double drag_factor = 1;
 
   Card card() const override {
-    return {.name = name,
-            .equation = "F = 1/2 rho C_d A epsilon^(2 - beta) |w| w, C_d = (0.63 + 4.8/Re_s^(1/2))^2",
-            .source = "di Felice (1994)",
-            .valid_for = "spheres, void fraction 0.4 to 1, all Re; solid fraction of a computed flow",
-            .samples = {.solid_fraction = true},
-            .role = Role::drag};
-  }
-  std::vector<Parameter> parameters() override {
-    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."}};
+    return card_of(name, "F = 1/2 rho C_d A epsilon^(2 - beta) |w| w, C_d = (0.63 + 4.8/Re_s^(1/2))^2", "di Felice (1994)",
+                   "spheres, void fraction 0.4 to 1, all Re; solid fraction of a computed flow");
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double factor = drag_factor;

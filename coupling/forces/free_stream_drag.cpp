@@ -8,9 +8,8 @@
 namespace snag {
 namespace {
 
-struct FreeStreamDrag final : FluidForce {
+struct FreeStreamDrag final : SphereDrag {
   static constexpr const char* name = "free_stream_drag";
-  double drag_factor = 1;
 
   Card card() const override {
     return {.name = name,
@@ -18,9 +17,6 @@ struct FreeStreamDrag final : FluidForce {
             .source = "Jensen (2018) Eq. 5.1",
             .valid_for = "isolated sphere, Re < 2e5",
             .role = Role::drag};
-  }
-  std::vector<Parameter> parameters() override {
-    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double factor = drag_factor;

@@ -10,9 +10,8 @@
 namespace snag {
 namespace {
 
-struct Ganser final : FluidForce {
+struct Ganser final : ShapeDrag {
   static constexpr const char* name = "ganser";
-  double drag_factor = 1, sphericity = 1;
 
   Card card() const override {
     return {.name = name,
@@ -20,11 +19,6 @@ struct Ganser final : FluidForce {
             .source = "Ganser (1993)",
             .valid_for = "isometric particles, Re K_1 K_2 < 1e5",
             .role = Role::drag};
-  }
-  std::vector<Parameter> parameters() override {
-    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."},
-            {"sphericity", &sphericity, "1", 0.05, 1, Basis::assumed,
-             "phi: surface of the sphere of the same volume over the surface of the particle."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double f = sphericity, factor = drag_factor;

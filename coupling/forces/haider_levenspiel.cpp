@@ -11,9 +11,8 @@
 namespace snag {
 namespace {
 
-struct HaiderLevenspiel final : FluidForce {
+struct HaiderLevenspiel final : ShapeDrag {
   static constexpr const char* name = "haider_levenspiel";
-  double drag_factor = 1, sphericity = 1;
 
   Card card() const override {
     return {.name = name,
@@ -21,11 +20,6 @@ struct HaiderLevenspiel final : FluidForce {
             .source = "Haider and Levenspiel (1989)",
             .valid_for = "sphericity above 0.5, Re < 2.6e5",
             .role = Role::drag};
-  }
-  std::vector<Parameter> parameters() override {
-    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."},
-            {"sphericity", &sphericity, "1", 0.05, 1, Basis::assumed,
-             "phi: surface of the sphere of the same volume over the surface of the particle."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double f = sphericity, factor = drag_factor;

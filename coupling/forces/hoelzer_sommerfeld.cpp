@@ -10,9 +10,9 @@
 namespace snag {
 namespace {
 
-struct HoelzerSommerfeld final : FluidForce {
+struct HoelzerSommerfeld final : ShapeDrag {
   static constexpr const char* name = "hoelzer_sommerfeld";
-  double drag_factor = 1, sphericity = 1, lengthwise_sphericity = 1, crosswise_sphericity = 1;
+  double lengthwise_sphericity = 1, crosswise_sphericity = 1;
 
   Card card() const override {
     return {.name = name,
@@ -22,11 +22,10 @@ struct HoelzerSommerfeld final : FluidForce {
             .role = Role::drag};
   }
   std::vector<Parameter> parameters() override {
-    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."},
-            {"sphericity", &sphericity, "1", 0.05, 1, Basis::assumed,
-             "phi: surface of the sphere of the same volume over the surface of the particle."},
-            {"lengthwise_sphericity", &lengthwise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_l."},
-            {"crosswise_sphericity", &crosswise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_c."}};
+    auto records = ShapeDrag::parameters();
+    records.push_back({"lengthwise_sphericity", &lengthwise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_l."});
+    records.push_back({"crosswise_sphericity", &crosswise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_c."});
+    return records;
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double viscous = 8 / std::sqrt(lengthwise_sphericity) + 16 / std::sqrt(sphericity), between = 3 * std::pow(sphericity, -0.75);

@@ -8,9 +8,8 @@
 namespace snag {
 namespace {
 
-struct SchillerNaumann final : FluidForce {
+struct SchillerNaumann final : SphereDrag {
   static constexpr const char* name = "schiller_naumann";
-  double drag_factor = 1;
 
   Card card() const override {
     return {.name = name,
@@ -18,9 +17,6 @@ struct SchillerNaumann final : FluidForce {
             .source = "Schiller and Naumann (1933)",
             .valid_for = "isolated sphere, Re < 2e5",
             .role = Role::drag};
-  }
-  std::vector<Parameter> parameters() override {
-    return {{"drag_factor", &drag_factor, "1", 0, 10, Basis::assumed, "Multiplies C_d; a particle of a rag is not an isolated sphere."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double factor = drag_factor;

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "coupling/drag_change.hpp"
-#include "coupling/void_fraction.hpp"
+#include "coupling/suspension_drag.hpp"
 
 namespace snag {
 namespace {

@@ -59,6 +59,7 @@ struct ContactSolver::State {
   const std::vector<Rag>* rags;
   double skin = 0, time = 0;
   bool unpacked = false;  // something waits to be put into the lists
+  bool outdated = false;  // other particles exist
   ContactParticles particles;
   ContactList list;
   PairForces forces;
@@ -79,11 +80,12 @@ ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 
+void ContactSolver::renew_lists() { state_->outdated = true; }
 void ContactSolver::set_time(double time) { state_->time = time; }
 
 void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) {
   const bool same_tiles = particles.holds(owned, ghosts);
-  if (same_tiles && !unpacked && !particles.bonds_changed() && particles.keeps_distances(0.5 * skin)) {
+  if (same_tiles && !unpacked && !outdated && !particles.bonds_changed() && particles.keeps_distances(0.5 * skin)) {
     if (walls && walls->due(time, particles.path())) walls->list(particles, time), particles.reset_path();
     return;
   }
@@ -94,7 +96,7 @@ void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<
   if (walls && unpacked) walls->sort_unpacked();
   if (walls) walls->list(particles, time);
   particles.reset_path();
-  unpacked = false;
+  unpacked = outdated = false;
   measures.n_not_finite = particles.n_not_finite;
   ++measures.n_lists;
 }

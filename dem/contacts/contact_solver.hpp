@@ -72,6 +72,9 @@ class ContactSolver {
   void evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step);
   void add_to_tile(std::size_t i) const;
 
+  /// Other rows of the ghosts exist now: the lists are made anew at the next add_forces.
+  void renew_lists();
+
   /// Distance between particle centres within which tiles must be present as ghosts: 2 r_max + skin, m. Ghosts chosen so stay good until a
   /// particle moved skin()/2.
   double cutoff() const;

@@ -26,6 +26,9 @@ class Examples(harness.CaseTest):
         text = document.read_text()
         for name, content in printed_files(text).items():
             (self.work / name).write_text(content)
+        # The commands are meant for the source folder, but what they write goes elsewhere.
+        if not (self.work / "cases").exists():
+            (self.work / "cases").symlink_to(harness.SOURCE_DIR / "cases")
         before = os.getcwd()
         os.chdir(self.work)
         self.addCleanup(os.chdir, before)
