@@ -144,7 +144,8 @@ std::string where(const Verdict& v) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < std::min<std::size_t>(cells.size(), 40); ++i) {
     const GapCell& c = *cells[i];
-    const std::string remark = std::string(c.onset ? "begins here " : "") + (c.blind && !c.significant ? "blind " : "") + (c.withheld ? "withheld" : "");
+    const std::string remark =
+        std::string(c.onset ? "begins here " : "") + (c.blind && !c.significant ? "blind " : "") + (c.withheld ? "withheld" : "");
     rows.push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
                     html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
                     (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark});
