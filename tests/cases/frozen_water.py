@@ -6,31 +6,11 @@ import json
 import numpy
 
 import harness
-from small_cases import CHANNEL_OUTLET_AND_WALLS
-from start_from import COARSE, Water
+from start_from import CASE, COARSE, Water
 
-WATER = """
-[mesh]
-file = "{mesh}"
-[time]
-end_s = {end}
-step_s = 0.02
-[flow]
-initial_velocity_m_s = [1, 0, 0]
-[turbulence]
-model = "k_epsilon"
-[[boundary]]
-patch = "inlet"
-kind = "velocity_inlet"
-velocity_m_s = [1, 0, 0]
-""" + CHANNEL_OUTLET_AND_WALLS + """
-[output]
-report = false
-single_precision = false
-rags_interval_s = 0.02
-fields_interval_s = 1
-"""
+# Goes on in [output] of the case of start_from.py.
 RAG = """
+rags_interval_s = 0.02
 [start]
 from = "steady"
 frozen = true
@@ -55,11 +35,11 @@ FIELDS = {"velocity [m/s]": 1, "turbulent_kinetic_energy [m2/s2]": 2, "dissipati
 
 class FrozenWater(harness.CaseTest):
     def frozen(self, factor=1, mode="one_way", source='from = "steady"', more=""):
-        text = WATER.format(mesh=self.mesh(*COARSE), end=0.02 * STEPS) + RAG.format(factor=factor, mode=mode) + more
+        text = CASE.format(mesh=self.mesh(*COARSE), end=0.02 * STEPS, more=RAG.format(factor=factor, mode=mode) + more)
         return self.case(text.replace('from = "steady"', source), f"frozen_{factor}_{mode}")
 
     def steady(self):
-        return self.run_case(self.case(WATER.format(mesh=self.mesh(*COARSE), end=1), "steady"), 1, out="steady")
+        return self.run_case(self.case(CASE.format(mesh=self.mesh(*COARSE), end=1, more=""), "steady"), 1, out="steady")
 
     def water(self, run, number):
         return Water(sorted((run.folder / "fields").glob("water_*.pvtu"))[number])
