@@ -56,7 +56,7 @@ struct Run {
   void write_checkpoint() const {
     CheckpointWriter writer(
         world, folder / "checkpoint",
-        {.case_sha256 = file.sha256(), .ranks = size_of(world), .time_step = simulation.time_step(), .time = simulation.time()});
+        {.case_sha256 = file.resume_sha256(), .ranks = size_of(world), .time_step = simulation.time_step(), .time = simulation.time()});
     simulation.save(writer);
     outputs.save(writer);
     writer.finish();
@@ -128,6 +128,13 @@ std::optional<std::vector<int>> stored_partition(CheckpointReader* reader) {
   return std::vector<int>(stored.begin(), stored.end());
 }
 
+void load(Simulation& simulation, CheckpointReader& checkpoint) {
+  simulation.load(checkpoint);
+  if (simulation.time_step() > simulation.time_settings.n_steps())
+    throw Error(ExitCode::usage, "[time] end_s = " + words(simulation.time_settings.end) + " lies before the checkpoint, at " +
+                                     words(simulation.time()) + " s; give a later end");
+}
+
 }  // namespace
 
 ExitCode run_case(const RunOptions& options) {
@@ -143,10 +150,10 @@ ExitCode run_case(const RunOptions& options) {
   Simulation::Stored stored;
   if (reader) stored = {.partition = stored_partition(reader.get()), .poses = folder / "rags"};
   Simulation simulation(file, world, std::move(stored));
-  if (reader && reader->stamp().case_sha256 != file.sha256())
+  if (reader && reader->stamp().case_sha256 != file.resume_sha256())
     throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
-                                     reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.sha256().substr(0, 12) +
-                                     "); resume with the same case and --set values");
+                                     reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.resume_sha256().substr(0, 12) +
+                                     "); resume with the same case and --set values; only [time] end may be another");
   const std::string start = reader ? "" : simulation.start();
   if (!reader) simulation.insert_rags();
   together(world, [&] {
@@ -157,7 +164,7 @@ ExitCode run_case(const RunOptions& options) {
   log::open(folder / "log.txt", options.resume);
   log_heading(simulation, file);
   if (!start.empty()) log::info(start);
-  if (reader) simulation.load(*reader);
+  if (reader) load(simulation, *reader);
   Outputs outputs(folder, file, simulation, options.resume);
   if (reader) {
     outputs.load(*reader);

@@ -36,7 +36,7 @@ Section PeriodicSettings::section() {
 Section TimeSettings::section() {
   return {"time",
           "Start is at zero; the rags take as many smaller steps within one step as they need.",
-          {{"end", &end, "s", 0, 1e9, Basis::assumed, "Time to simulate."},
+          {{.key = "end", .target = &end, .unit = "s", .minimum = 0, .maximum = 1e9, .meaning = "Time to simulate.", .may_move = true},
            {"step", &step, "s", 1e-12, 1e6, Basis::assumed, "Step of the water and of the coupling."},
            setting("end_when_rags_left", &end_when_rags_left, "End earlier, as soon as every rag has gone out through an outlet.")}};
 }

@@ -123,8 +123,10 @@ void Simulation::build_water(const CaseFile& file) {
   auto boundaries = read_boundaries(file.root());
   auto turbulence = read_turbulence(file.root());
   if (store_ && start_settings_.frozen) {
+    std::string conditions;
+    for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
     const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map), words(settings.density),
-                             words(settings.viscosity()), words(turbulence != nullptr)});
+                             words(settings.viscosity()), words(turbulence != nullptr), conditions});
     stored_water_ = &store_->waters[key];
     water = stored_water_->solver;
   }
@@ -272,13 +274,14 @@ std::string Simulation::start() {
     return {};
   }
   if (!water) throw Error(ExitCode::usage, "[start] from: this case computes no water; remove it, or give [mesh]");
-  if (!frozen) return start_flow(*water, start_settings_, start_folder_);
+  if (!frozen) return start_flow(*water, start_settings_, start_folder_).told;
   StoredWater own;
   StoredWater& kept = stored_water_ ? *stored_water_ : own;
   std::string told = "start: frozen water of " + start_folder_.string();
   if (!kept.as_started) {
-    told = start_flow(*water, start_settings_, start_folder_) + ", frozen";
-    water->start();
+    const StartedFlow from = start_flow(*water, start_settings_, start_folder_);
+    told = from.told + ", frozen";
+    water->start(from.time);
     kept.as_started.emplace(water->flow);
   }
   scale_flow(water->flow, *kept.as_started, start_settings_.velocity_factor);

@@ -134,14 +134,15 @@ void scale_flow(Flow& flow, const Flow& as_started, double factor) {
   scale(flow.dissipation_rate, as_started.dissipation_rate, square * factor);
 }
 
-std::string start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder) {
+StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder) {
   const std::string where = "[start] from = \"" + settings.from + "\"";
   Flow& flow = water.flow;
   const Mesh& mesh = flow.mesh;
   check_checkpoint(mesh.comm, folder / "checkpoint", where);
   CheckpointReader reader(mesh.comm, folder / "checkpoint");
   if (!reader.has(velocity_name)) throw Error(ExitCode::usage, where + ": that run has no water; name the output folder of one that has");
-  std::string told = "start: water of " + folder.string() + " at " + words(reader.stamp().time) + " s";
+  const double time = reader.stamp().time;
+  std::string told = "start: water of " + folder.string() + " at " + words(time) + " s";
   std::vector<std::int64_t> ids(owned_ids(mesh).begin(), owned_ids(mesh).end());
   if (settings.map) {
     double farthest = 0;
@@ -166,7 +167,7 @@ std::string start_flow(FlowSolver& water, const StartSettings& settings, const s
       told += "; that run had no k and epsilon: they start as [turbulence] says";
     }
   }
-  return told;
+  return {.told = told, .time = time};
 }
 
 void save_cell_centres(CheckpointWriter& checkpoint, const Mesh& mesh) {

@@ -28,9 +28,14 @@ struct StartSettings {
 /// with its cube. `as_started`: the state at factor 1, on the same mesh.
 void scale_flow(Flow& flow, const Flow& as_started, double factor);
 
-/// Sets the initial fields; returns a line for the log. Collective. Throws Error(io) where `folder` holds no valid checkpoint, Error(usage)
+struct StartedFlow {
+  std::string told;  // a line for the log
+  double time;       // of the other run at which its water was taken, s
+};
+
+/// Sets the initial fields. Collective. Throws Error(io) where `folder` holds no valid checkpoint, Error(usage)
 /// where its cells are not those of this mesh.
-std::string start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder);
+StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder);
 
 /// What such a start needs of a checkpoint beside the fields: where the cells are. Collective.
 void save_cell_centres(CheckpointWriter& checkpoint, const Mesh& mesh);

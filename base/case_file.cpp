@@ -35,6 +35,7 @@ struct CaseNode {
   struct Resolved {
     std::string key, value;  // as TOML; a file with its whole path
     std::string identity;    // what the fingerprint takes for the value: of a file its content, wherever it lies
+    std::string fixed;       // the same, empty where a resumed run may have another value
   };
   std::vector<Resolved> resolved;        // in the order of reading
   std::vector<std::string> table_order;  // of reading
@@ -62,10 +63,11 @@ std::filesystem::path beside(const std::filesystem::path& case_file, const std::
 CaseNode::Resolved resolved_entry(const std::string& key, const Parameter& parameter, const std::string& case_file) {
   const std::string text = toml_text(parameter.target);
   const auto* file = std::get_if<std::string*>(&parameter.target);
-  if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text};
+  if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text, parameter.may_move ? "" : text};
   const auto path = std::filesystem::absolute(beside(case_file, **file)).lexically_normal();
   const auto content = file_text(path);
-  return {key, toml_text(path.string()), content ? snag::sha256(*content) : text};
+  const std::string identity = content ? snag::sha256(*content) : text;
+  return {key, toml_text(path.string()), identity, identity};
 }
 
 bool is_table_array(const toml::array& array) {
@@ -202,7 +204,8 @@ void reject_unread_in(const CaseNode& node) {
 
 void write_resolved(const CaseNode& node, bool repeated, std::string CaseNode::Resolved::*shown, std::string& out) {
   if (!node.name.empty()) out += (repeated ? "\n[[" + node.name + "]]\n" : "\n[" + node.name + "]\n");
-  for (const CaseNode::Resolved& entry : node.resolved) out += entry.key + " = " + entry.*shown + "\n";
+  for (const CaseNode::Resolved& entry : node.resolved)
+    if (!(entry.*shown).empty()) out += entry.key + " = " + entry.*shown + "\n";
   for (const std::string& key : node.table_order) {
     const auto found = node.tables.find(key);
     if (found == node.tables.end()) continue;
@@ -287,10 +290,16 @@ std::vector<std::pair<std::string, double>> Table::numbers() const {
     const auto number = value.node->value<double>();
     if (!number) throw Error(ExitCode::usage, node_->where() + " " + key + " must be a number");
     node_->used.insert(key);
-    node_->resolved.push_back({toml_text(key), toml_text(*number), toml_text(*number)});
+    node_->resolved.push_back({toml_text(key), toml_text(*number), toml_text(*number), toml_text(*number)});
     all.emplace_back(key, *number);
   }
   return all;
+}
+
+std::string Table::resolved() const {
+  std::string out;
+  write_resolved(*node_, false, &CaseNode::Resolved::identity, out);
+  return out;
 }
 
 std::string Table::where() const { return node_->where(); }
@@ -332,6 +341,12 @@ std::string CaseFile::resolved() const {
 std::string CaseFile::sha256() const {
   std::string text;
   write_resolved(*root_, false, &CaseNode::Resolved::identity, text);
+  return snag::sha256(text);
+}
+
+std::string CaseFile::resume_sha256() const {
+  std::string text;
+  write_resolved(*root_, false, &CaseNode::Resolved::fixed, text);
   return snag::sha256(text);
 }
 

@@ -28,6 +28,8 @@ class Table {
   void read(const std::vector<Parameter>& parameters) const;
   /// Name = value pairs of a table with free keys, numbers only, as written.
   std::vector<std::pair<std::string, double>> numbers() const;
+  /// What was read of this table and of those in it, as TOML in SI; files by their content.
+  std::string resolved() const;
   /// "case.toml:12: [flow]", for messages.
   std::string where() const;
 
@@ -54,6 +56,8 @@ class CaseFile {
   std::string resolved() const;
   /// SHA-256 of the resolved case, hexadecimal; of files that the case names the content counts, not the place.
   std::string sha256() const;
+  /// The same without what a resumed run may change, as the end of the time.
+  std::string resume_sha256() const;
   /// A path of the case file, relative to the folder of the file.
   std::filesystem::path path(const std::string& relative) const;
   const std::filesystem::path& file() const { return file_; }

@@ -32,7 +32,8 @@ struct Parameter {
   std::string meaning = {};
   std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any
   bool required = false;
-  bool is_file = false;  // a text that is a path, relative to the folder of the case file
+  bool is_file = false;   // a text that is a path, relative to the folder of the case file
+  bool may_move = false;  // how far a run goes, not what it computes: a resumed run may have another value
 };
 
 /// The same for a text, a list of texts or a switch.

@@ -17,7 +17,7 @@
 namespace snag {
 
 struct CheckpointStamp {
-  std::string case_sha256;
+  std::string case_sha256;  // of all but what a resumed run may change
   int ranks = 1;
   std::int64_t time_step = 0;
   double time = 0;  // s

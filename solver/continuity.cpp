@@ -188,27 +188,29 @@ void Continuity::set_coefficients(const BoundarySet& boundary) {
   }
 }
 
-ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
+/// Fills imbalance_; p' begins at zero.
+Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& flux, const BoundarySet& boundary) {
   set_coefficients(boundary);
   poisson_.set_coefficients(coefficient_);
-
-  std::fill(imbalance_.begin(), imbalance_.end(), 0.0);
-  double magnitude = 0;
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    imbalance_[mesh_.owner[f]] += flow.flux[f];
-    imbalance_[mesh_.neighbour[f]] -= flow.flux[f];
-    magnitude += flow.flux[f] * flow.flux[f];
-  }
-  double squares[2] = {0, magnitude};
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f)
-    imbalance_[mesh_.owner[f]] += flow.flux[f], squares[1] += flow.flux[f] * flow.flux[f];
-  for (int c = 0; c < mesh_.n_cells; ++c) squares[0] += imbalance_[c] * imbalance_[c];
-  MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-
-  ContinuityReport report{.initial = std::sqrt(squares[0])};
   std::fill(correction_.begin(), correction_.end(), 0.0);
   std::fill(gradient_.begin(), gradient_.end(), Vec3{});
-  const double floor = rounding * std::sqrt(squares[1]);
+
+  std::fill(imbalance_.begin(), imbalance_.end(), 0.0);
+  double squares[2] = {0, 0};
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    imbalance_[mesh_.owner[f]] += flux[f];
+    imbalance_[mesh_.neighbour[f]] -= flux[f];
+    squares[1] += flux[f] * flux[f];
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) imbalance_[mesh_.owner[f]] += flux[f], squares[1] += flux[f] * flux[f];
+  for (int c = 0; c < mesh_.n_cells; ++c) squares[0] += imbalance_[c] * imbalance_[c];
+  MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  return {.norm = std::sqrt(squares[0]), .rounding = rounding * std::sqrt(squares[1])};
+}
+
+ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
+  const Imbalance imbalance = begin_correction(flow.flux, boundary);
+  ContinuityReport report{.initial = imbalance.norm};
   for (int k = 0; k <= settings_.n_non_orthogonal; ++k) {
     if (k > 0) {
       squares_.gradient(weight_, correction_, given_, slope_);
@@ -217,17 +219,31 @@ ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
     }
     add_cross_flux();
     const double tolerance = k == settings_.n_non_orthogonal ? settings_.tolerance : settings_.tolerance_intermediate;
-    const PoissonReport last = poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, floor) * inertia_);
+    const PoissonReport last =
+        poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, imbalance.rounding) * inertia_);
     report.iterations += last.iterations, ++report.solves;
     report.rebuilt = report.rebuilt || last.rebuilt;
     report.final = last.final / inertia_;
   }
-  if (report.rebuilt) {
-    preconditioner_ = {{mobility_.begin(), mobility_.begin() + mesh_.n_cells}, inertia_};
-    if (flow.rotating_zone) preconditioner_.angle = flow.rotating_zone->mesh().angle();
-  }
-  correct_flux(flow);
+  if (report.rebuilt) note_preconditioner(flow);
+  correct_flux(flow.flux);
   return report;
+}
+
+void Continuity::note_preconditioner(const Flow& flow) {
+  preconditioner_ = {{mobility_.begin(), mobility_.begin() + mesh_.n_cells}, inertia_};
+  if (flow.rotating_zone) preconditioner_.angle = flow.rotating_zone->mesh().angle();
+}
+
+void Continuity::close(std::vector<double>& flux, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
+  set_mobility(flow, time.now * flow.density / time.dt);
+  const Imbalance imbalance = begin_correction(flux, boundary);
+  std::fill(given_.begin(), given_.end(), 0.0);
+  add_cross_flux();
+  const PoissonReport report =
+      poisson_.solve(right_side_, correction_, std::max(settings_.tolerance_intermediate * imbalance.norm, imbalance.rounding) * inertia_);
+  if (report.rebuilt) note_preconditioner(flow);
+  correct_flux(flux);
 }
 
 /// Right side of the pressure equation: inertia (- imbalance + what the last gradient of p' carries across non-orthogonal faces).
@@ -251,12 +267,12 @@ void Continuity::add_cross_flux() {
 }
 
 /// flux -= m_f (c (p'_N - p'_P) + T.grad p'), with the grad p' of the last right side.
-void Continuity::correct_flux(Flow& flow) {
+void Continuity::correct_flux(std::vector<double>& flux) {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
     const double w = mesh_.weight[f], c = conductance(S, d), m = face_mobility_[f];
-    flow.flux[f] -=
+    flux[f] -=
         m * c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, mobility_[P] * gradient_[P], mobility_[N] * gradient_[N]));
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
@@ -264,7 +280,7 @@ void Continuity::correct_flux(Flow& flow) {
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
     const double c = conductance(S, d);
-    flow.flux[f] -= mobility_[P] * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
+    flux[f] -= mobility_[P] * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
   }
 }
 

@@ -42,6 +42,9 @@ class Continuity {
   /// One pressure correction; `gradient` of velocity, for skewness. Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
 
+  /// Take the divergence out of a guessed flux, [n_faces], relative to the mesh, to the intermediate tolerance. Collective.
+  void close(std::vector<double>& flux, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
+
   FluxHistory history;
   std::vector<double>
       wall_slope;  // dp/dn in force where velocity is fixed or at a symmetry, [n_faces - n_interior], Pa/m; kept in the checkpoint
@@ -64,9 +67,14 @@ class Continuity {
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void set_coefficients(const BoundarySet& boundary);
+  struct Imbalance {
+    double norm, rounding;  // of the cells' sums of fluxes; what round-off alone makes of it, m3/s
+  };
+  Imbalance begin_correction(const std::vector<double>& flux, const BoundarySet& boundary);
   ContinuityReport solve(Flow& flow, const BoundarySet& boundary);
+  void note_preconditioner(const Flow& flow);
   void add_cross_flux();
-  void correct_flux(Flow& flow);
+  void correct_flux(std::vector<double>& flux);
   void correct_cells(Flow& flow, bool with_pressure);
 
   const Mesh& mesh_;

@@ -84,7 +84,7 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
 }
 
 StepReport FlowSolver::advance(double dt) {
-  start();
+  start(flow.time);
   StepReport report;
   const double begun = seconds();
   time_ = bdf(dt, flow.time_step > 0 ? flow.time_step_size : 0);
@@ -99,15 +99,15 @@ StepReport FlowSolver::advance(double dt) {
 }
 
 void FlowSolver::hold(double dt) {
-  start();
+  start(flow.time);
   flow.velocity_old = flow.velocity;
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
 }
 
 /// The velocity as it was given becomes divergence-free, as an impulsive start makes it.
-void FlowSolver::start() {
+void FlowSolver::start(double time_of_conditions) {
   if (started_) return;
-  boundary_.update(flow, flow.time);
+  boundary_.update(flow, time_of_conditions);
   flow.mesh.halo.exchange(flow.velocity);
   update_gradient();
   continuity_.start_pressure(flow, boundary_);
@@ -171,6 +171,10 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     report.seconds_mesh += seconds() - turned;
   }
   momentum_.guess_from_history(flow, continuity_.history, time);
+  if (rotating_zone_ && rotating_zone_->slides()) {
+    momentum_.take_given_flux(flow, boundary_);
+    continuity_.close(momentum_.guessed_flux(), flow, boundary_, time);
+  }
   continuity_.history.begin_step(momentum_.rates(), time);
   std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
   turbulence_->begin_step(flow, time);

@@ -58,7 +58,8 @@ class FlowSolver {
   /// The water stays as it is for dt: a frozen field, for bodies that it carries. Not for a rotating zone.
   void hold(double dt);
   /// What the first step does before it begins: the velocity as it was given becomes divergence-free, gradients and halos are made. Once.
-  void start();
+  /// Conditions on the boundary are those of the given time, s: of water from another run the time at which it is taken.
+  void start(double time_of_conditions);
 
   /// Force per time that the rags gave to the water in the last step: sum V (reaction - drag u) with the velocity at its end, N.
   Vec3 momentum_given() const;

@@ -166,7 +166,6 @@ void Momentum::limit(const Flow& flow) {
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
-  take_given_flux(flow, boundary);
   start_rows(flow, time);
   switch (settings_.convection) {
     case Convection::upwind:
@@ -188,7 +187,6 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
   return report;
 }
 
-/// Where a turning face has a given flux, that of the new time: a guess from the past is that of the face as it lay then.
 void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
   if (!flow.rotating_zone || !flow.rotating_zone->slides()) return;
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {

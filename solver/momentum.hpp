@@ -32,6 +32,10 @@ class Momentum {
   /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms.
   /// `history`: how far fluxes were from their cells' velocities; used where faces turn. Collective.
   void guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
+  /// The convecting flux as it was guessed, relative to the mesh, [n_faces], m3/s.
+  std::vector<double>& guessed_flux() { return flux_; }
+  /// Where a turning face has a given flux, that of the new time: a guess from the past is that of the face as it lay then. Local.
+  void take_given_flux(const Flow& flow, const BoundarySet& boundary);
   /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
   void guess_from_last(const Flow& flow);
   /// Solve for u*, from flow.velocity as first guess into flow.velocity, ghosts too; fills flow.boundary_friction, boundary_convection.
@@ -48,7 +52,6 @@ class Momentum {
   void guess_flux(const Flow& flow, const FluxHistory& history, double share);
   void set_rates(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
-  void take_given_flux(const Flow& flow, const BoundarySet& boundary);
   void limit(const Flow& flow);
   void start_rows(const Flow& flow, const TimeScheme& time);
   template <Convection scheme>

@@ -194,14 +194,12 @@ void Poisson::remove_mean(std::span<double> x) const {
   for (double& value : x) value -= mean;
 }
 
-PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, double target) {
+/// Conjugate gradients from the given x; returns PETSc's word for what stopped them early, null if nothing did.
+const char* Poisson::iterate(std::span<const double> b, std::span<double> x, double target, PoissonReport& report) {
   Petsc& p = *petsc_;
-  PoissonReport report{.rebuilt = rebuild_};
-  if (rebuild_) set_up_preconditioner();
   // An absolute target; the relative one is out of reach. The divergence test is left to the number of iterations.
   check_petsc(KSPSetTolerances(p.solver, 1e-50, target, 1e30, max_iterations), "KSPSetTolerances");
-  const std::span<double> owned{x.data(), static_cast<std::size_t>(mesh_.n_cells)};
-  if (!singular_) fix_level(b, owned);
+  if (!singular_) fix_level(b, x);
   check_petsc(VecPlaceArray(p.b, b.data()), "VecPlaceArray");
   check_petsc(VecPlaceArray(p.x, x.data()), "VecPlaceArray");
   const auto error = KSPSolve(p.solver, p.b, p.x);
@@ -216,11 +214,24 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   KSPGetIterationNumber(p.solver, &iterations);
   KSPGetResidualNorm(p.solver, &report.final);
   KSPGetResidualHistory(p.solver, &history, &n_history);
-  report.iterations = static_cast<int>(iterations);
-  report.initial = n_history > 0 ? history[0] : report.final;
-  if (reason < 0)
-    throw Error(ExitCode::diverged, "pressure equation: conjugate gradients stopped after " + std::to_string(iterations) + " iterations (" +
-                                        KSPConvergedReasons[reason] + ", residual " + words(report.final) + ", wanted " + words(target) +
+  if (report.iterations == 0) report.initial = n_history > 0 ? history[0] : report.final;
+  report.iterations += static_cast<int>(iterations);
+  return reason < 0 ? KSPConvergedReasons[reason] : nullptr;
+}
+
+PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, double target) {
+  PoissonReport report{.rebuilt = rebuild_};
+  if (rebuild_) set_up_preconditioner();
+  const std::span<double> owned{x.data(), static_cast<std::size_t>(mesh_.n_cells)};
+  const char* stopped = iterate(b, owned, target, report);
+  if (stopped && !rebuild_) {  // that of another matrix may be indefinite for this one
+    report.rebuilt = rebuild_ = true;
+    set_up_preconditioner();
+    stopped = iterate(b, owned, target, report);
+  }
+  if (stopped)
+    throw Error(ExitCode::diverged, "pressure equation: conjugate gradients stopped after " + std::to_string(report.iterations) +
+                                        " iterations (" + stopped + ", residual " + words(report.final) + ", wanted " + words(target) +
                                         "); check the mesh (snag mesh --info), or take smaller steps");
   const double decades = report.final > 0 && report.initial > report.final ? std::log10(report.initial / report.final) : 0;
   if (decades > 0.5) {

@@ -43,6 +43,7 @@ class Poisson {
   struct Petsc;
   void apply(const double* x, double* y);
   void set_up_preconditioner();
+  const char* iterate(std::span<const double> b, std::span<double> x, double target, PoissonReport& report);
   void fix_level(std::span<const double> b, std::span<double> x) const;
   void remove_mean(std::span<double> x) const;
   const Mesh& mesh_;

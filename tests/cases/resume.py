@@ -74,6 +74,18 @@ class ResumedRun(harness.CaseTest):
         self.assert_every_step_once(resumed)
         self.assert_equal(whole, resumed)
 
+    def test_finished_run_goes_on_to_a_later_end(self):
+        case = self.channel()
+        whole = self.run_case(case, 1, out="whole")
+        half = whole.summary["simulated_s"] / 2
+        self.run_case(case, 1, "--set", f"time.end_s={half}", out="half")
+        longer = self.run_case(case, 1, "--resume", out="half")
+        self.assert_every_step_once(longer)
+        self.assert_equal(whole, longer)
+
+        refused = self.run_case(case, 1, "--resume", "--set", f"time.end_s={half}", out="half", code=2)
+        self.assertIn("give a later end", refused.stderr)
+
     def to_tolerance(self, ranks, stop, resume_ranks):
         case = self.channel()
         whole = self.run_case(case, ranks, out="whole")
