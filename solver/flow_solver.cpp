@@ -172,8 +172,10 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   }
   momentum_.guess_from_history(flow, continuity_.history, time);
   if (rotating_zone_ && rotating_zone_->slides()) {
+    const double guessed = seconds();
     momentum_.take_given_flux(flow, boundary_);
     continuity_.close(momentum_.guessed_flux(), flow, boundary_, time);
+    report.seconds_pressure += seconds() - guessed;
   }
   continuity_.history.begin_step(momentum_.rates(), time);
   std::swap(flow.velocity_gradient_old, flow.velocity_gradient);

@@ -3,10 +3,10 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include <toml++/toml.h>
-
+#include "app/diagnosis/key_changes.hpp"
 #include "app/diagnosis/library.hpp"
 #include "app/simulation.hpp"
 #include "base/error.hpp"
@@ -23,22 +23,10 @@ struct PointCase::Tree {
 namespace {
 
 constexpr const char* flow_field = "flow.amplitude";
+/// What sets the flow of water that is computed.
+constexpr std::array set_points{"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s", "boundary.velocity_m_s",
+                                "flow.initial_velocity_m_s"};
 constexpr const char *drag_form = "drag_form", *drag_form_of_point = "drag_form_of_point", *drag_slope = "drag_form.slope";
-
-/// Value times factor, number by number, as TOML.
-std::string scaled_text(const toml::node& node, double factor) {
-  if (const auto* list = node.as_array()) {
-    std::vector<std::string> parts;
-    for (const toml::node& element : *list) parts.push_back(scaled_text(element, factor));
-    return "[" + joined(parts) + "]";
-  }
-  return toml_text(*node.value<double>() * factor);
-}
-
-bool is_number(const toml::node& node) {
-  if (const auto* list = node.as_array()) return !list->empty() && std::all_of(list->begin(), list->end(), is_number);
-  return node.is_number();
-}
 
 bool is_zero(const toml::node* node) {
   if (!node) return true;
@@ -52,41 +40,6 @@ Vec3 vector_of(const toml::node* node, const Vec3& fallback) {
   return {list->get(0)->value_or(0.0), list->get(1)->value_or(0.0), list->get(2)->value_or(0.0)};
 }
 
-/// Tables of a name, one or many, with the path by which an override reaches each.
-std::vector<std::pair<std::string, const toml::table*>> tables_at(const toml::table& root, const std::string& path) {
-  std::vector<std::pair<std::string, const toml::table*>> found{{"", &root}};
-  for (const std::string& step : split(path, '.')) {
-    std::vector<std::pair<std::string, const toml::table*>> next;
-    for (const auto& [prefix, table] : found) {
-      const toml::node* node = table->get(step);
-      if (!node) continue;
-      const std::string name = prefix.empty() ? step : prefix + "." + step;
-      if (const auto* one = node->as_table()) next.emplace_back(name, one);
-      if (const auto* many = node->as_array())
-        for (std::size_t i = 0; i < many->size(); ++i)
-          if (const auto* element = many->get(i)->as_table()) next.emplace_back(name + "." + std::to_string(i), element);
-    }
-    found = std::move(next);
-  }
-  return found;
-}
-
-struct Place {
-  std::string key;  // for an override
-  const toml::node* value;
-};
-
-std::vector<Place> places_of(const toml::table& root, const std::string& key) {
-  const auto dot = key.rfind('.');
-  if (dot == std::string::npos) return {};
-  std::vector<Place> places;
-  for (const auto& [prefix, table] : tables_at(root, key.substr(0, dot))) {
-    const toml::node* value = table->get(key.substr(dot + 1));
-    if (value && is_number(*value)) places.push_back({prefix + "." + key.substr(dot + 1), value});
-  }
-  return places;
-}
-
 BaseCase facts_of(const toml::table& root, const Simulation& run) {
   BaseCase facts;
   const auto value = [&](const std::string& key) {
@@ -97,9 +50,14 @@ BaseCase facts_of(const toml::table& root, const Simulation& run) {
   facts.wall = !run.walls.empty();
   facts.gravity = root.contains("gravity");
   facts.gradient = run.mesh || !is_zero(value("flow.gradient_per_s"));
-  facts.uniform = run.mesh || !is_zero(value("flow.velocity_m_s"));
+  facts.uniform = !is_zero(value("flow.velocity_m_s"));
+  if (run.mesh)
+    facts.uniform = run.frozen() || std::any_of(set_points.begin(), set_points.end(), [&](const char* key) {
+                      const auto places = places_of(root, key);
+                      return std::any_of(places.begin(), places.end(), [](const Place& place) { return !is_zero(place.value); });
+                    });
   facts.varies = !run.frozen() && (facts.gradient || !is_zero(value("flow.amplitude_m_s")));
-  facts.flows = facts.uniform || facts.varies;
+  facts.flows = facts.uniform || (facts.varies && !run.mesh);
   facts.turbulence = run.mesh || !is_zero(value("flow.turbulent_kinetic_energy_m2_s2"));
   std::int64_t n = 0;
   for (const Rag& rag : run.rags->rags()) {
@@ -118,54 +76,6 @@ std::vector<std::string> listed_forces(const toml::table& root) {
   if (root.contains("gravity")) names.emplace_back("gravity");
   return names;
 }
-
-/// Changes of one case: values that effects give to keys, then factors on values; each key is written once.
-class KeyChanges {
- public:
-  explicit KeyChanges(const toml::table& root) : root_(root) {}
-
-  /// "section.key=value", of every place that has the key. The last value counts.
-  void set(const std::string& text) {
-    const auto equals = text.find('=');
-    const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
-    const auto places = places_of(root_, key);
-    for (const Place& place : places) values_[place.key] = value;
-    if (places.empty()) values_[key] = value;
-  }
-  /// Of the numbers that the case has at a key.
-  void scale(const std::string& key, double factor) {
-    for (const Place& place : places_of(root_, key)) {
-      Scaled& scaled = factors_.emplace(place.key, Scaled{place.value, 1}).first->second;
-      scaled.factor *= factor;
-    }
-  }
-
-  std::vector<std::string> overrides() const {
-    std::vector<std::string> all;
-    for (const auto& [key, value] : values_)
-      if (!factors_.contains(key)) all.push_back(key + "=" + value);
-    for (const auto& [key, scaled] : factors_) {
-      const auto set = values_.find(key);
-      all.push_back(key + "=" +
-                    (set == values_.end() ? scaled_text(*scaled.value, scaled.factor) : scaled_text(set->second, scaled.factor)));
-    }
-    return all;
-  }
-
- private:
-  struct Scaled {
-    const toml::node* value;
-    double factor;
-  };
-  static std::string scaled_text(const std::string& value, double factor) {
-    return snag::scaled_text(*toml::parse("value = " + value).get("value"), factor);
-  }
-  static std::string scaled_text(const toml::node& value, double factor) { return snag::scaled_text(value, factor); }
-
-  const toml::table& root_;
-  std::map<std::string, std::string> values_;
-  std::map<std::string, Scaled> factors_;
-};
 
 /// Adds to the exponent of Re in the drag, beside what the candidate of that name does.
 void add_exponent(double exponent, const std::map<std::string, double>& effects, KeyChanges& keys, std::vector<std::string>& forces) {
@@ -209,12 +119,12 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
 }
 
 void PointCase::check_nuisance(const std::string& key) const {
-  if (key == drag_form || key == drag_form_of_point || (key == flow_field && facts_.prescribed)) return;
+  if (key == drag_form || key == drag_form_of_point || (key == flow_field && (facts_.prescribed || facts_.flows))) return;
   if (!places_of(tree_->root, key).empty()) return;
   throw Error(ExitCode::usage, file_.string() + ": input_u names \"" + key +
                                    "\", which is no number of this case; give a key of the case with its unit such as "
                                    "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
-                                   "whole prescribed flow, \"drag_form\" or \"drag_form_of_point\"");
+                                   "whole flow field (of computed water: its set-points), \"drag_form\" or \"drag_form_of_point\"");
 }
 
 std::string PointCase::value_of(const std::string& key) const {
@@ -280,7 +190,7 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
   if (varying != 1)
     for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s", "start.velocity_factor"}) keys.scale(key, varying);
   if (run.flow_factor != 1 && !facts_.prescribed)
-    for (const char* key : {"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s"}) keys.scale(key, run.flow_factor);
+    for (const char* key : set_points) keys.scale(key, run.flow_factor);
   change.overrides = keys.overrides();
   if (run.turn != 0) turn(run.turn, change.overrides);
   change.picture_scale = run.picture_scale, change.picture_centre = run.picture_centre;

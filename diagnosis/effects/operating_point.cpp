@@ -18,7 +18,9 @@ struct OperatingPoint final : EffectModel {
             .maximum = 4,
             .random = false,
             .acts_on_water = false,
-            .blind = base.flows ? "" : "the water is at rest"};
+            .blind = base.flows        ? ""
+                     : base.prescribed ? "the water is at rest"
+                                       : "the case sets neither a flow rate nor a velocity of the water"};
   }
   void change(double theta, int, std::uint64_t, RunChange& run) const override { run.flow_factor *= 1 + theta; }
 };

@@ -1,0 +1,49 @@
+#pragma once
+// Numbers of a case by their keys, and changes of them as overrides of the case file.
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <toml++/toml.h>
+
+namespace snag {
+
+/// Tables of a name such as "rag" or "coupling.added_mass", one or many, with the path by which an override reaches each.
+std::vector<std::pair<std::string, const toml::table*>> tables_at(const toml::table& root, const std::string& path);
+
+/// A number, or a list of numbers, of a case.
+struct Place {
+  std::string key;  // for an override
+  const toml::node* value;
+};
+
+/// All places of a key such as "boundary.flow_rate_m3_s"; none if the case has no such number.
+std::vector<Place> places_of(const toml::table& root, const std::string& key);
+
+/// Value times factor, number by number, as TOML.
+std::string scaled_text(const toml::node& value, double factor);
+
+/// Changes of one case: values that effects give to keys, then factors on values; each key is written once.
+class KeyChanges {
+ public:
+  /// `root`: the resolved case, which must outlive this.
+  explicit KeyChanges(const toml::table& root) : root_(root) {}
+
+  /// "section.key=value", of every place that has the key. The last value counts.
+  void set(const std::string& text);
+  /// Of the numbers that the case has at a key.
+  void scale(const std::string& key, double factor);
+  std::vector<std::string> overrides() const;
+
+ private:
+  struct Scaled {
+    const toml::node* value;
+    double factor;
+  };
+  const toml::table& root_;
+  std::map<std::string, std::string> values_;
+  std::map<std::string, Scaled> factors_;
+};
+
+}  // namespace snag

@@ -1,0 +1,80 @@
+# timeout: 600
+# processors: 2
+"""Requirement: a diagnosis of cases with a mesh makes whole coupled runs, keeps each, names the cause that the data were made with, and goes on where it was stopped."""
+import json
+import shutil
+
+import harness
+from small_cases import CHANNEL
+
+MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="tetrahedra"', "size_mm=30", "wall_ratio=1")
+SPEEDS = {"slow": 0.4, "middle": 0.6, "fast": 0.8, "faster": 1.0}  # m/s, as the cases say
+TRUE_FACTOR = 1.25  # of the flow that the data come from
+NOISE = {"x": 5e-5, "vx": 5e-3}
+DIAGNOSIS = """
+[experiment]
+name = "channel with a mesh"
+data = "data.csv"
+[[observable]]
+id = "x"
+unit = "m"
+noise_u = {x}
+[[observable]]
+id = "vx"
+unit = "m/s"
+noise_u = {vx}
+{points}
+[model]
+candidates = ["operating_point", "drag_magnitude"]
+pairs = false
+[budget]
+max_runs = 200
+"""
+
+
+class MeshedDiagnosis(harness.CaseTest):
+    def channel(self, name, speed):
+        text = CHANNEL.format(mesh=self.mesh(*MESH), kernel="gaussian").replace("1e-11", "1e-6").replace("end_s = 0.05", "end_s = 0.03").replace("1e-3\n[flow]", "2e-3\n[flow]")
+        return self.case(text.replace("[0.5, 0, 0]", f"[{speed}, 0, 0]"), name)
+
+    def prepare(self):
+        rows, points = ["point,replicate,t_s,observable,value"], ""
+        for number, (name, speed) in enumerate(SPEEDS.items()):
+            self.channel(name, speed)
+            truth = self.run_case(self.channel(f"truth_{name}", TRUE_FACTOR * speed), 2, out=f"truth_{name}").monitor("rags")
+            for k in range(4, 15, 5):
+                for observable, noise in NOISE.items():
+                    error = noise * (1, -1, 0.5, -0.7)[(number + k) % 4]  # as noise would be, the same in each run of the test
+                    rows.append(f"{name},1,{truth.column('time')[k]:.3f},{observable},{float(truth.column(observable)[k] + error)!r}")
+            role = "withheld" if name == "faster" else "train"
+            points += f'[[point]]\nid = "{name}"\ncase = "{name}.toml"\nrole = "{role}"\ninput_u = {{ "flow.amplitude" = 0.01 }}\n'
+        (self.work / "data.csv").write_text("\n".join(rows) + "\n")
+        file = self.work / "DIAGNOSIS.toml"
+        file.write_text(DIAGNOSIS.format(points=points, **NOISE))
+        return file
+
+    def diagnosed(self, file, ranks):
+        run = harness.snag(["diagnose", file, "--out", self.work / "out"], ranks, self.work / "out", timeout=500)
+        self.assertEqual(run.code, 0, run.tail())
+        return json.loads((run.folder / "verdict.json").read_text())
+
+    def test_operating_point_is_found(self):
+        file = self.prepare()
+        verdict = self.diagnosed(file, 2)
+        self.assertEqual((verdict["verdict"], verdict["effects"]), ("effects", ["operating_point"]), verdict)
+        found = verdict["parameters"]["operating_point"]
+        print(f"  operating point {found['mean']:.3f} +- {found['sd']:.3f}, true {TRUE_FACTOR - 1}, {verdict['runs']} runs")
+        self.assertAlmostEqual(found["mean"], TRUE_FACTOR - 1, delta=3 * found["sd"])
+
+        runs = sorted((self.work / "out" / "runs").glob("run*/summary.json"))
+        self.assertGreater(len(runs), 10, "whole runs are kept")
+        made = {file: file.stat().st_mtime_ns for file in runs}
+        shutil.copy(self.work / "out" / "verdict.json", self.work / "first.json")
+        (self.work / "out" / "runs.tsv").unlink()
+        again = self.diagnosed(file, 1)
+        self.assertEqual({file: file.stat().st_mtime_ns for file in runs}, made, "no run is made twice")
+        self.assertEqual(again["probability"], verdict["probability"])
+
+
+if __name__ == "__main__":
+    harness.main()
