@@ -39,6 +39,8 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
     if (a.weight[i] > a.weight[half] - behind) {
       a.notes.push_back("The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
       a.weight[i] = a.weight[half] - behind;
+      // What it is credited with beside its better half is what chance gives: nothing.
+      a.not_believed[i] = std::max(0.0, a.fits[i].log_evidence - a.fits[static_cast<std::size_t>(half)].log_evidence);
     }
   }
 }
