@@ -29,17 +29,20 @@ class Attributor {
 
   Attribution attribute() {
     const std::vector<int> live = live_candidates(model_, result_.identifiability.blind);
+    n_singles_ = std::max<int>(1, static_cast<int>(live.size()));
     for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
     report("signatures", 0.05);
     const Screening screening(model_, fitter_, candidates_, fitter_.base());
     identify(screening);
-    // What changes no run is the base model under another name, and no hypothesis beside it.
-    std::erase_if(candidates_, [&](int k) { return !screening.changes_runs(k); });
-    n_singles_ = std::max<int>(1, static_cast<int>(candidates_.size() + random_.size()));
+    // What changes no run needs none to be judged.
+    const auto unseen = std::stable_partition(candidates_.begin(), candidates_.end(), [&](int k) { return screening.changes_runs(k); });
+    const std::vector<int> not_seen(unseen, candidates_.end());
+    candidates_.erase(unseen, candidates_.end());
     result_.sham_rate = screening.sham_rate(model_.experiment().seed);
     const std::vector<Screened> singles = screened_singles(screening);
     report("fits", 0.15);
     add(fitter_.fit({}, Eigen::VectorXd()));
+    for (const int k : not_seen) result_.not_fitted[model_.effects()[k].name] = {result_.fits.front().log_evidence, log_prior({{k}})};
     fit_singles(singles);
     for (const int k : random_) {
       if (affordable(6 * model_.n_seeds({{{k, 1}}, fitter_.base().state.nuisances}))) add(fit_random_effect(model_, fitter_, k));
@@ -77,7 +80,7 @@ class Attributor {
 
   void add(Fit fit) {
     result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
-    result_.screened_pairs.erase(result_.names.back());
+    result_.not_fitted.erase(result_.names.back());
     result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.not_believed.push_back(0);
     const bool is_pair = fit.hypothesis.effects.size() > 1;
     result_.weight.push_back(fit.log_evidence +
@@ -180,8 +183,8 @@ class Attributor {
         Screened screened = second.screen(pair_of(own, k));
         const std::string name = name_of(screened.hypothesis, model_.effects());
         if (screened.log_evidence + price_of_inputs(single) < result_.fits[singles.front()].log_evidence + gain_wanted) {
-          const ScreenedPair as_screened{screened.log_evidence, log_prior(screened.hypothesis)};
-          ScreenedPair& kept = result_.screened_pairs.emplace(name, as_screened).first->second;
+          const NotFitted as_screened{screened.log_evidence, log_prior(screened.hypothesis)};
+          NotFitted& kept = result_.not_fitted.emplace(name, as_screened).first->second;
           kept.log_evidence = std::max(kept.log_evidence, screened.log_evidence);
           continue;
         }
@@ -267,7 +270,7 @@ void set_probabilities(Attribution& attribution) {
   };
   for (std::size_t i = 0; i < attribution.names.size(); ++i)
     add(attribution.names[i], attribution.fits[i].log_evidence - attribution.not_believed[i], attribution.log_prior[i]);
-  for (const auto& [name, pair] : attribution.screened_pairs) add(name, pair.log_evidence, pair.log_prior);
+  for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
   add("outside", attribution.outside.log_evidence, std::log(prior_outside));
   std::vector<double> logarithms;
   for (const auto& [name, weight] : weights) logarithms.push_back(weight);

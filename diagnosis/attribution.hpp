@@ -12,8 +12,9 @@
 
 namespace snag {
 
-/// A pair that was screened beside the fit of one of its effects, and promised too little to be fitted itself.
-struct ScreenedPair {
+/// A hypothesis without a fit of its own: a pair that was screened beside the fit of one of its effects and promised too little, or an
+/// effect that changes no run, of which these data tell as much as of none.
+struct NotFitted {
   double log_evidence = 0, log_prior = 0;
 };
 
@@ -23,7 +24,7 @@ struct Attribution {
   std::vector<double> weight;        // of each fit for the verdict: log evidence + log prior, second effects at the price of the rule
   std::vector<double> log_prior;     // of each fit
   std::vector<double> not_believed;  // nats of each fit's evidence that a guard takes away
-  std::map<std::string, ScreenedPair> screened_pairs{};
+  std::map<std::string, NotFitted> not_fitted{};
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Outside outside;
   double outside_weight = 0;

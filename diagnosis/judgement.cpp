@@ -45,15 +45,17 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
   }
 }
 
-// Hypotheses that hold nine tenths of the probability together, the likeliest first.
-std::vector<std::string> shared_verdict(const std::map<std::string, double>& probability) {
+// Hypotheses that hold nine tenths of the probability together, the likeliest first. What was not fitted has its share, but no verdict
+// rests on it.
+std::vector<std::string> shared_verdict(const Attribution& a) {
   std::vector<std::pair<double, std::string>> order;
-  for (const auto& [name, p] : probability) order.emplace_back(-p, name);
+  for (const auto& [name, p] : a.probability) order.emplace_back(-p, name);
   std::sort(order.begin(), order.end());
   std::vector<std::string> shared;
   double sum = 0;
   for (const auto& [minus_p, name] : order) {
-    shared.push_back(name), sum -= minus_p;
+    if (!a.not_fitted.contains(name)) shared.push_back(name);
+    sum -= minus_p;
     if (sum >= attributed) break;
   }
   return shared;
@@ -122,7 +124,7 @@ class Judge {
   void none() {
     const double p = v_.probability.at("none");
     if (p < suspected) {
-      tie(shared_verdict(v_.probability));
+      tie(shared_verdict(a_));
       return;
     }
     v_.verdict = all_blind(model_, a_) ? "blind" : "none";
@@ -141,7 +143,7 @@ class Judge {
     v_.effects = effect_names(model_, a_.fits[first]);
     const bool several_points = model_.training().size() > 1;
     if (p < suspected) {
-      tie(shared_verdict(v_.probability));
+      tie(shared_verdict(a_));
     } else if (const int twin = equal_rival(first); twin >= 0) {
       tie({a_.names[first], a_.names[twin]});
     } else if (several_points && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ) {
