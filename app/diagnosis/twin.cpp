@@ -45,23 +45,6 @@ bool shows(const TwinSet& set, const std::vector<Asked>& asked, const std::vecto
   return false;
 }
 
-/// What the base cases can show at all, but for random effects: those are compared by their spread, which replicates of this twin lack.
-std::vector<Effect> showable(const TwinSet& set) {
-  const std::vector<PointCase>& cases = set.cases;
-  BaseCase facts = cases.front().facts();
-  for (const PointCase& one : cases) {
-    facts.wall |= one.facts().wall, facts.gradient |= one.facts().gradient, facts.varies |= one.facts().varies;
-    facts.uniform |= one.facts().uniform;
-  }
-  std::vector<Effect> effects = library_effects(facts, cases.front().forces());
-  std::erase_if(effects, [](const Effect& e) { return !e.blind.empty() || e.random; });
-  const std::vector<Asked> asked = set.asked("all");
-  std::vector<std::vector<double>> base;
-  for (std::size_t p = 0; p < set.n_training(); ++p) base.push_back(set.base_values(p, asked, {}));
-  std::erase_if(effects, [&](const Effect& e) { return !shows(set, asked, base, e); });
-  return effects;
-}
-
 void draw_strengths(Truth& truth, const std::vector<Effect>& effects, NormalNumbers& random) {
   for (auto& [name, theta] : truth.theta) {
     const auto effect = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
@@ -113,6 +96,22 @@ void place_exits(TwinExperiment& experiment) {
 }
 
 }  // namespace
+
+std::vector<Effect> showable(const TwinSet& set) {
+  const std::vector<PointCase>& cases = set.cases;
+  BaseCase facts = cases.front().facts();
+  for (const PointCase& one : cases) {
+    facts.wall |= one.facts().wall, facts.gradient |= one.facts().gradient, facts.varies |= one.facts().varies;
+    facts.uniform |= one.facts().uniform;
+  }
+  std::vector<Effect> effects = library_effects(facts, cases.front().forces());
+  std::erase_if(effects, [](const Effect& e) { return !e.blind.empty() || e.random; });
+  const std::vector<Asked> asked = set.asked("all");
+  std::vector<std::vector<double>> base;
+  for (std::size_t p = 0; p < set.n_training(); ++p) base.push_back(set.base_values(p, asked, {}));
+  std::erase_if(effects, [&](const Effect& e) { return !shows(set, asked, base, e); });
+  return effects;
+}
 
 Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& folder) {
   if (plan.level != "L1" && plan.level != "L2")

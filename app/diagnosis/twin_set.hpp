@@ -55,6 +55,9 @@ struct TwinSet {
   double difference(const std::string& observable, double with, double without) const;
 };
 
+/// Effects of the library that the base cases can show at all, but for random ones: those are compared by their spread, which replicates of
+/// this twin lack.
+std::vector<Effect> showable(const TwinSet& set);
 /// Fills in how clearly what acts stands out of noise and uncertain inputs, over the training points.
 void measure_gap(TwinSet& set);
 /// Nothing in it tells the number of the set, and with it what is in it.

@@ -83,6 +83,16 @@ TwinSet sphere_set(const std::map<std::string, double>& theta) {
   return set;
 }
 
+/// Requirement: what changes no sample is no truth: a sphere that touches nothing has no friction.
+TEST(TwinSets, TruthsCanShow) {
+  const std::vector<Effect> effects = showable(sphere_set({}));
+  const auto holds = [&](const char* name) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) { return effect.name == name; });
+  };
+  EXPECT_TRUE(holds("wall") && holds("added_mass") && holds("measurement"));
+  EXPECT_FALSE(holds("friction"));
+}
+
 /// Requirement: an effect that is nothing but an uncertain input m standard uncertainties off can be told by m at most, however far off
 /// the model is from linear: the drag law by its factor, and by its slope over Re, both of which a diagnosis keeps free.
 TEST(TwinSets, DragIsToldByNoMoreThanItsLawIsOff) {
