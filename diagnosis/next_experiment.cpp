@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/words.hpp"
 
@@ -41,6 +42,13 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   return result;
 }
 
+/// Two digits: more are not known of a prediction.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
 /// A hypothesis in a sentence.
 std::string spoken(std::string name) {
   if (name == "none") return "no missing effect";
@@ -76,7 +84,7 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
     return "No number of repeats of these measurements would tell " + both + "; that takes another operating point or observable.";
   return "To tell " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
          (std::isnan(best.time) ? "" : ", above all around t = " + words(best.time) + " s") +
-         ": there the two predict what differs most, by " + words(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
+         ": there the two predict what differs most, by " + rounded(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
          (replicates > 1 ? words(replicates) + " more repeats" : "One more") + " would settle it.";
 }
 
