@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/error.hpp"
 #include "base/words.hpp"
 #include "diagnosis/calibration.hpp"
 #include "diagnosis/random_effects.hpp"
@@ -15,7 +13,8 @@ namespace snag {
 namespace {
 
 /// Shares of the prior. None is twice as likely as all single effects together: uncertainties of inputs are seldom stated too large. A
-/// second effect has to bring 6 nats (a surplus second effect mops up what the first leaves); a tenth is for what nobody listed.
+/// second effect is as likely beside the first as it is alone; a tenth is for what nobody listed. To be named, a second effect has to
+/// bring 6 nats (a surplus second effect mops up what the first leaves): a rule of the verdict, of which the probabilities know nothing.
 constexpr double prior_none = 0.6, prior_effects = 0.3, prior_outside = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
@@ -30,15 +29,20 @@ class Attributor {
 
   Attribution attribute() {
     const std::vector<int> live = live_candidates(model_, result_.identifiability.blind);
-    for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
     n_singles_ = std::max<int>(1, static_cast<int>(live.size()));
+    for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
     report("signatures", 0.05);
     const Screening screening(model_, fitter_, candidates_, fitter_.base());
     identify(screening);
+    // What changes no run needs none to be judged.
+    const auto unseen = std::stable_partition(candidates_.begin(), candidates_.end(), [&](int k) { return screening.changes_runs(k); });
+    const std::vector<int> not_seen(unseen, candidates_.end());
+    candidates_.erase(unseen, candidates_.end());
     result_.sham_rate = screening.sham_rate(model_.experiment().seed);
     const std::vector<Screened> singles = screened_singles(screening);
     report("fits", 0.15);
     add(fitter_.fit({}, Eigen::VectorXd()));
+    for (const int k : not_seen) result_.not_fitted[model_.effects()[k].name] = {result_.fits.front().log_evidence, log_prior({{k}})};
     fit_singles(singles);
     for (const int k : random_) {
       if (affordable(6 * model_.n_seeds({{{k, 1}}, fitter_.base().state.nuisances}))) add(fit_random_effect(model_, fitter_, k));
@@ -69,14 +73,18 @@ class Attributor {
     return (10 + 8 * n_effects + nuisances) * model_.n_seeds(fitter_.base().state);
   }
 
+  // Each effect is there or not whatever the others are.
   double log_prior(const Hypothesis& hypothesis) const {
-    if (hypothesis.effects.empty()) return std::log(prior_none);
-    return std::log(prior_effects / n_singles_) - (hypothesis.effects.size() > 1 ? nats_of_second : 0);
+    return std::log(prior_none) + static_cast<double>(hypothesis.effects.size()) * std::log(prior_effects / n_singles_ / prior_none);
   }
 
   void add(Fit fit) {
     result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
-    result_.weight.push_back(fit.log_evidence + log_prior(fit.hypothesis));
+    result_.not_fitted.erase(result_.names.back());
+    result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.not_believed.push_back(0);
+    const bool is_pair = fit.hypothesis.effects.size() > 1;
+    result_.weight.push_back(fit.log_evidence +
+                             (is_pair ? std::log(prior_effects / n_singles_) - nats_of_second : result_.log_prior.back()));
     result_.fits.push_back(std::move(fit));
   }
 
@@ -161,8 +169,8 @@ class Attributor {
   // far from linear, and either of them, or a third that stands for both, may lead among the single ones.
   void fit_pairs(const Screening& first_screening) {
     if (candidates_.size() < 2) return;
-    const double gain_wanted = nats_of_second - 3;  // the linear model may be off by some nats
-    std::map<std::string, Screened> pairs;          // by name, each where it looks best
+    constexpr double gain_wanted = nats_of_second - 3;  // the linear model may be off by some nats
+    std::map<std::string, Screened> pairs;              // by name, each where it looks best
     const std::vector<int> singles = best_singles();
     for (std::size_t i = 0; i < singles.size() && i < n_screened_again; ++i) {
       const Fit& single = result_.fits[singles[i]];
@@ -173,8 +181,13 @@ class Attributor {
       for (const int k : candidates_) {
         if (k == own) continue;
         Screened screened = second.screen(pair_of(own, k));
-        if (screened.log_evidence < result_.fits[singles.front()].log_evidence + gain_wanted) continue;
         const std::string name = name_of(screened.hypothesis, model_.effects());
+        if (screened.log_evidence + price_of_inputs(single) < result_.fits[singles.front()].log_evidence + gain_wanted) {
+          const NotFitted as_screened{screened.log_evidence, log_prior(screened.hypothesis)};
+          NotFitted& kept = result_.not_fitted.emplace(name, as_screened).first->second;
+          kept.log_evidence = std::max(kept.log_evidence, screened.log_evidence);
+          continue;
+        }
         const auto found = pairs.find(name);
         if (found == pairs.end() || found->second.log_evidence < screened.log_evidence) pairs.insert_or_assign(name, std::move(screened));
       }
@@ -190,6 +203,17 @@ class Attributor {
       report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
       add(fitter_.fit(order[i].hypothesis, start(order[i]), order[i].forms));
     }
+  }
+
+  // What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model reaches:
+  // its screened evidence is too low.
+  double price_of_inputs(const Fit& fit) const {
+    const auto m = static_cast<Eigen::Index>(model_.nuisances().size());
+    constexpr double by_chance = 2;  // standard uncertainties
+    double furthest = 0;
+    for (const double deviation : (fit.solution.d - fit.linear.prior).segment(fit.linear.lower.size(), m).eval())
+      furthest = std::max(furthest, std::abs(deviation));
+    return 0.5 * std::max(0.0, furthest * furthest - by_chance * by_chance);
   }
 
   static std::vector<Screened> best_first(std::map<std::string, Screened> by_name) {
@@ -234,63 +258,25 @@ int Attribution::first_effect() const {
   return best;
 }
 
-std::vector<int> live_candidates(const Responses& model, std::map<std::string, std::string>& blind) {
-  const auto& effects = model.effects();
-  const auto& wanted = model.experiment().candidates;
-  std::vector<std::string> known;
-  for (const Effect& effect : effects) known.push_back(effect.name);
-  for (const std::string& name : wanted) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const std::string near = nearest_name(name, known);
-    throw Error(ExitCode::usage, "[model] candidates: unknown effect \"" + name + "\"" +
-                                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; known are " + joined(known));
-  }
-  std::vector<int> live;
-  for (int k = 0; k < static_cast<int>(effects.size()); ++k) {
-    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), effects[k].name) == wanted.end()) continue;
-    if (effects[k].blind.empty())
-      live.push_back(k);
-    else
-      blind[effects[k].name] = effects[k].blind;
-  }
-  std::sort(live.begin(), live.end(), [&](int a, int b) { return effects[a].name < effects[b].name; });
-  return live;
-}
-
 Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress) {
   return Attributor(model, fitter, progress).attribute();
 }
 
 void set_probabilities(Attribution& attribution) {
-  std::vector<double> weights = attribution.weight;
-  weights.push_back(attribution.outside_weight);
-  for (double& w : weights) w /= calibration().temperature;
-  const double total = log_sum_exp(weights);
+  // The evidence overstates, not the prior: data that say nothing leave it as it is.
+  std::vector<std::pair<std::string, double>> weights;
+  const auto add = [&](const std::string& name, double log_evidence, double log_prior) {
+    weights.emplace_back(name, (log_evidence - attribution.fits.front().log_evidence) / calibration().temperature + log_prior);
+  };
+  for (std::size_t i = 0; i < attribution.names.size(); ++i)
+    add(attribution.names[i], attribution.fits[i].log_evidence - attribution.not_believed[i], attribution.log_prior[i]);
+  for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
+  add("outside", attribution.outside.log_evidence, std::log(prior_outside));
+  std::vector<double> logarithms;
+  for (const auto& [name, weight] : weights) logarithms.push_back(weight);
+  const double total = log_sum_exp(logarithms);
   attribution.probability.clear();
-  for (std::size_t i = 0; i < attribution.names.size(); ++i) attribution.probability[attribution.names[i]] = std::exp(weights[i] - total);
-  attribution.probability["outside"] = std::exp(weights.back() - total);
-}
-
-double leave_one_out(const Fit& fit) {
-  double sum = 0;
-  const Eigen::VectorXd& rho = fit.linear.rho;
-  const Eigen::MatrixXd& J = fit.linear.J;
-  for (std::size_t p = 0; p + 1 < fit.first_row.size(); ++p) {
-    const int begin = fit.first_row[p], n = fit.first_row[p + 1] - begin;
-    if (n == 0) continue;
-    const auto own = J.middleRows(begin, n);
-    const auto own_rho = rho.segment(begin, n);
-    const Eigen::MatrixXd JtJ = J.transpose() * J - own.transpose() * own;
-    const Eigen::VectorXd Jt_rho = J.transpose() * rho - own.transpose() * own_rho;
-    const LinearSolution others =
-        solve(JtJ, Jt_rho, rho.squaredNorm() - own_rho.squaredNorm(), fit.linear.prior, fit.linear.lower, fit.linear.upper);
-    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + own * others.covariance * own.transpose());
-    const Eigen::VectorXd z = factor.matrixL().solve(own_rho + own * others.d);
-    const Eigen::MatrixXd &L = factor.matrixLLT(), &C = fit.whitening.factor[p].matrixLLT();
-    sum -= 0.5 * z.squaredNorm() + 0.5 * fit.whitening.log_ratio[p] + L.diagonal().array().log().sum() + C.diagonal().array().log().sum() +
-           0.5 * n * std::log(2 * std::numbers::pi);
-  }
-  return sum;
+  for (const auto& [name, weight] : weights) attribution.probability[name] = std::exp(weight - total);
 }
 
 }  // namespace snag

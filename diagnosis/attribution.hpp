@@ -12,10 +12,19 @@
 
 namespace snag {
 
+/// A hypothesis without a fit of its own: a pair that was screened beside the fit of one of its effects and promised too little, or an
+/// effect that changes no run, of which these data tell as much as of none.
+struct NotFitted {
+  double log_evidence = 0, log_prior = 0;
+};
+
 struct Attribution {
-  std::vector<Fit> fits;              // none first
-  std::vector<std::string> names;     // of the fits
-  std::vector<double> weight;         // log evidence + log prior of each fit
+  std::vector<Fit> fits;             // none first
+  std::vector<std::string> names;    // of the fits
+  std::vector<double> weight;        // of each fit for the verdict: log evidence + log prior, second effects at the price of the rule
+  std::vector<double> log_prior;     // of each fit
+  std::vector<double> not_believed;  // nats of each fit's evidence that a guard takes away
+  std::map<std::string, NotFitted> not_fitted{};
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Outside outside;
   double outside_weight = 0;
@@ -34,7 +43,7 @@ std::vector<int> live_candidates(const Responses& model, std::map<std::string, s
 
 Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress);
 
-/// Probabilities from the weights, tempered by the calibration.
+/// Probabilities of all hypotheses from evidence, tempered by the calibration, and prior.
 void set_probabilities(Attribution& attribution);
 
 /// Log predictive density of each training point given the others, summed.

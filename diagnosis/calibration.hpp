@@ -1,5 +1,5 @@
 #pragma once
-// How much the evidence of this diagnosis overstates: log-posteriors are divided by this temperature before they are printed.
+// How much the evidence of this diagnosis overstates: its logarithms are divided by this temperature before probabilities are printed.
 
 namespace snag {
 

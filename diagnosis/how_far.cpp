@@ -4,25 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/excess_gap.hpp"
 
 namespace snag {
 
 namespace {
 
-constexpr int least_points = 3, n_resamples = 600;
-/// Below this excess, in units of u_D^2 per row, there is no gap that could shrink: the number is NaN, null in verdict.json.
-constexpr double no_gap = 1e-12;
-
-// What one hypothesis predicts at the withheld points, by point and row: E over u_D, and how it moves with what is uncertain.
-struct Prediction {
-  std::vector<Eigen::VectorXd> error;        // (model - data)/u_D, inputs fitted
-  std::vector<Eigen::MatrixXd> covariance;   // of it when nothing is missing
-  std::vector<Eigen::MatrixXd> noise;        // its factor
-  std::vector<Eigen::MatrixXd> projection;   // what the fit of the inputs leaves of an error
-  std::vector<Eigen::MatrixXd> by_strength;  // (d model)/u_D per posterior standard deviation of a strength, inputs fitted again
-  Eigen::MatrixXd strength_factor;           // of their posterior correlation
-};
+constexpr int least_points = 3;
 
 Eigen::VectorXd data_uncertainty(const PointSummary& point) { return point.covariance.diagonal().cwiseSqrt(); }
 
@@ -30,7 +18,7 @@ class HowFar {
  public:
   HowFar(Responses& model, const Attribution& attribution) : model_(model), attribution_(attribution) {}
 
-  Prediction predict(const Fit& fit) {
+  WithheldError predict(const Fit& fit) {
     const auto& withheld = model_.withheld();
     const State state = withheld_state(fit);
     const State leading = lead_of(state);
@@ -59,7 +47,7 @@ class HowFar {
       moved_input.push_back(model_.run(moved, withheld));
       if (!fit.hypothesis.effects.empty()) posterior[j] = std::sqrt(fit.solution.covariance(k + j, k + j));
     }
-    Prediction prediction;
+    WithheldError prediction;
     for (std::size_t p = 0; p < withheld.size(); ++p) {
       const PointSummary& point = model_.points()[withheld[p]];
       const int g = point.n_gaussian;
@@ -95,7 +83,7 @@ class HowFar {
 
   // Correction without physics: at the training points the error of the base model is regressed on 1, t, t^2 and how far the base model has
   // come, observable by observable, with the smallest ridge that keeps it solvable.
-  Prediction predict_regression(const Prediction& before) {
+  WithheldError predict_regression(const WithheldError& before) {
     const Fit& none = attribution_.fits.front();
     const auto features = [&](const PointSummary& point, const Response& response, int i) {
       const Row& row = point.rows[i];
@@ -115,7 +103,7 @@ class HowFar {
             b[point.rows[i].observable] += f * (point.rows[i].value - none.at.responses[p].value[i]);
       }
     }
-    Prediction after = before;
+    WithheldError after = before;
     const auto responses = model_.run(withheld_state(none), model_.withheld());
     for (std::size_t p = 0; p < model_.withheld().size(); ++p) {
       const PointSummary& point = model_.points()[model_.withheld()[p]];
@@ -132,53 +120,6 @@ class HowFar {
     return after;
   }
 
-  // n_noise: how many realisations of the noise the error holds.
-  static double excess(const Prediction& prediction, const std::vector<int>& points, double n_noise = 1) {
-    double sum = 0;
-    int n = 0;
-    for (const int p : points) {
-      sum += prediction.error[p].squaredNorm() - n_noise * prediction.covariance[p].trace();
-      n += static_cast<int>(prediction.error[p].size());
-    }
-    return n > 0 ? std::max(0.0, sum / n) : 0;
-  }
-
-  static double floor(const Prediction& prediction, const std::vector<int>& points) {
-    double sum = 0;
-    int n = 0;
-    for (const int p : points) sum += prediction.covariance[p].trace(), n += static_cast<int>(prediction.error[p].size());
-    return n > 0 ? sum / n : 0;
-  }
-
-  std::vector<int> all_points() const {
-    std::vector<int> points(model_.withheld().size());
-    for (std::size_t p = 0; p < points.size(); ++p) points[p] = static_cast<int>(p);
-    return points;
-  }
-
-  // Interval by resampling: points with replacement, and within each what the fit and the inputs leave open.
-  Shrinkage shrinkage(const Prediction& before, const Prediction& after) const {
-    const double G_before = excess(before, all_points());
-    Shrinkage result;
-    result.mean = G_before > no_gap ? 1 - excess(after, all_points()) / G_before : std::numeric_limits<double>::quiet_NaN();
-    NormalNumbers random(model_.experiment().seed + 17);
-    std::vector<double> draws;
-    const int n = static_cast<int>(before.error.size());
-    for (int k = 0; k < n_resamples; ++k) {
-      std::vector<int> points(n);
-      for (int& p : points) p = random.index(n);
-      Prediction b = before, a = after;
-      perturb(b, a, random);
-      const double own = excess(b, points, 2);
-      if (own > no_gap) draws.push_back(1 - excess(a, points, 2) / own);
-    }
-    std::sort(draws.begin(), draws.end());
-    if (draws.empty() || std::isnan(result.mean)) return {result.mean, result.mean, result.mean};
-    result.low = std::min(result.mean, draws[static_cast<std::size_t>(0.025 * static_cast<double>(draws.size() - 1))]);
-    result.high = std::max(result.mean, draws[static_cast<std::size_t>(0.975 * static_cast<double>(draws.size() - 1))]);
-    return result;
-  }
-
  private:
   // The base model with all inputs as they are expected, or it would take up the effect with inputs far outside their band; with an
   // effect the fitted state. Nuisances that no training point shares stay at their expected value: they are what u_input is for.
@@ -193,19 +134,6 @@ class HowFar {
     return state;
   }
 
-  // Another strength within its posterior and another realisation of noise and inputs, the same before and after.
-  static void perturb(Prediction& before, Prediction& after, NormalNumbers& random) {
-    Eigen::VectorXd strength(after.strength_factor.cols());
-    for (double& v : strength) v = random();
-    strength = after.strength_factor * strength;
-    for (std::size_t p = 0; p < after.error.size(); ++p) {
-      Eigen::VectorXd noise(after.error[p].size());
-      for (double& v : noise) v = random();
-      if (strength.size() > 0) after.error[p] += after.by_strength[p] * strength;
-      after.error[p] += after.noise[p] * noise, before.error[p] += before.noise[p] * noise;
-    }
-  }
-
   Responses& model_;
   const Attribution& attribution_;
 };
@@ -217,10 +145,10 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
   const auto has_cells = [&](int p) { return model.points()[p].n_gaussian > 0; };
   if (std::count_if(withheld.begin(), withheld.end(), has_cells) < least_points) return;
   HowFar how_far(model, attribution);
-  const Prediction before = how_far.predict(attribution.fits.front());
-  const auto points = how_far.all_points();
-  verdict.gap.before = verdict.gap.after = HowFar::excess(before, points);
-  verdict.gap.floor = HowFar::floor(before, points);
+  const WithheldError before = how_far.predict(attribution.fits.front());
+  verdict.gap.before = verdict.gap.after = excess_gap(before);
+  verdict.gap.floor = noise_floor(before);
+  const std::uint64_t seed = model.experiment().seed;
   // The chosen one first: without it there is no gap after.
   std::vector<int> order;
   if (chosen > 0) order.push_back(chosen);
@@ -231,19 +159,19 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
       if (i == chosen) return;
       break;
     }
-    const Prediction after = how_far.predict(attribution.fits[i]);
-    const Shrinkage shrinkage = how_far.shrinkage(before, after);
+    const WithheldError after = how_far.predict(attribution.fits[i]);
+    const Shrinkage shrunk = shrinkage(before, after, seed);
     if (i != chosen) {
-      verdict.shrinkage_rejected[attribution.names[i]] = shrinkage;
+      verdict.shrinkage_rejected[attribution.names[i]] = shrunk;
       continue;
     }
-    verdict.shrinkage[attribution.names[i]] = shrinkage;
-    verdict.gap.after = HowFar::excess(after, points), verdict.gap.floor = HowFar::floor(after, points);
+    verdict.shrinkage[attribution.names[i]] = shrunk;
+    verdict.gap.after = excess_gap(after), verdict.gap.floor = noise_floor(after);
   }
   verdict.gap.computable = true;
   // What no effect of the library takes away: the gap after beyond the floor.
   verdict.gap.remainder = verdict.gap.after;
-  verdict.shrinkage_regression = how_far.shrinkage(before, how_far.predict_regression(before));
+  verdict.shrinkage_regression = shrinkage(before, how_far.predict_regression(before), seed);
 }
 
 }  // namespace snag

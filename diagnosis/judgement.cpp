@@ -39,19 +39,23 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
     if (a.weight[i] > a.weight[half] - behind) {
       a.notes.push_back("The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
       a.weight[i] = a.weight[half] - behind;
+      // What it is credited with beside its better half is what chance gives: nothing.
+      a.not_believed[i] = std::max(0.0, a.fits[i].log_evidence - a.fits[static_cast<std::size_t>(half)].log_evidence);
     }
   }
 }
 
-// Hypotheses that hold nine tenths of the probability together, the likeliest first.
-std::vector<std::string> shared_verdict(const std::map<std::string, double>& probability) {
+// Hypotheses that hold nine tenths of the probability together, the likeliest first. What was not fitted has its share, but no verdict
+// rests on it.
+std::vector<std::string> shared_verdict(const Attribution& a) {
   std::vector<std::pair<double, std::string>> order;
-  for (const auto& [name, p] : probability) order.emplace_back(-p, name);
+  for (const auto& [name, p] : a.probability) order.emplace_back(-p, name);
   std::sort(order.begin(), order.end());
   std::vector<std::string> shared;
   double sum = 0;
   for (const auto& [minus_p, name] : order) {
-    shared.push_back(name), sum -= minus_p;
+    if (!a.not_fitted.contains(name)) shared.push_back(name);
+    sum -= minus_p;
     if (sum >= attributed) break;
   }
   return shared;
@@ -120,7 +124,7 @@ class Judge {
   void none() {
     const double p = v_.probability.at("none");
     if (p < suspected) {
-      tie(shared_verdict(v_.probability));
+      tie(shared_verdict(a_));
       return;
     }
     v_.verdict = all_blind(model_, a_) ? "blind" : "none";
@@ -139,7 +143,7 @@ class Judge {
     v_.effects = effect_names(model_, a_.fits[first]);
     const bool several_points = model_.training().size() > 1;
     if (p < suspected) {
-      tie(shared_verdict(v_.probability));
+      tie(shared_verdict(a_));
     } else if (const int twin = equal_rival(first); twin >= 0) {
       tie({a_.names[first], a_.names[twin]});
     } else if (several_points && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/words.hpp"
 
@@ -10,7 +11,7 @@ namespace snag {
 namespace {
 
 struct Proposal {
-  double T = 0;  // of one more replicate
+  double T = 0;  // of one more replicate: square of the difference in its standard uncertainties
   std::string observable, point;
   double time = 0;  // s, where the predictions differ most
 };
@@ -41,6 +42,21 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   return result;
 }
 
+/// Two digits: more are not known of a prediction.
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+/// A hypothesis in a sentence.
+std::string spoken(std::string name) {
+  if (name == "none") return "no missing effect";
+  if (const auto plus = name.find('+'); plus != std::string::npos) name.replace(plus, 1, " with ");
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 }  // namespace
 
 std::string next_experiment(const Responses& model, const Attribution& attribution) {
@@ -61,14 +77,15 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
       if (tried.T > best.T) best = tried;
     }
   }
-  const std::string both = attribution.names[first] + " and " + attribution.names[second];
+  const std::string both = spoken(attribution.names[first]) + " from " + spoken(attribution.names[second]);
   constexpr double wanted_nats = 6, most_replicates = 1000;
   const double replicates = std::ceil(2 * wanted_nats / std::max(best.T, 1e-300));
   if (replicates > most_replicates)
-    return "No more replicates of these measurements would separate " + both + "; another operating point or observable is needed.";
-  return "Measure " + best.observable + " at point " + best.point +
-         (std::isnan(best.time) ? "" : " around t = " + words(best.time) + " s") + ": there " + both +
-         " differ most (T = " + words(best.T) + " for one replicate); " + words(replicates) + " more would separate them.";
+    return "No number of repeats of these measurements would tell " + both + "; that takes another operating point or observable.";
+  return "To tell " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
+         (std::isnan(best.time) ? "" : ", above all around t = " + words(best.time) + " s") +
+         ": there the two predict what differs most, by " + rounded(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
+         (replicates > 1 ? words(replicates) + " more repeats" : "One more") + " would settle it.";
 }
 
 }  // namespace snag

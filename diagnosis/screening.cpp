@@ -173,6 +173,13 @@ double Screening::detectability(int k) const {
   return std::sqrt(std::max(0.0, projected(columns_.at(k).front(), columns_.at(k).front()))) * std::abs(probe_strength(effect)) / effect.sd;
 }
 
+bool Screening::changes_runs(int k) const {
+  const auto& forms = signatures_.at(k);
+  return std::any_of(forms.begin(), forms.end(), [](const auto& points) {
+    return std::any_of(points.begin(), points.end(), [](const Eigen::VectorXd& s) { return !s.isZero(0); });
+  });
+}
+
 double Screening::cosine(int a, int b) const {
   const double norm = std::sqrt(
       std::max(0.0, projected(columns_.at(a).front(), columns_.at(a).front()) * projected(columns_.at(b).front(), columns_.at(b).front())));

@@ -25,6 +25,8 @@ class Screening {
   Screened screen(const Hypothesis& hypothesis) const;
   /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out.
   double detectability(int candidate) const;
+  /// Whether any run with a candidate, in any of its forms, differs from that without it.
+  bool changes_runs(int candidate) const;
   /// Cosine between two signatures in that metric.
   double cosine(int a, int b) const;
   /// Share of sham effects (signatures that run backwards in time with random signs by point) that beat every candidate alone.

@@ -40,6 +40,15 @@ Json cell(const GapCell& c) {
   return json;
 }
 
+Json curve(const GapCurve& c) {
+  Json json{{"observable", c.observable}, {"unit", c.unit}, {"point", c.point}};
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    for (const double value : values) json[name].push_back(number(value));
+  };
+  add("t_s", c.time), add("measured", c.measured), add("u", c.u), add("base", c.base), add("with_effect", c.with_effect);
+  return json;
+}
+
 Json parameter(const EffectEstimate& e) {
   return {{"mean", number(e.mean)},           {"sd", number(e.sd)},      {"unit", e.unit}, {"per_point", numbers(e.per_point)},
           {"cochran_p", number(e.cochran_p)}, {"absorbing", e.absorbing}};
@@ -72,6 +81,8 @@ std::string verdict_json(const Verdict& v) {
   for (const auto& [name, e] : v.parameters) json["parameters"][name] = parameter(e);
   json["where"] = Json::array();
   for (const GapCell& c : v.where) json["where"].push_back(cell(c));
+  json["curves"] = Json::array();
+  for (const GapCurve& c : v.curves) json["curves"].push_back(curve(c));
   json["shrinkage"] = how_far(v);
   json["gap"] = v.gap.computable ? Json{{"before", number(v.gap.before)},
                                         {"after", number(v.gap.after)},

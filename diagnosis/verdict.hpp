@@ -22,6 +22,16 @@ struct GapCell {
   bool withheld = false, significant = false, onset = false, blind = false;
 };
 
+/// Simulation and data of one observable at one operating point over time, SI, each value a mean over a bin of time.
+struct GapCurve {
+  std::string observable, unit, point;
+  std::vector<double> time{};         // s
+  std::vector<double> measured{};     // mean of the replicates
+  std::vector<double> u{};            // its standard uncertainty: noise, scatter and bias
+  std::vector<double> base{};         // base model, inputs as they are expected
+  std::vector<double> with_effect{};  // what the verdict rests on, strengths and inputs fitted; empty: it names no effect
+};
+
 /// Posterior of the strength of an effect.
 struct EffectEstimate {
   double mean = 0, sd = 0;
@@ -73,6 +83,7 @@ struct Verdict {
   std::vector<std::string> notes{};  // guards that spoke, in sentences
   double sham_rate = 0;              // of sham effects that a screening would have chosen
   std::vector<GapCell> where{};
+  std::vector<GapCurve> curves{};                         // of the largest differences
   std::map<std::string, Shrinkage> shrinkage{};           // of the chosen effect, by hypothesis
   std::map<std::string, Shrinkage> shrinkage_rejected{};  // of the others that were fitted
   Shrinkage shrinkage_regression;                         // of a correction without physics

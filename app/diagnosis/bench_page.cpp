@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "app/report/html.hpp"
 #include "app/report/line_plot.hpp"
@@ -33,7 +32,8 @@ std::vector<Line> lines_of(const ScoreCard& card) {
     lines.push_back({s.name, std::to_string(s.hits) + " of " + std::to_string(s.n) + " = " + share_text(s.share()),
                      share_text(s.interval[0]) + " to " + share_text(s.interval[1]), s.target, s.n, s.met()});
   for (const Measure& m : card.measures)
-    lines.push_back({m.name, share_text(m.value) + " of " + std::to_string(m.n) + " sets", "", m.target, m.n, m.met()});
+    lines.push_back({m.name, (std::isfinite(m.value) ? share_text(m.value) + " over " : "not found in ") + std::to_string(m.n) + " sets",
+                     "", m.target, m.n, m.met()});
   return lines;
 }
 
@@ -42,11 +42,21 @@ std::string reliability(const ScoreCard& card) {
                 .x_label = "probability stated for the first hypothesis",
                 .y_label = "share of them that was right",
                 .lines = {}};
-  PlotLine line{.label = "sets in bins of a tenth", .x = {}, .y = {}, .dotted = true};
+  PlotLine line{.label = "sets whose stated probability is in the same tenth", .x = {}, .y = {}, .dotted = true};
   for (const auto& bin : card.reliability)
     if (bin.n > 0) line.x.push_back(bin.stated), line.y.push_back(bin.right);
   plot.lines = {line, {.label = "ideal", .x = {0, 1}, .y = {0, 1}, .faint = true}};
   return figure(plot);
+}
+
+/// How many sets each dot of the reliability stands on.
+std::string bins(const ScoreCard& card) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& bin : card.reliability)
+    if (bin.n > 0) rows.push_back({share_text(bin.stated), share_text(bin.right), std::to_string(bin.n)});
+  return html::table({"Probability stated, mean", "share that was right", "sets"}, rows) +
+         "<p>A diagnosis whose probabilities are exactly right would show a calibration error of " + share_text(card.ece_by_chance) +
+         " on average, as each dot stands on a few sets only.</p>\n";
 }
 
 /// Hits of single effects over the size of the gap, in bins of equal counts.
@@ -63,25 +73,42 @@ std::string detection(std::vector<ScoreRow> rows) {
   }
   if (line.x.empty()) return "";
   return figure({.title = "Detection",
-                 .x_label = "log10 of the gap over the floor, rms",
-                 .y_label = "share of single effects named",
+                 .x_label = "size of the gap over noise and inputs (rms), power of ten",
+                 .y_label = "share of single effects named rightly",
                  .lines = {line}});
 }
 
+/// What was said of each truth, the right words first.
 std::string confusion(const ScoreCard& card) {
-  std::set<std::string> said;
-  for (const auto& [truth, row] : card.confusion)
-    for (const auto& [word, n] : row) said.insert(word);
-  std::vector<std::string> header{"truth"};
-  header.insert(header.end(), said.begin(), said.end());
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [truth, row] : card.confusion) {
-    std::vector<std::string> cells{escaped(truth)};
-    for (const std::string& word : said) cells.push_back(row.contains(word) ? std::to_string(row.at(word)) : "");
-    rows.push_back(cells);
+  for (const auto& [truth, said] : card.confusion) {
+    int n = 0, right = 0;
+    std::string words_of_right, others;
+    for (const auto& [word, count] : said) {
+      n += count;
+      const std::string text = std::string(word == truth ? "<span class=\"pass\">" : "<span class=\"idle\">") + escaped(word) + "</span>" +
+                               (count > 1 ? " (" + std::to_string(count) + ")" : "");
+      std::string& list = word == truth ? words_of_right : others;
+      list += (list.empty() ? "" : ", ") + text;
+      if (word == truth) right = count;
+    }
+    rows.push_back({escaped(truth), std::to_string(right) + " of " + std::to_string(n),
+                    words_of_right + (words_of_right.empty() || others.empty() ? "" : ", ") + others});
   }
-  return html::table(header, rows);
+  return html::table({"Truth", "right", "what was said"}, rows);
 }
+
+constexpr const char* meaning =
+    "<p>Each set is a made-up experiment whose truth was written down and sealed before the diagnosis saw its data. Null: nothing is "
+    "missing. Outside: something acts that the library of effects does not hold. Detectable: what acts differs from the base model, and of "
+    "a "
+    "pair each effect from the other alone, by 3 standard uncertainties or more once the uncertain inputs are allowed to move. Sets that "
+    "can "
+    "be told: null and detectable ones.</p>\n";
+
+constexpr const char* of_intervals =
+    "<p>No gap shrinks by more than all of it, so an interval can miss the ideal on one side only: right ones hold it in 97.5 % of the "
+    "sets.</p>\n";
 
 }  // namespace
 
@@ -107,8 +134,9 @@ std::string bench_page(const std::string& title, const std::vector<ScoreRow>& ro
          std::string(report_style) + "</style>\n</head>\n<body>\n<h1>Blind benchmark of the diagnosis: " + escaped(title) +
          "</h1>\n<p class=\"origin\">" + std::to_string(rows.size()) + " sealed sets, by version " + version_number + " (" + version_git +
          ")</p>\n" +
-         section("Scores", html::table({"Score", "found", "95 % interval", "target", ""}, table) + "<p>" + Truth::strengths + "</p>") +
-         section("Reliability and detection", "<div class=\"plots\">" + reliability(card) + detection(rows) + "</div>") +
+         section("Scores", meaning + html::table({"Score", "found", "95 % interval", "target", ""}, table) + of_intervals + "<p>" +
+                               Truth::strengths + "</p>") +
+         section("Reliability and detection", "<div class=\"plots\">" + reliability(card) + detection(rows) + "</div>" + bins(card)) +
          section("What was said of what", confusion(card)) + "</body>\n</html>\n";
 }
 

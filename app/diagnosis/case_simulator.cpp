@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
 #include <set>
 
+#include "app/diagnosis/input_nuisances.hpp"
 #include "app/diagnosis/mesh_run.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -119,27 +119,11 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
   if (!folder_.empty()) read_cache(folder_ / "runs.tsv");
 }
 
-/// A set-point of the flow is one of its own at every point; what has the same value at several points (a fluid, a particle) is the same
-/// thing there. A drag law is the same everywhere, and off by the same, unless its error is said to be each point's own.
 void CaseSimulator::find_nuisances(const Experiment& experiment) {
-  std::map<std::string, std::vector<int>> shared;  // name, value and uncertainty -> points
-  std::map<std::string, std::pair<std::string, double>> record;
-  for (std::size_t p = 0; p < points_.size(); ++p)
-    for (const auto& [key, u] : experiment.points[p].input_u) {
-      if (u <= 0) continue;
-      std::string same = key + "|" + words(u) + "|" + points_[p].base.value_of(key);
-      const bool set_point =
-          key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos;
-      if (set_point || key == "drag_form_of_point") same += "|" + std::to_string(p);
-      shared[same].push_back(static_cast<int>(p));
-      record[same] = {key, u};
-    }
-  for (const auto& [same, points] : shared) {
-    const auto& [key, u] = record[same];
-    nuisances_.push_back({key, u, points});
-    // A law that is off by u is off by another u where Re is e times ten: its error is smooth over a decade.
-    if (key == "drag_form") nuisances_.push_back({"drag_form.slope", u / std::numbers::ln10, points});
-  }
+  std::vector<const PointCase*> bases;
+  std::vector<std::vector<std::pair<std::string, double>>> input_u;
+  for (std::size_t p = 0; p < points_.size(); ++p) bases.push_back(&points_[p].base), input_u.push_back(experiment.points[p].input_u);
+  nuisances_ = input_nuisances(bases, input_u);
   std::vector<int> all(points_.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
   std::set<std::string> groups;

@@ -36,10 +36,10 @@ std::vector<TwinInput> TwinSet::inputs() const {
   return all;
 }
 
-std::vector<Asked> TwinSet::asked() const {
+std::vector<Asked> TwinSet::asked(const std::string& subset) const {
   std::vector<Asked> all;
   for (const TwinInstrument& one : experiment.instruments) {
-    if (!in_subset(truth.subset, one.id)) continue;
+    if (!in_subset(subset, one.id)) continue;
     if (one.id == "retention_time")
       all.push_back({one.id});
     else

@@ -36,8 +36,9 @@ struct TwinSet {
 
   std::size_t n_training() const { return experiment.cases.size() - n_withheld; }
   std::vector<TwinInput> inputs() const;
-  /// What the subset of the truth asks of a point, in the order of the instruments.
-  std::vector<Asked> asked() const;
+  /// What a subset of the observables asks of a point, in the order of the instruments; without a name that of the truth.
+  std::vector<Asked> asked(const std::string& subset) const;
+  std::vector<Asked> asked() const { return asked(truth.subset); }
   const TwinInstrument& instrument(const std::string& id) const;
   /// Values without noise at a point with these effects in the form of the truth, and what is outside the library if `outside_acts`.
   std::vector<double> values(std::size_t point, const std::vector<Asked>& asked, const std::map<std::string, double>& theta,
@@ -54,6 +55,9 @@ struct TwinSet {
   double difference(const std::string& observable, double with, double without) const;
 };
 
+/// Effects of the library that the base cases can show at all, but for random ones: those are compared by their spread, which replicates of
+/// this twin lack.
+std::vector<Effect> showable(const TwinSet& set);
 /// Fills in how clearly what acts stands out of noise and uncertain inputs, over the training points.
 void measure_gap(TwinSet& set);
 /// Nothing in it tells the number of the set, and with it what is in it.

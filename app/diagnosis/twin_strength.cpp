@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/diagnosis/input_nuisances.hpp"
 #include "app/diagnosis/twin_set.hpp"
 #include "diagnosis/bench/detectability.hpp"
 
@@ -37,29 +38,45 @@ double weaker_of_pair(const TwinSet& set, const std::vector<Asked>& asked, const
   return weaker;
 }
 
-/// Rows are all samples of the training points: one column an input, or an input of one point, or a bias; each one standard uncertainty.
+/// What one standard uncertainty of an input does to the samples of a point, with what acts or without it.
+std::vector<double> change_by_input(const TwinSet& set, std::size_t point, const std::vector<Asked>& asked, const Nuisance& input,
+                                    bool with_truth) {
+  const auto moved = [&](double share) {
+    auto deviations = set.deviations[point];
+    deviations[input.name] += share * input.u;
+    return with_truth ? set.values(point, asked, set.truth.theta, true, deviations) : set.base_values(point, asked, deviations);
+  };
+  const auto up = moved(0.5), down = moved(-0.5);
+  std::vector<double> change;
+  for (std::size_t i = 0; i < asked.size(); ++i) change.push_back(set.difference(asked[i].observable, up[i], down[i]));
+  return change;
+}
+
+/// The directions that a diagnosis keeps free, each one standard uncertainty: rows are all samples of the training points. An input does
+/// not do the same with what acts as without it; between the two states the mean of both is right to second order, so that an effect which
+/// is nothing but an input far off is found along the input's own direction.
 std::vector<std::vector<double>> input_columns(const TwinSet& set, const std::vector<Asked>& asked) {
   const std::size_t n = asked.size(), rows = set.n_training() * n;
-  std::map<std::string, std::vector<double>> shared;
-  const auto column = [&](const std::string& name) -> std::vector<double>& {
-    auto& values = shared[name];
-    values.resize(rows, 0.0);
-    return values;
-  };
-  for (std::size_t p = 0; p < set.n_training(); ++p) {
-    const auto base = set.base_values(p, asked, {});
-    for (const TwinInput& input : set.inputs()) {
-      const auto moved = set.base_values(p, asked, {{input.key, input.u}});
-      auto& values = column(input.of_each_point() ? input.key + std::to_string(p) : input.key);
-      for (std::size_t i = 0; i < n; ++i) values[p * n + i] = set.difference(asked[i].observable, moved[i], base[i]);
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      const TwinInstrument& instrument = set.instrument(asked[i].observable);
-      if (instrument.bias_u > 0) column("bias " + instrument.group)[p * n + i] = instrument.bias_u;
+  std::vector<const PointCase*> bases;
+  std::vector<std::pair<std::string, double>> input_u;
+  for (std::size_t p = 0; p < set.n_training(); ++p) bases.push_back(&set.cases[p]);
+  for (const TwinInput& input : set.inputs()) input_u.emplace_back(input.key, input.u);
+  std::vector<std::vector<double>> columns;
+  for (const Nuisance& input : input_nuisances(bases, std::vector(bases.size(), input_u))) {
+    columns.emplace_back(rows, 0.0);
+    for (const int point : input.points) {
+      const auto p = static_cast<std::size_t>(point);
+      const auto without = change_by_input(set, p, asked, input, false), with = change_by_input(set, p, asked, input, true);
+      for (std::size_t i = 0; i < n; ++i) columns.back()[p * n + i] = 0.5 * (without[i] + with[i]);
     }
   }
-  std::vector<std::vector<double>> columns;
-  for (auto& [name, values] : shared) columns.push_back(std::move(values));
+  std::map<std::string, std::vector<double>> biases;  // by calibration group
+  for (std::size_t p = 0; p < set.n_training(); ++p)
+    for (std::size_t i = 0; i < n; ++i) {
+      const TwinInstrument& instrument = set.instrument(asked[i].observable);
+      if (instrument.bias_u > 0) biases.try_emplace(instrument.group, rows, 0.0).first->second[p * n + i] = instrument.bias_u;
+    }
+  for (auto& [group, values] : biases) columns.push_back(std::move(values));
   return columns;
 }
 

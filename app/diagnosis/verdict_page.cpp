@@ -6,6 +6,7 @@
 #include <map>
 
 #include "app/report/html.hpp"
+#include "app/report/line_plot.hpp"
 #include "app/report/page.hpp"
 #include "base/version.hpp"
 #include "base/words.hpp"
@@ -137,24 +138,62 @@ std::string window(const GapCell& cell) {
   return std::isnan(cell.window[0]) ? "whole run" : words(cell.window[0]) + " to " + words(cell.window[1]) + " s";
 }
 
+/// Data and simulation of the paths that differ most: as they are, and beside it what is left of the measured values.
+std::string curves(const Verdict& v) {
+  std::string plots, effects;
+  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
+  const std::string with = (v.verdict == "outside" ? "in part: with " : "with ") + effects + ", inputs fitted";
+  for (const GapCurve& c : v.curves) {
+    const auto less_measured = [&](std::vector<double> values) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] -= c.measured[i];
+      return values;
+    };
+    const std::string title = c.observable + " at " + c.point, label = c.observable + (c.unit == "1" ? "" : " [" + c.unit + "]");
+    LinePlot path{.title = title, .x_label = "t [s]", .y_label = label, .lines = {}}, rest = path;
+    rest.title += ": simulated less measured", rest.y_label = "difference of " + label;
+    path.lines = {{.label = "measured", .x = c.time, .y = c.measured, .dotted = true}, {.label = "base model", .x = c.time, .y = c.base}};
+    const std::vector<double> zero(c.time.size(), 0.0);
+    rest.lines = {{.label = "measured", .x = c.time, .y = zero, .dotted = true},
+                  {.label = "base model", .x = c.time, .y = less_measured(c.base)}};
+    if (!c.with_effect.empty()) {
+      path.lines.push_back({.label = with, .x = c.time, .y = c.with_effect});
+      rest.lines.push_back({.label = with, .x = c.time, .y = less_measured(c.with_effect)});
+    }
+    for (LinePlot* plot : {&path, &rest}) {
+      PlotBand band{.label = "measured ± 2 u", .x = c.time, .low = plot->lines.front().y, .high = plot->lines.front().y};
+      for (std::size_t i = 0; i < c.u.size(); ++i) band.low[i] -= 2 * c.u[i], band.high[i] += 2 * c.u[i];
+      plot->bands = {band};
+      plots += figure(*plot);
+    }
+  }
+  return plots.empty() ? ""
+                       : "<p>The paths that differ most. u: standard uncertainty of the measured mean, noise, scatter and bias; what is "
+                         "uncertain of the inputs comes on top of it for the base model.</p>\n<div class=\"plots\">" +
+                             plots + "</div>\n";
+}
+
 std::string where(const Verdict& v) {
   std::vector<const GapCell*> cells;
   for (const GapCell& cell : v.where) cells.push_back(&cell);
   std::stable_sort(cells.begin(), cells.end(), [](const GapCell* a, const GapCell* b) { return std::abs(a->z) > std::abs(b->z); });
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < std::min<std::size_t>(cells.size(), 40); ++i) {
+  constexpr std::size_t shown = 8;
+  std::vector<std::vector<std::string>> rows, more;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     const GapCell& c = *cells[i];
     const std::string remark =
         std::string(c.onset ? "begins here " : "") + (c.blind && !c.significant ? "blind " : "") + (c.withheld ? "withheld" : "");
-    rows.push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
+    (i < shown ? rows : more)
+        .push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
                     html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
                     (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark});
   }
+  const std::vector<std::string> header{"Cell", "measured (SI)", "simulated", "u of the difference", "difference/u", ""};
   const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
   return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
          " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
          "standard uncertainty; points beside each other.</p>\n" +
-         map_of_gap(v) + html::table({"Cell", "measured (SI)", "simulated", "u of the difference", "difference/u", ""}, rows);
+         map_of_gap(v) + curves(v) + html::table(header, rows) +
+         (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
 }
 
 std::string evidence(const Verdict& v) {

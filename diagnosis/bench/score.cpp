@@ -65,6 +65,18 @@ double calibration_error(const std::vector<ScoreRow>& rows) {
   return error;
 }
 
+/// What the calibration error of so few sets is on average where the probabilities are right.
+double calibration_error_by_chance(std::vector<ScoreRow> rows) {
+  constexpr int draws = 200;
+  NormalNumbers random(1);
+  double sum = 0;
+  for (int k = 0; k < draws; ++k) {
+    for (ScoreRow& row : rows) row.first = random.uniform() < row.p_first ? row.truth : row.truth + " not";
+    sum += calibration_error(rows) / draws;
+  }
+  return sum;
+}
+
 /// Gap over floor at which four of five single effects are named, by a logistic curve in its logarithm, P = 1/(1 + exp(-a - b log g)), of
 /// greatest likelihood under a weak prior on a and b (N(0, 10^2)); infinite where that lies beyond every set, or where the curve falls.
 double limit_of_detection(const std::vector<ScoreRow>& rows) {
@@ -178,7 +190,7 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
           rows, "attributed and wrong, all sets", false, 0.05, [](const ScoreRow&) { return true; },
           [&](const ScoreRow& row) { return attributes(row) && !hit(row); })};
   card.reliability = reliability_of(rows);
-  card.ece = calibration_error(rows);
+  card.ece = calibration_error(rows), card.ece_by_chance = calibration_error_by_chance(rows);
   // Of effects that cannot be seen a diagnosis cannot know more than its prior.
   std::vector<ScoreRow> telling = rows;
   std::erase_if(telling, [&](const ScoreRow& row) { return !is_null(row) && row.detectability < 3; });
@@ -224,7 +236,7 @@ std::string score_json(const ScoreCard& card) {
   for (const Measure& m : card.measures)
     json["measures"].push_back({{"name", m.name}, {"value", number(m.value)}, {"n", m.n}, {"target", m.target}, {"met", m.met()}});
   json["strengths"] = Truth::strengths;
-  json["ece"] = card.ece, json["brier"] = card.brier;
+  json["ece"] = card.ece, json["ece_by_chance"] = card.ece_by_chance, json["brier"] = card.brier;
   json["shrinkage_median"] = number(card.shrinkage_median), json["detection_limit"] = number(card.detection_limit);
   json["confusion"] = card.confusion;
   for (const auto& bin : card.reliability) json["reliability"].push_back({{"stated", bin.stated}, {"right", bin.right}, {"n", bin.n}});

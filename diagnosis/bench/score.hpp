@@ -56,6 +56,7 @@ struct ScoreCard {
   std::vector<Score> scores;
   std::vector<Measure> measures;  // of the numbers below
   double ece = 0, brier = 0;      // expected calibration error of the first probability (10 bins); mean Brier score
+  double ece_by_chance = 0;       // mean calibration error if each first hypothesis is right as often as its probability says
   double shrinkage_median = 0;    // of right verdicts, over the ideal: a model that is the truth leaves the noise only, which is 1
   double interval_coverage = 0;   // share of their 95 % intervals that hold the ideal
   double detection_limit = 0;     // gap over floor from which P(hit) >= 0.8 by a logistic curve; inf: nowhere

@@ -1,15 +1,16 @@
 """snag diagnose finds what a base case lacks, the same on any number of ranks, goes on after a stop, and refuses what it cannot read."""
-# timeout: 1200
+# timeout: 1800
 import json
 import math
 import shutil
 
 import harness
 
-# Scores whose targets are not reached on every seed. On two seeds that nothing was chosen by (1 with 60 sets, 3 with 40) together: named
-# first in 14 of 17, among the first three in 16 of 17, pairs told in 11 of 15. What is missing are excesses of drag beside an uncertain drag
-# law, in part sets whose detectability the benchmark overstates (it takes uncertain inputs as linear and knows no slope of the drag law).
-# The scores beside, at least one of a pair (15 of 15) and no effect of the library called outside (0 of 70), hold their targets.
+# Scores whose targets are not reached on every seed. Which sets count as detectable takes the inputs that the diagnosis keeps free, slope of the
+# drag law included, and between base and truth; effects that change no sample are no truths any more. With that, on seed 201, which nothing
+# was chosen by: named first in 12 of 13, among the first three in 13 of 13, pairs told in 8 of 11, at least one of a pair in 10 of 11; on the
+# seeds of development (101, 102) 24 of 28, 27 of 28, 19 of 21, 21 of 21. What is missing are drag and operating point little above 3 standard
+# uncertainties, and second effects that the inputs or another form of the first one take up.
 HELD = {
     "single effect at strength >= 1/2, detectable: named first": 0.7,
     "the same: among the first three": 0.85,
@@ -83,7 +84,7 @@ class Diagnose(harness.CaseTest):
         few = harness.snag([*options, "--n", "2", "--out", self.work / "bench"], 2, self.work / "bench")
         self.assertEqual(few.code, 0, few.tail())
         begun = (few.folder / "rows.csv").read_text()
-        run = harness.snag([*options, "--n", "60", "--out", self.work / "bench"], 2, self.work / "bench")
+        run = harness.snag([*options, "--n", "60", "--out", self.work / "bench"], 2, self.work / "bench", timeout=1500)
         self.assertEqual(run.code, 0, run.tail())
         rows = (run.folder / "rows.csv").read_text()
         self.assertTrue(rows.startswith(begun), "rows that were there were done again")

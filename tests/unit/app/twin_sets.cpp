@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -64,6 +65,53 @@ TEST(TwinSets, FibreSetsAreReproducibleAndPassTheirExit) {
   EXPECT_NE(text_of(folder / "a" / "data.csv").find("retention_time"), std::string::npos);
   EXPECT_EQ(text_of(folder / "a" / "data.csv").find(",1\n"), std::string::npos) << "pieces that do not reach the exit";
   std::filesystem::remove_all(folder);
+}
+
+/// A sphere set without deviations whose truth is this; noise of many replicates.
+TwinSet sphere_set(const std::map<std::string, double>& theta) {
+  NormalNumbers random(7);
+  TwinSet set{.twin = "sphere", .experiment = twin_experiment("sphere", random), .truth = {}};
+  const auto folder = std::filesystem::temp_directory_path() / "snag-twin-strength";
+  std::filesystem::create_directories(folder);
+  for (const std::string& text : set.experiment.cases) {
+    std::ofstream(folder / "point.toml") << text;
+    set.cases.emplace_back(folder / "point.toml");
+  }
+  std::filesystem::remove_all(folder);
+  set.deviations.resize(set.cases.size());
+  set.truth.theta = theta, set.truth.kind = "single", set.truth.subset = "all", set.truth.replicates = 50;
+  return set;
+}
+
+/// Requirement: what changes no sample is no truth: a sphere that touches nothing has no friction.
+TEST(TwinSets, TruthsCanShow) {
+  const std::vector<Effect> effects = showable(sphere_set({}));
+  const auto holds = [&](const char* name) {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) { return effect.name == name; });
+  };
+  EXPECT_TRUE(holds("wall") && holds("added_mass") && holds("measurement"));
+  EXPECT_FALSE(holds("friction"));
+}
+
+/// Requirement: an effect that is nothing but an uncertain input m standard uncertainties off can be told by m at most, however far off
+/// the model is from linear: the drag law by its factor, and by its slope over Re, both of which a diagnosis keeps free.
+TEST(TwinSets, DragIsToldByNoMoreThanItsLawIsOff) {
+  constexpr double u = 0.05;  // of the drag law
+  for (const double m : {3.0, 6.0}) {
+    TwinSet level = sphere_set({{"drag_magnitude", m * u}}), slope = sphere_set({{"drag_exponent", m * u / std::log(10.0)}});
+    for (TwinSet* set : {&level, &slope}) {
+      measure_gap(*set);
+      EXPECT_LT(set->truth.detectability, 1.02 * m) << set->truth.name();
+      EXPECT_GT(set->truth.detectability, 0.8 * m) << set->truth.name();
+    }
+  }
+}
+
+/// Requirement: what no input can do is told as clearly as the noise allows.
+TEST(TwinSets, LiftIsToldByMuch) {
+  TwinSet set = sphere_set({{"lift", 1}});
+  measure_gap(set);
+  EXPECT_GT(set.truth.detectability, 20);
 }
 
 }  // namespace

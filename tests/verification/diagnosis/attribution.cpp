@@ -113,8 +113,14 @@ TEST(Attribution, IndistinguishableEffectsTie) {
   const Verdict verdict = diagnose(experiment, sphere);
   EXPECT_EQ(verdict.verdict, "tie");
   EXPECT_EQ(verdict.tie, (std::vector<std::string>{"added_mass", "entrained_water"}));
+  EXPECT_FALSE(verdict.curves.empty());
+  for (const GapCurve& curve : verdict.curves) {
+    EXPECT_EQ(curve.base.size(), curve.time.size());
+    EXPECT_EQ(curve.with_effect.size(), curve.time.size());
+  }
   ASSERT_FALSE(verdict.identifiability.ties.empty());
   EXPECT_EQ(verdict.identifiability.ties.front(), (std::vector<std::string>{"added_mass", "entrained_water"}));
+  EXPECT_NE(verdict.identifiability.next_experiment.find("tell added mass from entrained water"), std::string::npos);
   EXPECT_NE(verdict.identifiability.next_experiment.find("another operating point or observable"), std::string::npos);
 }
 
@@ -140,11 +146,11 @@ TEST(Attribution, DeterministicVerdict) {
   const formula::Truth truth{.effects = {{"lift", 1}}};
   const std::string first = verdict_json(judged(truth, 7)), second = verdict_json(judged(truth, 7));
   EXPECT_EQ(first, second);
-  for (const char* key : {"verdict", "effects",     "wording",        "probability",     "parameters",    "per_point", "cochran_p",
-                          "where",   "observable",  "region",         "window_s",        "point",         "z",         "significant",
-                          "onset",   "blind",       "shrinkage",      "rejected",        "regression",    "gap",       "before",
-                          "after",   "floor",       "remainder",      "identifiability", "detectability", "ties",      "next_experiment",
-                          "runs",    "data_sha256", "withheld_sha256"})
+  for (const char* key : {"verdict", "effects",     "wording",         "probability",     "parameters",    "per_point", "cochran_p",
+                          "where",   "observable",  "region",          "window_s",        "point",         "z",         "significant",
+                          "onset",   "blind",       "shrinkage",       "rejected",        "regression",    "gap",       "before",
+                          "after",   "floor",       "remainder",       "identifiability", "detectability", "ties",      "next_experiment",
+                          "runs",    "data_sha256", "withheld_sha256", "curves",          "measured",      "base",      "with_effect"})
     EXPECT_NE(first.find("\"" + std::string(key) + "\""), std::string::npos) << key;
 }
 

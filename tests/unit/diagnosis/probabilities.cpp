@@ -1,0 +1,55 @@
+// From evidence and prior to the probabilities that are printed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "diagnosis/attribution.hpp"
+#include "diagnosis/calibration.hpp"
+
+namespace snag {
+namespace {
+
+constexpr double prior_none = 0.6, prior_effect = 0.15, prior_outside = 0.1;
+
+/// None, two effects and their pair, each with this evidence.
+Attribution with_evidence(double none, double a, double b, double both, double outside) {
+  Attribution attribution;
+  const auto add = [&](const char* name, double log_evidence, double prior) {
+    Fit fit;
+    fit.log_evidence = log_evidence;
+    attribution.fits.push_back(fit), attribution.names.emplace_back(name);
+    attribution.log_prior.push_back(std::log(prior)), attribution.not_believed.push_back(0);
+  };
+  add("none", none, prior_none), add("a", a, prior_effect), add("b", b, prior_effect);
+  add("a+b", both, prior_effect * prior_effect / prior_none);
+  attribution.outside.log_evidence = outside;
+  return attribution;
+}
+
+/// Requirement: data that say nothing leave the prior as it is, whatever the temperature; so do those that cannot show an effect.
+TEST(Probabilities, ArePriorsWhereDataSayNothing) {
+  Attribution attribution = with_evidence(-7, -7, -7, -7, -7);
+  attribution.not_fitted["unseen"] = {-7, std::log(prior_effect)};
+  set_probabilities(attribution);
+  const double total = prior_none + 3 * prior_effect + prior_effect * prior_effect / prior_none + prior_outside;
+  EXPECT_NEAR(attribution.probability.at("none"), prior_none / total, 1e-12);
+  EXPECT_NEAR(attribution.probability.at("unseen"), prior_effect / total, 1e-12);
+  EXPECT_NEAR(attribution.probability.at("a+b"), prior_effect * prior_effect / prior_none / total, 1e-12);
+  EXPECT_NEAR(attribution.probability.at("outside"), prior_outside / total, 1e-12);
+}
+
+/// Requirement: evidence counts by its share of the temperature, and what a guard takes from a fit does not count.
+TEST(Probabilities, WeighEvidence) {
+  Attribution attribution = with_evidence(0, 10, 2, 14, -50);
+  set_probabilities(attribution);
+  const auto ratio = [&](const char* x, const char* y) { return attribution.probability.at(x) / attribution.probability.at(y); };
+  const double T = calibration().temperature;
+  EXPECT_NEAR(std::log(ratio("a", "b")), 8 / T, 1e-9);
+  EXPECT_NEAR(std::log(ratio("a+b", "a")), 4 / T + std::log(prior_effect / prior_none), 1e-9);
+  attribution.not_believed.back() = 4;
+  set_probabilities(attribution);
+  EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
+}
+
+}  // namespace
+}  // namespace snag
