@@ -107,12 +107,13 @@ void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double s
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = extrapolated(f) - flow.mesh_flux[f];
 }
 
-void Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
+double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
   const double r = time.ratio;
   guess_flux(flow, history, 0);
   set_rates(flow);
-  if (const double share = r * flux_share(flow, time); share > 0) {
-    guess_flux(flow, history, share);
+  const double share = flux_share(flow, time);
+  if (share > 0) {
+    guess_flux(flow, history, r * share);
     set_rates(flow);
   }
   mesh_.halo.exchange(rate_, 2);
@@ -124,6 +125,7 @@ void Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const 
     flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
   limit(flow);
+  return share;
 }
 
 /// Rates of the owned cells from flux_ and the viscosity.

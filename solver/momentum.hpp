@@ -30,8 +30,9 @@ class Momentum {
   /// Again after the facets of the mesh have changed. Local.
   void mesh_turned();
   /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms.
-  /// `history`: how far fluxes were from their cells' velocities; used where faces turn. Collective.
-  void guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
+  /// `history`: how far fluxes were from their cells' velocities; used where faces turn. Returns the share of the flux's extrapolation, 0
+  /// at large steps. Collective.
+  double guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
   /// The convecting flux as it was guessed, relative to the mesh, [n_faces], m3/s.
   std::vector<double>& guessed_flux() { return flux_; }
   /// Where a turning face has a given flux, that of the new time: a guess from the past is that of the face as it lay then. Local.
