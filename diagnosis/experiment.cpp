@@ -14,6 +14,7 @@
 #include "base/units.hpp"
 #include "base/words.hpp"
 #include "diagnosis/experiment_table.hpp"
+#include "diagnosis/repeats.hpp"
 
 namespace snag {
 
@@ -74,14 +75,19 @@ void reject_repeated_ids(const std::vector<Item>& items, const std::string& sect
 void convert(DatumRow& row, const Observable& observable, const std::string& file) {
   using Kind = Observable::Kind;
   Datum& d = row.datum;
-  d.value *= parse_unit(observable.unit)->factor;
+  const double factor = parse_unit(observable.unit)->factor;
+  d.value *= factor, row.sd *= factor;
   const auto wrong = [&](const std::string& rule) {
     return Error(ExitCode::usage, file + ":" + std::to_string(row.line) + ": " + observable.id + " is " + words(d.value) + ", but " + rule);
   };
   if (observable.kind == Kind::lognormal && d.value <= 0) throw wrong("a lognormal quantity is positive");
-  if (observable.kind == Kind::event && d.value != 0 && d.value != 1) throw wrong("an event is 0 or 1");
-  if (observable.kind == Kind::count && (d.value < 0 || d.value != std::floor(d.value)))
+  const bool several = row.n > 1;
+  if (observable.kind == Kind::event && (several ? d.value < 0 || d.value > 1 : d.value != 0 && d.value != 1))
+    throw wrong(several ? "the share of several events is 0 to 1" : "an event is 0 or 1");
+  if (observable.kind == Kind::count && (d.value < 0 || (!several && d.value != std::floor(d.value))))
     throw wrong("a count is a whole number, 0 or more");
+  if (row.sd > 0 && (observable.kind == Kind::event || observable.kind == Kind::count || d.censored))
+    throw wrong("the scatter of events, counts and censored times follows from their law; leave sd empty");
   if (d.censored && observable.kind != Kind::lognormal)
     throw wrong("only lognormal quantities (times) may be censored; give " + observable.id + " kind = \"lognormal\"");
   if (d.censored && !std::isnan(d.time)) throw wrong("only scalars of a replicate may be censored; leave t_s empty");
@@ -178,6 +184,9 @@ Experiment read_experiment(const std::filesystem::path& path) {
   root.table("experiment").read({setting("name", &experiment.name, "Name of the experiment."), data_file});
   for (const Table& table : root.tables("observable")) experiment.observables.push_back(read_observable(table));
   for (const Table& table : root.tables("point")) experiment.points.push_back(read_point(table, file));
+  std::vector<std::string> points;
+  for (const OperatingPoint& point : experiment.points) points.push_back(point.id);
+  experiment.alternatives = read_alternatives(root, points);
   root.table("model").read(
       {setting("candidates", &experiment.candidates, "\"all\" or names."), setting("pairs", &experiment.pairs, "Pairs of effects.")});
   int seed = 1;
@@ -196,15 +205,22 @@ Experiment read_experiment(const std::filesystem::path& path) {
   const auto data_text = file_text(data_name);
   if (!data_text) throw Error(ExitCode::io, data_name + ": the data cannot be read; check [experiment] data of " + name);
   DataTable table = read_data_table(*data_text, data_name, experiment);
-  for (DatumRow& row : table.rows) convert(row, experiment.observables[row.datum.observable], data_name);
-  std::stable_sort(table.rows.begin(), table.rows.end(),
-                   [](const DatumRow& a, const DatumRow& b) { return sort_key(a.datum) < sort_key(b.datum); });
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    if (i > 0 && sort_key(table.rows[i - 1].datum) == sort_key(table.rows[i].datum))
-      throw Error(ExitCode::usage, data_name + ":" + std::to_string(table.rows[i].line) +
-                                       ": the same point, replicate, time and observable as line " +
-                                       std::to_string(table.rows[i - 1].line) + "; keep one of them");
-    experiment.data.push_back(table.rows[i].datum);
+  std::vector<std::pair<Datum, int>> samples;  // with their lines
+  for (DatumRow& row : table.rows) {
+    const Observable& observable = experiment.observables[row.datum.observable];
+    convert(row, observable, data_name);
+    if (row.n == 1)
+      samples.emplace_back(row.datum, row.line);
+    else
+      for (const Datum& repeat : repeats_of(row, observable)) samples.emplace_back(repeat, row.line);
+  }
+  std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return sort_key(a.first) < sort_key(b.first); });
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i > 0 && sort_key(samples[i - 1].first) == sort_key(samples[i].first))
+      throw Error(ExitCode::usage, data_name + ":" + std::to_string(samples[i].second) +
+                                       ": the same point, replicate, time and observable as line " + std::to_string(samples[i - 1].second) +
+                                       "; keep one of them");
+    experiment.data.push_back(samples[i].first);
   }
   experiment.data_sha256 = table.data_sha256, experiment.withheld_sha256 = table.withheld_sha256;
   check_points(experiment, data_name);

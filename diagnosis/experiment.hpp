@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "diagnosis/alternative.hpp"
+
 namespace snag {
 
 /// A measured quantity.
@@ -46,6 +48,7 @@ struct Experiment {
   std::vector<OperatingPoint> points;
   std::vector<Datum> data;              // by point, observable, replicate, time
   std::vector<std::string> candidates;  // empty: all
+  std::vector<Alternative> alternatives{};
   bool pairs = true;
   int max_runs = 2000;
   std::uint64_t seed = 1;

@@ -52,6 +52,7 @@ class Reading {
         continue;
       }
       table.rows.push_back({datum(), line_});
+      read_repeats(table.rows.back());
       if (experiment_.points[table.rows.back().datum.point].withheld) withheld.append(line).append("\n");
     }
     if (columns_.empty()) throw Error(ExitCode::usage, name_ + " is empty; write a line point,replicate,t_s,observable,value and rows");
@@ -73,7 +74,7 @@ class Reading {
   }
 
   void read_header() {
-    static const std::vector<std::string> known{"point", "replicate", "t_s", "observable", "value", "censored"};
+    static const std::vector<std::string> known{"point", "replicate", "t_s", "observable", "value", "censored", "n", "sd"};
     column_.assign(known.size(), -1);
     for (const std::string_view field : fields_) {
       columns_.emplace_back(field);
@@ -81,7 +82,7 @@ class Reading {
       while (k < known.size() && known[k] != field) ++k;
       if (k == known.size())
         throw wrong("unknown column \"" + columns_.back() +
-                    "\"; the columns are point,replicate,t_s,observable,value and perhaps censored");
+                    "\"; the columns are point,replicate,t_s,observable,value and perhaps censored, n, sd");
       if (column_[k] >= 0) throw wrong("the column \"" + columns_.back() + "\" stands twice");
       column_[k] = static_cast<int>(columns_.size()) - 1;
     }
@@ -129,11 +130,26 @@ class Reading {
     return d;
   }
 
+  void read_repeats(DatumRow& row) const {
+    if (!field(6).empty()) {
+      constexpr int most = 1000000;
+      const auto n = number<int>(field(6));
+      if (!n || *n < 1 || *n > most) throw wrong("n \"" + std::string(field(6)) + "\" must be a whole number of repeats, 1 to a million");
+      row.n = *n;
+    }
+    if (field(7).empty()) return;
+    const auto sd = number<double>(field(7));
+    if (!sd || !std::isfinite(*sd) || *sd < 0)
+      throw wrong("sd \"" + std::string(field(7)) + "\" must be a standard deviation between repeats, 0 or more");
+    if (row.n == 1) throw wrong("sd is given for one repeat, which has none; give their number n, or leave sd empty");
+    row.sd = *sd;
+  }
+
   const std::string& name_;
   const Experiment& experiment_;
   std::map<std::string, int, std::less<>> points_, observables_;
   std::vector<std::string> columns_;
-  std::vector<int> column_;  // of point, replicate, t_s, observable, value, censored; -1: absent
+  std::vector<int> column_;  // of point, replicate, t_s, observable, value, censored, n, sd; -1: absent
   std::vector<std::string_view> fields_;
   int line_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The data file of an experiment: rows of point,replicate,t_s,observable,value[,censored], in any order of columns.
+// The data file of an experiment: rows of point,replicate,t_s,observable,value[,censored][,n,sd], in any order of columns.
 #include <string>
 #include <vector>
 
@@ -10,6 +10,8 @@ namespace snag {
 struct DatumRow {
   Datum datum;  // value as written, not yet SI
   int line = 0;
+  int n = 1;      // repeats that the row stands for; value is their mean
+  double sd = 0;  // their standard deviation, as written; 0: as noise_u says
 };
 
 struct DataTable {

@@ -162,7 +162,7 @@ Fit Fitter::fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& 
   for (int e = 0; e < k; ++e) {
     const Effect& effect = model_.effects()[hypothesis.effects[e]];
     fit.theta[e] = effect.mean + effect.sd * (x[e] + fit.solution.d[e]);
-    fit.theta_sd[e] = effect.sd * std::sqrt(fit.solution.covariance(e, e));
+    fit.theta_sd[e] = effect.fixed ? 0 : effect.sd * std::sqrt(fit.solution.covariance(e, e));
   }
   return fit;
 }

@@ -137,9 +137,13 @@ Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const State
   // Where runs are random their difference needs a step that stands out.
   const double size = model_.base_is_random() ? 0.5 : 0.1;
   std::vector<Responses::Request> requests;
-  std::vector<double> steps;
+  std::vector<double> steps;  // 0: nothing to derive by
   for (std::size_t e = 0; e < hypothesis.effects.size(); ++e) {
     const Effect& effect = model_.effects()[hypothesis.effects[e]];
+    if (effect.fixed) {
+      steps.push_back(0);
+      continue;
+    }
     State moved = state;
     const double sign = state.effects[e].second + size * effect.sd > effect.maximum ? -1 : 1;
     moved.effects[e].second = std::max(effect.minimum, state.effects[e].second + sign * size * effect.sd);
@@ -148,9 +152,12 @@ Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const State
   }
   const auto moved = model_.run(requests);
   const Eigen::VectorXd rho = residual(responses, whitening);
-  Eigen::MatrixXd J(rho.size(), static_cast<Eigen::Index>(steps.size()));
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rho.size(), static_cast<Eigen::Index>(steps.size()));
+  auto next = moved.begin();
   for (std::size_t e = 0; e < steps.size(); ++e) {
-    const std::vector<Response> own(moved.begin() + e * training.size(), moved.begin() + (e + 1) * training.size());
+    if (steps[e] == 0) continue;
+    const std::vector<Response> own(next, next + static_cast<std::ptrdiff_t>(training.size()));
+    next += static_cast<std::ptrdiff_t>(training.size());
     J.col(static_cast<Eigen::Index>(e)) = (residual(own, whitening) - rho) / steps[e];
   }
   return J;

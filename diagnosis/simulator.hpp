@@ -17,6 +17,7 @@ struct Effect {
   std::string unit = "1";             // of theta
   double mean = 0, sd = 1;            // prior of theta given that the effect is there
   double minimum = 0, maximum = 1e9;  // physical range of theta
+  bool fixed = false;                 // there or not, at its mean: nothing of it is fitted
   bool random = false;                // runs with another seed give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
   std::string blind{};                // why this base case cannot show it; empty: it can

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "diagnosis/statistics.hpp"
 
@@ -11,7 +12,7 @@ namespace snag {
 
 namespace {
 
-constexpr int n_windows = 4;
+constexpr int n_windows = 4, least_of_distribution = 5;
 
 // One cell's rows of a point's linearization.
 class PointCells {
@@ -102,6 +103,25 @@ class PointCells {
       from_p(equal_rates(row.value * n, n, cell.simulated * N, N, row.sigma), "negative_binomial");
     else if (row.kind == Row::Kind::time && std::count(row.censored.begin(), row.censored.end(), true) > 0)
       censored_times(cell, row, from_p);
+    else if (row.kind == Row::Kind::scalar && std::min(n, N) >= least_of_distribution)
+      distribution(cell, row);
+  }
+
+  // Whether repeats scatter as runs do, whatever their means: the energy distance of both about their means. The runs get the noise of a
+  // sample added. Of two tests the better p counts twice.
+  void distribution(GapCell& cell, const Row& row) {
+    const Response& response = base_.responses[p_];
+    const auto i = &row - point_.rows.data();
+    if (response.paths.rows() <= i) return;
+    std::vector<double> measured, simulated;
+    for (const double value : row.values) measured.push_back(value - row.value);
+    NormalNumbers noise(model_.experiment().seed);
+    for (const double deviation : response.paths.row(i)) simulated.push_back(deviation + row.noise_u * noise());
+    const double mean = std::accumulate(simulated.begin(), simulated.end(), 0.0) / static_cast<double>(simulated.size());
+    for (double& value : simulated) value -= mean;
+    const double shape = energy_test(measured, simulated, model_.experiment().seed), p = std::min(1.0, 2 * std::min(shape, cell.p));
+    if (shape < cell.p) cell.test = "energy_distance";
+    cell.z = (cell.z >= 0 ? 1 : -1) * score_of_p(p), cell.p = p;
   }
 
   template <class FromP>

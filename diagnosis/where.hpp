@@ -3,7 +3,7 @@
 //
 //   u_val^2 = u_num^2 + u_input^2 + u_D^2 + scatter_S/N_S                                              [ASME V&V 20]
 //
-// exact tests for counts and events, log-rank for censored times, and a false discovery rate of 5 % in three levels: observable, point,
+// exact tests for counts and events, log-rank for censored times, energy distance for the scatter of repeats, and a false discovery rate of 5 % in three levels: observable, point,
 // window.
 #include <vector>
 

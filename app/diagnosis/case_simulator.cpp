@@ -96,7 +96,8 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
     std::vector<Asked> asked;
-    std::string fingerprint = base.sha256() + program;
+    const std::string of_case = base.sha256() + program;
+    std::string fingerprint = of_case;
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
       if (!base.is_whole_run() && !is_observable_of_particles(id))
@@ -106,7 +107,9 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
       asked.push_back({id, slot.time});
       fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }
-    points_.push_back({std::move(base), std::move(slots), std::move(asked), sha256(fingerprint)});
+    for (const Alternative& alternative : experiment.alternatives)
+      base.set_alternative(alternative.effect, overrides_at(alternative, experiment.points[p].id));
+    points_.push_back({std::move(base), std::move(slots), std::move(asked), of_case, sha256(fingerprint)});
   }
   BaseCase facts = points_.front().base.facts();
   std::set<std::string> held;  // a force that one point holds cannot be added to all
@@ -115,6 +118,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     held.insert(point.base.forces().begin(), point.base.forces().end());
   }
   effects_ = library_effects(facts, {held.begin(), held.end()});
+  set_alternatives(effects_, experiment.alternatives);
   find_nuisances(experiment);
   if (!folder_.empty()) read_cache(folder_ / "runs.tsv");
 }
@@ -138,9 +142,9 @@ CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
   for (const Observable& observable : observables_) of_case.erase(calibration_of(observable));
   CaseChange change = point.base.change(request.effects, of_case, request.seed, request.forms);
   std::sort(change.overrides.begin(), change.overrides.end());
-  std::string key = point.fingerprint.substr(0, 16) + "|" + text_of({{"step", request.step_factor}});
-  for (const std::string& value : change.overrides) key += value + ";";
-  return {std::move(key), &request, std::move(change)};
+  std::string settings = text_of({{"step", request.step_factor}});
+  for (const std::string& value : change.overrides) settings += value + ";";
+  return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change)};
 }
 
 RunResult CaseSimulator::done(const Job& job) const {
@@ -157,7 +161,8 @@ RunResult CaseSimulator::done(const Job& job) const {
 
 RunResult CaseSimulator::done_together(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
-  const std::string name = numbered("run", job.request->point) + "_" + sha256(job.key).substr(0, 16);
+  // Whatever is asked of it: monitors and summary answer later questions too.
+  const std::string name = numbered("run", job.request->point) + "_" + sha256(point.of_case + job.settings).substr(0, 16);
   std::vector<std::string> overrides = job.change.overrides;
   if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
   RunResult result;

@@ -37,10 +37,11 @@ class CaseSimulator final : public Simulator {
     PointCase base;
     std::vector<Slot> slots;
     std::vector<Asked> asked;
-    std::string fingerprint;  // of base case and slots
+    std::string of_case, fingerprint;  // of base case and program; of these and the slots
   };
   struct Job {
     std::string key;
+    std::string settings;  // what of the base case is changed
     const RunRequest* request;
     CaseChange change;
   };

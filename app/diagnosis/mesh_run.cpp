@@ -82,7 +82,7 @@ double told_of_rag(const nlohmann::json& summary, const std::string& name) {
   if (!summary.contains("rags") || summary["rags"].empty()) return nan;
   const auto& rag = summary["rags"].front();
   const std::string outcome = rag.value("outcome", std::string());
-  if (name == "stuck" || name == "exited") return outcome == name ? 1 : 0;
+  if (name == "stuck" || name == "exited") return outcome.starts_with(name) ? 1 : 0;  // stuck_on_tongue, stuck_on_impeller
   const auto& value = rag.contains(name) ? rag[name] : rag.contains(name + "_s") ? rag[name + "_s"] : nlohmann::json();
   if (name == "retention_time" && outcome != "exited") return nan;
   return value.is_number() ? value.get<double>() : nan;

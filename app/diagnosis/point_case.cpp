@@ -158,6 +158,10 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
   }
   for (const auto& [name, theta] : effects) {
     if (theta == 0) continue;  // the base model to the bit
+    if (const auto alternative = alternatives_.find(name); alternative != alternatives_.end()) {
+      for (const std::string& text : alternative->second) keys.set(text);
+      continue;
+    }
     const auto chosen = forms_of_effects.find(name);
     const int form = chosen == forms_of_effects.end() ? 0 : chosen->second;
     if (const LibraryEffect* of_library = library_effect(name)) {

@@ -41,6 +41,8 @@ class PointCase {
   /// `forms`: of the effects, by index; what is not there: the first.
   CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed,
                     const std::map<std::string, int>& forms = {}) const;
+  /// From now on the effect of that name is these values of the case.
+  void set_alternative(const std::string& effect, const std::vector<std::string>& overrides) { alternatives_[effect] = overrides; }
   /// The override that changes the number of steps by 1/factor.
   std::string with_step_factor(double factor) const;
   /// Time at which a run ends, s.
@@ -63,9 +65,10 @@ class PointCase {
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
   BaseCase facts_;
-  bool crumpled_ = false;                           // a piece starts crumpled, by its seed
-  std::vector<std::string> forces_, drag_factors_;  // drag_factors_: keys of the factors on drag
-  Vec3 right_, up_;                                 // of the camera
+  bool crumpled_ = false;                                         // a piece starts crumpled, by its seed
+  std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
+  std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
+  Vec3 right_, up_;                                               // of the camera
 };
 
 /// Effects that this library can add to base cases with these facts, by name; `forces`: those that the base cases hold already.

@@ -2,7 +2,9 @@
 # timeout: 1800
 import json
 import math
+import re
 import shutil
+import tomllib
 
 import harness
 
@@ -53,6 +55,26 @@ class Diagnose(harness.CaseTest):
         two = self.verdict(self.diagnose(EXAMPLE / "DIAGNOSIS.toml", "two", 2))
         for other in (again, two):
             self.assertEqual({**other, "runs": 0}, {**verdict, "runs": 0})
+
+    def test_alternative_is_there_or_not(self):
+        """Base cases with spheres that are 5 % too heavy, and the right ones as another geometry: nothing of it is fitted, and it is told from drag."""
+        file = self.example() / "DIAGNOSIS.toml"
+        text, alternative = file.read_text(), '[[alternative]]\neffect = "geometry"\nmeaning = "spheres as ordered"\n'
+        for point in "ABCDEFG":
+            density = tomllib.loads((file.parent / f"point_{point}.toml").read_text())["particle"][0]["density_kg_m3"]
+            setting = """set = ["coupling.forces=['schiller_naumann', 'added_mass']", "particle.0.density_kg_m3=%g"]\n"""
+            text = re.sub(rf'(case = "point_{point}.toml"\n)', lambda found: found.group(1) + setting % (1.05 * density), text)
+            alternative += f'[[alternative.at]]\npoint = "{point}"\nset = ["particle.0.density_kg_m3={density}"]\n'
+        file.write_text(text + alternative + '[model]\ncandidates = ["geometry", "drag_magnitude", "history"]\n')
+        verdict = self.verdict(self.diagnose(file))
+        self.assertEqual((verdict["verdict"], verdict["effects"]), ("effects", ["geometry"]), verdict)
+        found = verdict["parameters"]["geometry"]
+        self.assertAlmostEqual(found["mean"], 1, delta=1e-3)
+        self.assertEqual(found["sd"], 0)
+        self.assertGreater(verdict["shrinkage"]["geometry"]["mean"], 0.8)
+        file.write_text(file.read_text().replace('effect = "geometry"', 'effect = "geometri"'))
+        refused = self.diagnose(file, "refused", code=2)
+        self.assertIn("geometri", refused.stderr)
 
     def test_refuses_what_it_cannot_read(self):
         spoiled = {

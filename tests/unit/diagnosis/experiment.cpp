@@ -112,6 +112,56 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheData) {
   EXPECT_EQ(message(head + count + A, columns + "A,0,,recirculations,0\n"), "accepted");
 }
 
+// Published means stand for their repeats: number, mean and scatter come back exactly.
+TEST_F(ReadExperiment, RowsForSeveralRepeats) {
+  const std::string all = "point,replicate,t_s,observable,value,censored,n,sd\n";
+  const auto told = [](const std::string& id, const std::string& kind) {
+    return "[[observable]]\nid = \"" + id + "\"\nunit = \"1\"\nkind = \"" + kind + "\"\n";
+  };
+  const auto e = read_experiment(write(
+      head + told("retention_time", "lognormal") + told("area", "gaussian") + told("recirculations", "count") + told("exited", "event") + A,
+      all + "A,0,,retention_time,0.239,,50,0.075\nA,60,,retention_time,30,1,2,\nA,0,,area,4,,7,0.5\n"
+            "A,0,,recirculations,0.25,,50,\nA,0,,exited,0.04,,50,\n"));
+  const auto moments = [&](int observable, auto value) {
+    double n = 0, sum = 0, square = 0;
+    for (const Datum& d : e.data)
+      if (d.observable == observable && !d.censored) ++n, sum += value(d.value), square += value(d.value) * value(d.value);
+    return std::array{n, sum / n, std::sqrt((square - sum * sum / n) / (n - 1))};
+  };
+  const auto log_time = moments(0, [](double v) { return std::log(v); });
+  const double sigma = std::sqrt(std::log(1 + std::pow(0.075 / 0.239, 2)));
+  EXPECT_EQ(log_time[0], 50);
+  EXPECT_NEAR(log_time[1], std::log(0.239) - 0.5 * sigma * sigma, 1e-12);
+  EXPECT_NEAR(log_time[2], sigma, 1e-12);
+  EXPECT_EQ(std::count_if(e.data.begin(), e.data.end(), [](const Datum& d) { return d.censored && d.value == 30; }), 2);
+  const auto area = moments(1, [](double v) { return v; });
+  EXPECT_NEAR(area[1], 4, 1e-12);
+  EXPECT_NEAR(area[2], 0.5, 1e-12);
+  EXPECT_NEAR(moments(2, [](double v) { return v; })[1], 13 / 50.0, 1e-12);  // 12.5 recirculations of 50 rags are 12 or 13
+  EXPECT_NEAR(moments(3, [](double v) { return v; })[1], 0.04, 1e-12);
+  EXPECT_TOLD(message(head + told("area", "gaussian") + A, all + "A,0,,area,4,,1,0.5\n"), "one repeat");
+  EXPECT_TOLD(message(head + told("area", "gaussian") + A, all + "A,0,,area,4,,0,\n"), "whole number of repeats");
+  EXPECT_TOLD(message(head + told("area", "gaussian") + A, all + "A,0,,area,4,,9,0.5\nA,3,,area,4,,,\n"), "as line 2");
+  EXPECT_TOLD(message(head + told("exited", "event") + A, all + "A,0,,exited,1.2,,50,\n"), "share");
+  EXPECT_TOLD(message(head + told("recirculations", "count") + A, all + "A,0,,recirculations,2,,50,1\n"), "leave sd empty");
+}
+
+TEST_F(ReadExperiment, Alternatives) {
+  const std::string rows = columns + "A,0,0.1,x,1\n";
+  const std::string flow = "[[alternative]]\neffect = \"operating_point\"\nmeaning = \"m3/h\"\nset = [\"a.b=1\"]\n";
+  const auto e = read_experiment(write(head + x_mm + A + flow + "[[alternative.at]]\npoint = \"A\"\nset = [\"a.b=2\"]\n", rows));
+  ASSERT_EQ(e.alternatives.size(), 1u);
+  EXPECT_EQ(overrides_at(e.alternatives[0], "A"), (std::vector<std::string>{"a.b=1", "a.b=2"}));
+  EXPECT_EQ(overrides_at(e.alternatives[0], "C"), std::vector<std::string>{"a.b=1"});
+  std::vector<Effect> effects{{.name = "operating_point", .mean = 0.15, .blind = "no flow"}};
+  set_alternatives(effects, e.alternatives);
+  EXPECT_TRUE(effects[0].fixed && effects[0].blind.empty());
+  EXPECT_EQ(effects[0].mean, 1);
+  EXPECT_TOLD(message(head + x_mm + A + flow + flow, rows), "second alternative");
+  EXPECT_TOLD(message(head + x_mm + A + flow + "[[alternative.at]]\npoint = \"Z\"\nset = [\"a.b=2\"]\n", rows), "no [[point]]");
+  EXPECT_TOLD(message(head + x_mm + A + "[[alternative]]\neffect = \"geometry\"\n", rows), "changes nothing");
+}
+
 // A million rows are read in some seconds of one processor.
 TEST_F(ReadExperiment, MillionRows) {
   std::string csv = columns;

@@ -6,6 +6,8 @@
 
 #include "diagnosis/fit.hpp"
 #include "diagnosis/response.hpp"
+#include "diagnosis/statistics.hpp"
+#include "diagnosis/where.hpp"
 
 namespace snag {
 namespace {
@@ -42,11 +44,47 @@ class Constant : public Simulator {
   std::vector<Slot> slots_{{}};
 };
 
+/// Answers with another normal number of this scatter for each seed.
+class Scattered final : public Constant {
+ public:
+  Scattered(double mean, double scatter) : Constant(mean), mean_(mean), scatter_(scatter) {}
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    std::vector<RunResult> results;
+    for (const RunRequest& request : requests) {
+      const double share = static_cast<double>(request.seed % 8) + 0.5;
+      results.push_back({{mean_ + scatter_ * normal_quantile(share / 8)}, ""});
+    }
+    return results;
+  }
+
+ private:
+  double mean_, scatter_;
+};
+
 Experiment of_one_row(const Observable& observable, const std::vector<Datum>& data) {
   Experiment experiment;
   experiment.observables = {observable}, experiment.data = data;
   experiment.points.push_back({.id = "A", .case_file = {}});
   return experiment;
+}
+
+/// Requirement: a cell tells that repeats scatter otherwise than runs, and only then, though their means agree.
+TEST(Rows, ScatterOfRepeatsIsCompared) {
+  std::vector<Datum> data;
+  for (int r = 0; r < 40; ++r) data.push_back({.replicate = r, .value = 2 + normal_quantile((r + 0.5) / 40)});
+  Experiment experiment = of_one_row({.id = "area", .unit = "m2", .calibration_group = ""}, data);
+  experiment.max_runs = 3000;
+  const auto cell_of = [&](double scatter) {
+    Scattered simulator(2, scatter);
+    Responses responses(experiment, simulator);
+    return gap_cells(responses, Fitter(responses)).front();
+  };
+  const GapCell alike = cell_of(1), other = cell_of(12);
+  EXPECT_GT(alike.p, 0.1);
+  EXPECT_FALSE(alike.significant);
+  EXPECT_EQ(other.test, "energy_distance");
+  EXPECT_LT(other.p, 0.01);
+  EXPECT_TRUE(other.significant);
 }
 
 /// Requirement: a bias that the simulator applies is free once, with a calibration group or without.
