@@ -60,6 +60,19 @@ OperatingPoint read_point(const Table& table, const CaseFile& file) {
   return point;
 }
 
+Region read_region(const Table& table) {
+  Region region;
+  constexpr double far = 1e9;
+  table.read({{.key = "id", .target = &region.id, .unit = "", .meaning = "name of the region", .required = true},
+              {"lower", &region.lower, "m", -far, far, Basis::assumed, "Lowest corner; without it the region has no lower end."},
+              {"upper", &region.upper, "m", -far, far, Basis::assumed, "Highest corner; without it the region has no upper end."}});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (region.lower[axis] < region.upper[axis]) continue;
+    throw Error(ExitCode::usage, table.where() + " " + region.id + ": lower is not below upper along " + "xyz"[axis] + "; swap them");
+  }
+  return region;
+}
+
 template <class Item>
 void reject_repeated_ids(const std::vector<Item>& items, const std::string& section, const std::string& file) {
   std::set<std::string> seen;
@@ -184,6 +197,7 @@ Experiment read_experiment(const std::filesystem::path& path) {
   root.table("experiment").read({setting("name", &experiment.name, "Name of the experiment."), data_file});
   for (const Table& table : root.tables("observable")) experiment.observables.push_back(read_observable(table));
   for (const Table& table : root.tables("point")) experiment.points.push_back(read_point(table, file));
+  for (const Table& table : root.tables("region")) experiment.regions.push_back(read_region(table));
   std::vector<std::string> points;
   for (const OperatingPoint& point : experiment.points) points.push_back(point.id);
   experiment.alternatives = read_alternatives(root, points);
@@ -200,6 +214,7 @@ Experiment read_experiment(const std::filesystem::path& path) {
   if (experiment.points.empty()) throw Error(ExitCode::usage, name + ": no [[point]]; at least one is needed");
   reject_repeated_ids(experiment.observables, "observable", name);
   reject_repeated_ids(experiment.points, "point", name);
+  reject_repeated_ids(experiment.regions, "region", name);
 
   const std::string data_name = file.path(data).string();
   const auto data_text = file_text(data_name);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/vec3.hpp"
 #include "diagnosis/alternative.hpp"
 
 namespace snag {
@@ -34,6 +35,12 @@ struct OperatingPoint {
   std::vector<std::pair<std::string, double>> input_u{};  // relative standard uncertainty by key of the case
 };
 
+/// A box in which cells of a path are told apart from those elsewhere, by where it was measured.
+struct Region {
+  std::string id;
+  Vec3 lower{-1e9, -1e9, -1e9}, upper{1e9, 1e9, 1e9};  // m
+};
+
 /// One number of the data file, SI.
 struct Datum {
   int point = 0, observable = 0, replicate = 0;
@@ -49,6 +56,7 @@ struct Experiment {
   std::vector<Datum> data;              // by point, observable, replicate, time
   std::vector<std::string> candidates;  // empty: all
   std::vector<Alternative> alternatives{};
+  std::vector<Region> regions{};
   bool pairs = true;
   int max_runs = 2000;
   std::uint64_t seed = 1;

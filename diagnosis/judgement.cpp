@@ -94,6 +94,7 @@ class Judge {
       effects(first);
     const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.first_effect();
     for (const int i : std::set<int>{reported, a_.first_effect()}) note_parameters(i);
+    note_inputs(a_.fits[first]);
     return reported;
   }
 
@@ -204,6 +205,18 @@ class Judge {
                          " % of the cases: the screening cannot tell an effect from chance here."),
           hold = false;
     return hold;
+  }
+
+  void note_inputs(const Fit& fit) {
+    const Eigen::VectorXd fitted = fit.solution.d - fit.linear.prior;
+    const auto& nuisances = model_.nuisances();
+    for (std::size_t j = 0; j < nuisances.size(); ++j) {
+      std::vector<std::string> points;
+      for (const int p : nuisances[j].points) points.push_back(model_.experiment().points[p].id);
+      const bool everywhere = points.size() == model_.experiment().points.size();
+      v_.nuisances[nuisances[j].name + (everywhere ? "" : "@" + joined(points))] =
+          fitted[fit.linear.lower.size() + static_cast<Eigen::Index>(j)];
+    }
   }
 
   void note_parameters(int fit) {

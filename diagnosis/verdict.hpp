@@ -18,7 +18,7 @@ struct GapCell {
   double u_val = 0;                        // of the difference
   double z = 0;                            // (simulated - measured)/u_val; of exact tests the normal score of their p
   double p = 1;                            // two-sided
-  std::string test = "z";                  // z | binomial | negative_binomial | log_rank
+  std::string test = "z";                  // z | binomial | negative_binomial | log_rank | energy_distance
   bool withheld = false, significant = false, onset = false, blind = false;
 };
 

@@ -24,18 +24,49 @@ class PointCells {
     std::vector<GapCell> cells;
     const int n = static_cast<int>(point_.rows.size());
     for (int begin = 0, end = 0; begin < n; begin = end) {
-      for (end = begin;
-           end < n && point_.rows[end].observable == point_.rows[begin].observable && point_.rows[end].kind == point_.rows[begin].kind;)
+      const Row& first = point_.rows[begin];
+      const std::string region = region_of(first);
+      for (end = begin; end < n && point_.rows[end].observable == first.observable && point_.rows[end].kind == first.kind &&
+                        region_of(point_.rows[end]) == region;)
         ++end;
       const int windows = std::min(n_windows, end - begin);
-      if (point_.rows[begin].kind == Row::Kind::spread) continue;
-      for (int w = 0; w < windows; ++w)
+      if (first.kind == Row::Kind::spread) continue;
+      for (int w = 0; w < windows; ++w) {
         cells.push_back(cell(begin + w * (end - begin) / windows, begin + (w + 1) * (end - begin) / windows));
+        cells.back().region = region;
+      }
     }
     return cells;
   }
 
  private:
+  // The first region that holds the place measured at the time of a row; a coordinate that is not measured is in all of them.
+  std::string region_of(const Row& row) const {
+    const auto& regions = model_.experiment().regions;
+    if (regions.empty() || row.kind != Row::Kind::path) return "all";
+    const double time = 0.5 * (row.begin + row.end);
+    for (const Region& region : regions) {
+      bool inside = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Row* place = row_at(std::string(1, "xyz"[axis]), time);
+        inside = inside && (!place || (place->value >= region.lower[axis] && place->value <= region.upper[axis]));
+      }
+      if (inside) return region.id;
+    }
+    return "elsewhere";
+  }
+
+  // Of a path of that name the row nearest in time; null if there is none.
+  const Row* row_at(const std::string& name, double time) const {
+    const Row* nearest = nullptr;
+    for (const Row& row : point_.rows) {
+      if (row.kind != Row::Kind::path || model_.experiment().observables[row.observable].id != name) continue;
+      const auto off = [&](const Row& r) { return std::abs(0.5 * (r.begin + r.end) - time); };
+      if (!nearest || off(row) < off(*nearest)) nearest = &row;
+    }
+    return nearest;
+  }
+
   GapCell cell(int begin, int end) {
     const Row& row = point_.rows[begin];
     const Observable& observable = model_.experiment().observables[row.observable];
@@ -186,8 +217,8 @@ void mark_significant(std::vector<GapCell>& cells) {
   std::vector<GapCell*> all;
   for (GapCell& cell : cells) cell.significant = cell.onset = false, all.push_back(&cell);
   select(all,
-         {[](const GapCell& c) { return c.observable; }, [](const GapCell& c) { return c.point; },
-          [](const GapCell& c) { return std::to_string(c.window[0]); }},
+         {[](const GapCell& c) { return c.observable; }, [](const GapCell& c) { return c.region; },
+          [](const GapCell& c) { return c.point; }, [](const GapCell& c) { return std::to_string(c.window[0]); }},
          0);
   constexpr double onset_z = 3;
   for (GapCell& cell : cells) {

@@ -162,6 +162,16 @@ TEST_F(ReadExperiment, Alternatives) {
   EXPECT_TOLD(message(head + x_mm + A + "[[alternative]]\neffect = \"geometry\"\n", rows), "changes nothing");
 }
 
+TEST_F(ReadExperiment, Regions) {
+  const std::string rows = columns + "A,0,0.1,x,1\n", near = "[[region]]\nid = \"near\"\nupper_mm = [5, 0, 7]\n";
+  const auto e = read_experiment(write(head + x_mm + A + near, rows));
+  ASSERT_EQ(e.regions.size(), 1u);
+  EXPECT_DOUBLE_EQ(e.regions[0].upper.x, 5e-3);
+  EXPECT_LT(e.regions[0].lower.z, -1e6);
+  EXPECT_TOLD(message(head + x_mm + A + near + "lower_mm = [0, 1, 0]\n", rows), "not below upper along y");
+  EXPECT_TOLD(message(head + x_mm + A + near + near, rows), "stands twice");
+}
+
 // A million rows are read in some seconds of one processor.
 TEST_F(ReadExperiment, MillionRows) {
   std::string csv = columns;

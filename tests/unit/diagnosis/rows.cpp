@@ -87,6 +87,40 @@ TEST(Rows, ScatterOfRepeatsIsCompared) {
   EXPECT_TRUE(other.significant);
 }
 
+/// Answers the slots of a path with its measured places.
+class Straight final : public Constant {
+ public:
+  explicit Straight(int n) : Constant(0) {
+    for (int i = 0; i < n; ++i) path_.push_back({.observable = 0, .time = 0.1 * i});
+  }
+  const std::vector<Slot>& slots(int) const override { return path_; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    RunResult result;
+    for (const Slot& slot : path_) result.values.push_back(slot.time);
+    return std::vector<RunResult>(requests.size(), result);
+  }
+
+ private:
+  std::vector<Slot> path_;
+};
+
+/// Requirement: the cells of a path change where it comes into another region, and each is in the region where it was measured.
+TEST(Rows, CellsAreToldApartByRegion) {
+  constexpr int n = 20;
+  std::vector<Datum> data;
+  for (int i = 0; i < n; ++i) data.push_back({.time = 0.1 * i, .value = 0.1 * i + (i >= 10 && i < 15 ? 1e-2 : 0)});
+  Experiment experiment = of_one_row({.id = "x", .unit = "m", .noise_u = 1e-3, .calibration_group = ""}, data);
+  experiment.regions = {{.id = "pipe", .upper = {0.95, 1, 1}}, {.id = "eye", .upper = {1.45, 1, 1}}};
+  Straight simulator(n);
+  Responses responses(experiment, simulator);
+  for (const GapCell& cell : gap_cells(responses, Fitter(responses))) {
+    const double middle = 0.5 * (cell.window[0] + cell.window[1]);
+    EXPECT_EQ(cell.region, middle < 0.95 ? "pipe" : middle < 1.45 ? "eye" : "elsewhere") << middle;
+    EXPECT_LE(cell.window[1], cell.region == "pipe" ? 0.95 : cell.region == "eye" ? 1.45 : 2);
+    EXPECT_EQ(cell.significant, cell.region == "eye") << middle;
+  }
+}
+
 /// Requirement: a bias that the simulator applies is free once, with a calibration group or without.
 TEST(Rows, BiasIsCountedOnce) {
   const Experiment experiment =
