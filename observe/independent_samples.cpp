@@ -17,8 +17,8 @@ struct Clusters {
   std::vector<Cluster> groups;
   std::vector<std::map<int, Cluster>> rags;  // [n_groups]
 
-  Clusters(std::span<const Sample> samples, int n_groups) : groups(n_groups), rags(n_groups) {
-    for (const Sample& s : samples)
+  Clusters(std::span<const RagSample> samples, int n_groups) : groups(n_groups), rags(n_groups) {
+    for (const RagSample& s : samples)
       for (Cluster* cluster : {&groups[s.group], &rags[s.group][s.rag]}) cluster->n += 1, cluster->sum += s.value;
   }
   /// m' of a group: how many samples the rag of a sample has, on average.
@@ -30,7 +30,7 @@ struct Clusters {
 };
 
 /// `n_more_rags`: rags beyond the first of each group; `n_repeats`: samples beyond the first of each rag.
-double intraclass_correlation(std::span<const Sample> samples, const Clusters& all, double n_more_rags, double n_repeats) {
+double intraclass_correlation(std::span<const RagSample> samples, const Clusters& all, double n_more_rags, double n_repeats) {
   double between = 0, within = 0, size = 0;
   for (std::size_t g = 0; g < all.groups.size(); ++g) {
     for (const auto& [rag, cluster] : all.rags[g]) {
@@ -39,7 +39,7 @@ double intraclass_correlation(std::span<const Sample> samples, const Clusters& a
     }
     size += all.groups[g].n - all.mean_size(static_cast<int>(g));
   }
-  for (const Sample& s : samples) {
+  for (const RagSample& s : samples) {
     const double off = s.value - all.rags[s.group].at(s.rag).mean();
     within += off * off;
   }
@@ -47,11 +47,11 @@ double intraclass_correlation(std::span<const Sample> samples, const Clusters& a
   return (B - W) / (B + (m_0 - 1) * W);
 }
 
-double autocorrelation(std::span<const Sample> samples, const Clusters& all) {
+double autocorrelation(std::span<const RagSample> samples, const Clusters& all) {
   std::vector<double> last(all.groups.size());
   std::vector<bool> has_last(all.groups.size());
   double products = 0, squares = 0;
-  for (const Sample& s : samples) {
+  for (const RagSample& s : samples) {
     const double off = s.value - all.groups[s.group].mean();
     if (has_last[s.group]) products += last[s.group] * off;
     squares += off * off;
@@ -62,9 +62,9 @@ double autocorrelation(std::span<const Sample> samples, const Clusters& all) {
 
 }  // namespace
 
-IndependentSamples independent_samples(std::span<const Sample> samples, int n_groups) {
+IndependentSamples independent_samples(std::span<const RagSample> samples, int n_groups) {
   const Clusters all(samples, n_groups);
-  const bool rags_known = std::none_of(samples.begin(), samples.end(), [](const Sample& s) { return s.rag < 0; });
+  const bool rags_known = std::none_of(samples.begin(), samples.end(), [](const RagSample& s) { return s.rag < 0; });
   double n_more_rags = 0, n_repeats = static_cast<double>(samples.size());
   for (const auto& rags : all.rags) {
     n_more_rags += static_cast<double>(rags.size()) - 1;

@@ -15,7 +15,7 @@
 
 namespace snag {
 
-struct Sample {
+struct RagSample {
   int group = 0;
   int rag = -1;  // of its group; -1: not known
   double value = 0;
@@ -34,6 +34,6 @@ struct IndependentSamples {
 };
 
 /// Samples in the order in which they were taken, at least two in each group and some scatter within the groups.
-IndependentSamples independent_samples(std::span<const Sample> samples, int n_groups);
+IndependentSamples independent_samples(std::span<const RagSample> samples, int n_groups);
 
 }  // namespace snag

@@ -19,12 +19,12 @@ double mean_axis(const std::vector<double>& values) {
   return 0.5 * degrees * std::atan2(s, c);
 }
 
-/// Values of one observable, checked.
-std::vector<Sample> samples_of(const Repeats& repeats, std::size_t o, const std::string& where) {
-  std::vector<Sample> samples;
+/// Values of one quantity, checked.
+std::vector<RagSample> samples_of(const Repeats& repeats, std::size_t o, const std::string& where) {
+  std::vector<RagSample> samples;
   for (const Repeats::Row& row : repeats.rows) {
     if (!std::isfinite(row.values[o]))
-      throw Error(ExitCode::usage, where + ": " + repeats.observables[o].name + " of group \"" + repeats.groups[row.group] + "\" is " +
+      throw Error(ExitCode::usage, where + ": " + repeats.quantities[o].name + " of group \"" + repeats.groups[row.group] + "\" is " +
                                        words(row.values[o]) + ", must be a finite number; leave out rows without one");
     samples.push_back({row.group, row.rag, row.values[o]});
   }
@@ -33,27 +33,27 @@ std::vector<Sample> samples_of(const Repeats& repeats, std::size_t o, const std:
 
 GroupComparison compare(const Repeats& repeats, std::size_t o, const std::string& where) {
   GroupComparison result;
-  result.observable = repeats.observables[o];
-  std::vector<Sample> samples = samples_of(repeats, o, where);
+  result.quantity = repeats.quantities[o];
+  std::vector<RagSample> samples = samples_of(repeats, o, where);
   std::vector<double> all;
   std::vector<std::vector<double>> by_group(repeats.groups.size());
-  for (const Sample& s : samples) all.push_back(s.value), by_group[s.group].push_back(s.value);
+  for (const RagSample& s : samples) all.push_back(s.value), by_group[s.group].push_back(s.value);
   // Axes count from the mean of all, so that no two of them lie more than 90 degrees from it.
-  const bool is_axis = result.observable.is_axis();
+  const bool is_axis = result.quantity.is_axis();
   const double origin = is_axis ? mean_axis(all) : 0;
   const auto unwrapped = [&](double value) { return is_axis ? origin + std::remainder(value - origin, half_turn) : value; };
-  for (Sample& s : samples) s.value = unwrapped(s.value);
+  for (RagSample& s : samples) s.value = unwrapped(s.value);
 
   std::vector<double> means, deviations, counts;
   for (const std::vector<double>& values : by_group) {
-    const Moments m = moments_of(values, result.observable);
-    means.push_back(unwrapped(m.mean)), deviations.push_back(m.deviation), counts.push_back(static_cast<double>(values.size()));
+    const MeanAndSigma m = mean_and_sigma(values, result.quantity);
+    means.push_back(unwrapped(m.mean)), deviations.push_back(m.sigma), counts.push_back(static_cast<double>(values.size()));
     result.groups.push_back({m, counts.back(), 0});
   }
   // What differs by round-off alone is constant.
   const double largest = std::abs(*std::max_element(all.begin(), all.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (std::all_of(deviations.begin(), deviations.end(), [&](double deviation) { return deviation <= 1e-12 * largest; }))
-    throw Error(ExitCode::usage, where + ": " + result.observable.name + " does not vary within any group (" + words(means[0]) + " in \"" +
+    throw Error(ExitCode::usage, where + ": " + result.quantity.name + " does not vary within any group (" + words(means[0]) + " in \"" +
                                      repeats.groups[0] + "\"), so that there is no scatter to compare with; leave it out");
   result.by_count = anova(means, deviations, counts);
   const IndependentSamples independent = independent_samples(samples, static_cast<int>(repeats.groups.size()));
@@ -68,19 +68,19 @@ GroupComparison compare(const Repeats& repeats, std::size_t o, const std::string
 
 }  // namespace
 
-Moments moments_of(const std::vector<double>& values, const Observable& observable) {
+MeanAndSigma mean_and_sigma(const std::vector<double>& values, const Quantity& quantity) {
   const double n = static_cast<double>(values.size());
-  Moments m;
-  if (observable.is_axis())
+  MeanAndSigma m;
+  if (quantity.is_axis())
     m.mean = mean_axis(values);
   else
     for (const double value : values) m.mean += value / n;
   double square = 0;
   for (const double value : values) {
-    const double off = observable.is_axis() ? std::remainder(value - m.mean, half_turn) : value - m.mean;
+    const double off = quantity.is_axis() ? std::remainder(value - m.mean, half_turn) : value - m.mean;
     square += off * off;
   }
-  m.deviation = n > 1 ? std::sqrt(square / (n - 1)) : std::nan("");
+  m.sigma = n > 1 ? std::sqrt(square / (n - 1)) : std::nan("");
   return m;
 }
 
@@ -96,7 +96,7 @@ std::vector<GroupComparison> compare_groups(const Repeats& repeats, const std::s
       throw Error(ExitCode::usage, where + ": group \"" + repeats.groups[g] + "\" has " + std::to_string(n[g]) +
                                        (n[g] == 1 ? " sample" : " samples") + ", must have at least two to have a scatter; add repeats");
   std::vector<GroupComparison> comparisons;
-  for (std::size_t o = 0; o < repeats.observables.size(); ++o) comparisons.push_back(compare(repeats, o, where));
+  for (std::size_t o = 0; o < repeats.quantities.size(); ++o) comparisons.push_back(compare(repeats, o, where));
   return comparisons;
 }
 

@@ -10,7 +10,7 @@
 
 namespace snag {
 
-struct Observable {
+struct Quantity {
   std::string name, unit;
   /// An orientation: the direction of an axis in degrees, so that 89 and -89 lie 2 apart.
   bool is_axis() const { return name == "orientation"; }
@@ -19,30 +19,30 @@ struct Observable {
 struct Repeats {
   struct Row {
     int group = 0, rag = -1;     // rag: of its group; -1: not known
-    std::vector<double> values;  // of each observable
+    std::vector<double> values;  // of each quantity
   };
   std::vector<std::string> groups;
-  std::vector<Observable> observables;
+  std::vector<Quantity> quantities;
   std::vector<Row> rows;  // in the order in which they were taken
 };
 
-/// A CSV file with the columns "group", perhaps "rag", and one for each observable with its unit: "area [m2]". Groups and rags are any
+/// A CSV file with the columns "group", perhaps "rag", and one for each quantity with its unit: "area [m2]". Groups and rags are any
 /// words. Blank lines and lines with # are passed over. Throws Error(usage) naming the line, Error(io).
 Repeats read_repeats(const std::filesystem::path& file);
 
-/// Mean and standard deviation (n - 1; not a number for one value) of an observable.
-struct Moments {
-  double mean = 0, deviation = 0;
+/// Mean and standard deviation (n - 1; not a number for one value) of a quantity.
+struct MeanAndSigma {
+  double mean = 0, sigma = 0;
 };
 /// Of at least one value. Of an axis: the mean direction by the doubled angle, the deviation of what lies within 90 degrees of it.
-Moments moments_of(const std::vector<double>& values, const Observable& observable);
+MeanAndSigma mean_and_sigma(const std::vector<double>& values, const Quantity& quantity);
 
 struct GroupComparison {
   struct Group {
-    Moments moments;
+    MeanAndSigma values;
     double n = 0, n_independent = 0;
   };
-  Observable observable;
+  Quantity quantity;
   std::vector<Group> groups;
   Dependence dependence = Dependence::none;
   double correlation = 0;
@@ -50,14 +50,14 @@ struct GroupComparison {
   std::optional<Anova> by_independent;  // none if there are not more independent samples than groups
 };
 
-/// One comparison an observable. `where` stands in messages. Throws Error(usage) on fewer than two groups, on a group with fewer than two
-/// samples, on a value that is not finite, and on an observable that does not vary within the groups.
+/// One comparison for each quantity. `where` stands in messages. Throws Error(usage) on fewer than two groups, on a group with fewer than
+/// two samples, on a value that is not finite, and on a quantity that does not vary within the groups.
 std::vector<GroupComparison> compare_groups(const Repeats& repeats, const std::string& where);
 
-/// A row an observable and group; a row an observable.
+/// A row for each quantity and group; a row for each quantity.
 std::string groups_csv(const std::vector<GroupComparison>& comparisons, const Repeats& repeats);
 std::string anova_csv(const std::vector<GroupComparison>& comparisons);
-/// A line an observable.
+/// A line for each quantity.
 std::string words_of(const std::vector<GroupComparison>& comparisons);
 
 }  // namespace snag

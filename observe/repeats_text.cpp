@@ -26,7 +26,7 @@ std::vector<std::string> fields_of(const std::string& line) {
 }
 
 /// "area [m2]"
-Observable observable_of(const std::string& column) {
+Quantity quantity_of(const std::string& column) {
   const auto bracket = column.find(" [");
   if (bracket == std::string::npos || column.back() != ']') return {column, "1"};
   return {column.substr(0, bracket), column.substr(bracket + 2, column.size() - bracket - 3)};
@@ -58,11 +58,11 @@ class Reading {
     for (const std::string& column : columns_) {
       if (column.empty()) refuse("a column has no name");
       if (std::count(columns_.begin(), columns_.end(), column) > 1) refuse("the column \"" + column + "\" stands twice");
-      if (column != "group" && column != "rag") repeats_.observables.push_back(observable_of(column));
+      if (column != "group" && column != "rag") repeats_.quantities.push_back(quantity_of(column));
     }
     if (std::find(columns_.begin(), columns_.end(), "group") == columns_.end())
       refuse("there is no column \"group\" (" + joined(columns_) + "); name the operating point of each row");
-    if (repeats_.observables.empty()) refuse("there is no column of values beside group and rag; add one, as area [m2]");
+    if (repeats_.quantities.empty()) refuse("there is no column of values beside group and rag; add one, as area [m2]");
   }
 
   void read_row(const std::vector<std::string>& fields) {
@@ -125,19 +125,19 @@ Repeats read_repeats(const std::filesystem::path& file) {
 }
 
 std::string groups_csv(const std::vector<GroupComparison>& comparisons, const Repeats& repeats) {
-  std::string text = "observable,unit,group,mean,sigma,n,n_eff\n";
+  std::string text = "quantity,unit,group,mean,sigma,n,n_eff\n";
   for (const GroupComparison& c : comparisons)
     for (std::size_t g = 0; g < c.groups.size(); ++g)
-      text += c.observable.name + "," + c.observable.unit + "," + repeats.groups[g] + "," + number(c.groups[g].moments.mean) + "," +
-              number(c.groups[g].moments.deviation) + "," + number(c.groups[g].n) + "," + number(c.groups[g].n_independent) + "\n";
+      text += c.quantity.name + "," + c.quantity.unit + "," + repeats.groups[g] + "," + number(c.groups[g].values.mean) + "," +
+              number(c.groups[g].values.sigma) + "," + number(c.groups[g].n) + "," + number(c.groups[g].n_independent) + "\n";
   return text;
 }
 
 std::string anova_csv(const std::vector<GroupComparison>& comparisons) {
-  std::string text = "observable,F,p,F_eff,p_eff,dependence,correlation\n";
+  std::string text = "quantity,F,p,F_eff,p_eff,dependence,correlation\n";
   for (const GroupComparison& c : comparisons) {
     const Anova eff = c.by_independent.value_or(Anova{std::nan(""), std::nan("")});
-    text += c.observable.name + "," + number(c.by_count.F) + "," + number(c.by_count.p) + "," + number(eff.F) + "," + number(eff.p) + "," +
+    text += c.quantity.name + "," + number(c.by_count.F) + "," + number(c.by_count.p) + "," + number(eff.F) + "," + number(eff.p) + "," +
             name(c.dependence) + "," + number(c.correlation) + "\n";
   }
   return text;
@@ -148,7 +148,7 @@ std::string words_of(const std::vector<GroupComparison>& comparisons) {
   for (const GroupComparison& c : comparisons) {
     double n = 0, n_independent = 0;
     for (const auto& group : c.groups) n += group.n, n_independent += group.n_independent;
-    text += (text.empty() ? "" : "\n") + c.observable.name + ": p " + words(c.by_count.p) + " (F " + words(c.by_count.F) + ") as if all " +
+    text += (text.empty() ? "" : "\n") + c.quantity.name + ": p " + words(c.by_count.p) + " (F " + words(c.by_count.F) + ") as if all " +
             words(n) + " samples were independent; ";
     if (c.by_independent)
       text += "p " + words(c.by_independent->p) + " (F " + words(c.by_independent->F) + ") with the " + words(n_independent) + " that are";

@@ -62,7 +62,7 @@ TEST(Anova, FiveUnequalGroups) {
 
 // Two groups of two rags seen twice: B = 52/2, W = 8/4, rho = 24/28; m' = 2, so that four samples are worth 4/(1 + 6/7) = 28/13.
 TEST(IndependentSamples, PassesOfTheSameRag) {
-  const std::vector<Sample> samples{{0, 0, 1}, {0, 0, 3}, {0, 1, 5}, {0, 1, 7}, {1, 0, 2}, {1, 0, 4}, {1, 1, 8}, {1, 1, 10}};
+  const std::vector<RagSample> samples{{0, 0, 1}, {0, 0, 3}, {0, 1, 5}, {0, 1, 7}, {1, 0, 2}, {1, 0, 4}, {1, 1, 8}, {1, 1, 10}};
   const IndependentSamples found = independent_samples(samples, 2);
   EXPECT_EQ(found.dependence, Dependence::intraclass);
   EXPECT_NEAR(found.correlation, 6.0 / 7, 1e-12);
@@ -71,7 +71,7 @@ TEST(IndependentSamples, PassesOfTheSameRag) {
 
 // Rags that always look the same are worth one sample each; with unequal passes n^2/sum m^2.
 TEST(IndependentSamples, RagsThatDoNotChange) {
-  const std::vector<Sample> samples{{0, 7, 1}, {0, 7, 1}, {0, 9, 3}, {0, 9, 3}, {1, 7, 2}, {1, 7, 2}, {1, 7, 2}, {1, 8, 5}};
+  const std::vector<RagSample> samples{{0, 7, 1}, {0, 7, 1}, {0, 9, 3}, {0, 9, 3}, {1, 7, 2}, {1, 7, 2}, {1, 7, 2}, {1, 8, 5}};
   const IndependentSamples found = independent_samples(samples, 2);
   EXPECT_NEAR(found.correlation, 1, 1e-12);
   EXPECT_NEAR(found.counts[0], 2, 1e-12);
@@ -80,22 +80,22 @@ TEST(IndependentSamples, RagsThatDoNotChange) {
 
 // Rags that differ less than their passes do count in full; so do rags seen once.
 TEST(IndependentSamples, NothingIsCountedTwiceInFavour) {
-  const std::vector<Sample> alike{{0, 0, 1}, {0, 0, 3}, {0, 1, 3}, {0, 1, 1}};
+  const std::vector<RagSample> alike{{0, 0, 1}, {0, 0, 3}, {0, 1, 3}, {0, 1, 1}};
   EXPECT_LT(independent_samples(alike, 1).correlation, 0);
   EXPECT_EQ(independent_samples(alike, 1).counts[0], 4);
-  const std::vector<Sample> once{{0, 0, 1}, {0, 1, 3}, {0, 2, 4}};
+  const std::vector<RagSample> once{{0, 0, 1}, {0, 1, 3}, {0, 2, 4}};
   EXPECT_EQ(independent_samples(once, 1).dependence, Dependence::none);
   EXPECT_EQ(independent_samples(once, 1).counts[0], 3);
 }
 
 // A row 1 2 3 4: r = 1.25/5, n_eff = 4 (1 - r)/(1 + r) = 2.4. A row that alternates counts in full.
 TEST(IndependentSamples, NeighboursInTime) {
-  const std::vector<Sample> rising{{0, -1, 1}, {0, -1, 2}, {0, -1, 3}, {0, -1, 4}};
+  const std::vector<RagSample> rising{{0, -1, 1}, {0, -1, 2}, {0, -1, 3}, {0, -1, 4}};
   const IndependentSamples found = independent_samples(rising, 1);
   EXPECT_EQ(found.dependence, Dependence::autocorrelation);
   EXPECT_NEAR(found.correlation, 0.25, 1e-12);
   EXPECT_NEAR(found.counts[0], 2.4, 1e-12);
-  const std::vector<Sample> alternating{{0, 4, 1}, {0, 4, -1}, {0, 4, 1}, {0, 4, -1}};  // one rag, known
+  const std::vector<RagSample> alternating{{0, 4, 1}, {0, 4, -1}, {0, 4, 1}, {0, 4, -1}};  // one rag, known
   EXPECT_NEAR(independent_samples(alternating, 1).correlation, -0.75, 1e-12);
   EXPECT_EQ(independent_samples(alternating, 1).counts[0], 4);
 }

@@ -47,9 +47,9 @@ TEST(Repeats, TwoOperatingPoints) {
   const std::vector<GroupComparison> found = compare_groups(table.read(), "table");
   ASSERT_EQ(found.size(), 1U);
   const GroupComparison& length = found[0];
-  EXPECT_EQ(length.observable.name + " " + length.observable.unit, "length mm");
-  EXPECT_NEAR(length.groups[1].moments.mean, 6, 1e-12);
-  EXPECT_NEAR(length.groups[1].moments.deviation, std::sqrt(40.0 / 3), 1e-12);
+  EXPECT_EQ(length.quantity.name + " " + length.quantity.unit, "length mm");
+  EXPECT_NEAR(length.groups[1].values.mean, 6, 1e-12);
+  EXPECT_NEAR(length.groups[1].values.sigma, std::sqrt(40.0 / 3), 1e-12);
   EXPECT_EQ(length.groups[1].n, 4);
   EXPECT_NEAR(length.groups[1].n_independent, 28.0 / 13, 1e-12);
   EXPECT_NEAR(length.by_count.F, 0.8, 1e-12);
@@ -63,9 +63,9 @@ TEST(Repeats, OrientationsAreAxes) {
   // Requirement: axes at 88 and -88 degrees lie around 90, not around 0, and do not differ from those at 87 and -89.
   const Table table("group,orientation [deg]\na,88\na,-88\nb,87\nb,-89\n");
   const GroupComparison found = compare_groups(table.read(), "table").at(0);
-  EXPECT_NEAR(std::abs(found.groups[0].moments.mean), 90, 1e-9);
-  EXPECT_NEAR(found.groups[0].moments.deviation, std::sqrt(8.0), 1e-9);
-  EXPECT_NEAR(found.groups[1].moments.mean, 89, 1e-9);
+  EXPECT_NEAR(std::abs(found.groups[0].values.mean), 90, 1e-9);
+  EXPECT_NEAR(found.groups[0].values.sigma, std::sqrt(8.0), 1e-9);
+  EXPECT_NEAR(found.groups[1].values.mean, 89, 1e-9);
   EXPECT_NEAR(found.by_count.F, 1 / 8.0, 1e-9);  // means 1 apart, variance 8, 2 samples each: 4 x 1/4 / 8
 }
 
