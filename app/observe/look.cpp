@@ -119,10 +119,7 @@ bool is_run(const std::filesystem::path& subject) {
 }
 
 Findings look_at(const std::filesystem::path& subject, const Camera* camera, const std::filesystem::path& folder, std::uint64_t seed) {
-  if (!is_run(subject)) {
-    if (!camera) throw Error(ExitCode::usage, subject.string() + ": is no run, and pictures need a camera; give --camera CAMERA.toml");
-    return look_at_pictures(subject, *camera, folder);
-  }
+  if (!is_run(subject)) return look_at_pictures(subject, *camera, folder);
   Findings findings;
   if (camera) findings = look_at_run(subject, *camera, folder, seed);
   findings.volute = volute_of_run(subject);

@@ -20,7 +20,7 @@ std::string name_of(const path& subject) { return std::filesystem::weakly_canoni
 
 bool is_table(const path& subject) { return subject.extension() == ".csv"; }
 
-void check_subjects(const std::vector<ObserveGroup>& groups) {
+void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
   std::size_t n_subjects = 0;
   bool has_table = false;
   for (const ObserveGroup& group : groups) {
@@ -31,6 +31,8 @@ void check_subjects(const std::vector<ObserveGroup>& groups) {
     for (const path& subject : group.subjects) {
       if (!std::filesystem::exists(subject))
         throw Error(ExitCode::io, subject.string() + ": is neither a picture, nor a folder of pictures or of a run, nor a table");
+      if (!has_camera && !is_table(subject) && !is_run(subject))
+        throw Error(ExitCode::usage, subject.string() + ": is no run, and pictures need a camera; give --camera CAMERA.toml");
       ++n_subjects, has_table = has_table || is_table(subject);
     }
   }
@@ -112,13 +114,17 @@ void observe_groups(const ObserveOptions& options, const Camera* camera, const p
   all.write(folder);
   log::info("all: " + all.words(true));
   write_volute_page(volutes, folder);
-  if (camera && repeats.groups.size() > 1) write_comparison(repeats, "snag observe", folder);
+  if (repeats.groups.size() < 2) return;
+  if (camera)
+    write_comparison(repeats, "snag observe", folder);
+  else
+    log::info("the means of the groups are compared of pictures only: for that give --camera CAMERA.toml");
 }
 
 }  // namespace
 
 void observe(const ObserveOptions& options) {
-  check_subjects(options.groups);
+  check_subjects(options.groups, !options.camera_file.empty());
   const path& first = options.groups[0].subjects[0];
   const path folder = options.out.empty() ? "results" / path("observe-" + name_of(first)) : options.out;
   if (is_table(first)) return write_comparison(read_repeats(first), first.string(), folder);
