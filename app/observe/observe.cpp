@@ -20,25 +20,12 @@ std::string name_of(const path& subject) { return std::filesystem::weakly_canoni
 
 bool is_table(const path& subject) { return subject.extension() == ".csv"; }
 
-void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
-  std::size_t n_subjects = 0;
-  bool has_table = false;
+void check_groups(const std::vector<ObserveGroup>& groups) {
   for (const ObserveGroup& group : groups) {
     if (group.subjects.empty())
       throw Error(ExitCode::usage,
                   "snag observe: " + (group.name.empty() ? "nothing to observe" : "--group " + group.name + " has no subject") +
                       "; name folders of pictures or of runs");
-    for (const path& subject : group.subjects) {
-      if (!std::filesystem::exists(subject))
-        throw Error(ExitCode::io, subject.string() + ": is neither a picture, nor a folder of pictures or of a run, nor a table");
-      if (!has_camera && !is_table(subject) && !is_run(subject))
-        throw Error(ExitCode::usage, subject.string() + ": is no run, and pictures need a camera; give --camera CAMERA.toml");
-      ++n_subjects, has_table = has_table || is_table(subject);
-    }
-  }
-  if (has_table && n_subjects > 1)
-    throw Error(ExitCode::usage, "snag observe: a table of repeats (.csv) holds its groups itself; give it alone");
-  for (const ObserveGroup& group : groups) {
     if (group.name.find_first_of("/,\"") != std::string::npos || group.name.starts_with('.'))
       throw Error(ExitCode::usage, "snag observe: --group \"" + group.name +
                                        "\" names a folder and a field of a table: no / , or \" in it, no dot first; choose another name");
@@ -46,6 +33,20 @@ void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
       throw Error(ExitCode::usage, "snag observe: one group (\"" + group.name +
                                        "\"), there must be at least two to compare; give --group NAME SUBJECT ... again");
   }
+}
+
+void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
+  std::size_t n_subjects = 0, n_tables = 0;
+  for (const ObserveGroup& group : groups)
+    for (const path& subject : group.subjects) {
+      if (!std::filesystem::exists(subject))
+        throw Error(ExitCode::io, subject.string() + ": is neither a picture, nor a folder of pictures or of a run, nor a table");
+      if (!has_camera && !is_table(subject) && !is_run(subject))
+        throw Error(ExitCode::usage, subject.string() + ": is no run, and pictures need a camera; give --camera CAMERA.toml");
+      ++n_subjects, n_tables += is_table(subject);
+    }
+  if (n_tables > 0 && n_subjects > 1)
+    throw Error(ExitCode::usage, "snag observe: a table of repeats (.csv) holds its groups itself; give it alone");
 }
 
 /// Writes groups.csv and anova.csv.
@@ -124,6 +125,7 @@ void observe_groups(const ObserveOptions& options, const Camera* camera, const p
 }  // namespace
 
 void observe(const ObserveOptions& options) {
+  check_groups(options.groups);
   check_subjects(options.groups, !options.camera_file.empty());
   const path& first = options.groups[0].subjects[0];
   const path folder = options.out.empty() ? "results" / path("observe-" + name_of(first)) : options.out;
