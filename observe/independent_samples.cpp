@@ -7,9 +7,15 @@ namespace snag {
 
 namespace {
 
+using Value = std::array<double, 2>;
+
+Value operator-(const Value& a, const Value& b) { return {a[0] - b[0], a[1] - b[1]}; }
+double product(const Value& a, const Value& b) { return a[0] * b[0] + a[1] * b[1]; }
+
 struct Cluster {
-  double n = 0, sum = 0;
-  double mean() const { return sum / n; }
+  double n = 0;
+  Value sum{};
+  Value mean() const { return {sum[0] / n, sum[1] / n}; }
 };
 
 /// Samples of each group, and of each rag of it.
@@ -19,7 +25,8 @@ struct Clusters {
 
   Clusters(std::span<const RagSample> samples, int n_groups) : groups(n_groups), rags(n_groups) {
     for (const RagSample& s : samples)
-      for (Cluster* cluster : {&groups[s.group], &rags[s.group][s.rag]}) cluster->n += 1, cluster->sum += s.value;
+      for (Cluster* cluster : {&groups[s.group], &rags[s.group][s.rag]})
+        cluster->n += 1, cluster->sum[0] += s.value[0], cluster->sum[1] += s.value[1];
   }
   /// m' of a group: how many samples the rag of a sample has, on average.
   double mean_size(int group) const {
@@ -34,27 +41,27 @@ double intraclass_correlation(std::span<const RagSample> samples, const Clusters
   double between = 0, within = 0, size = 0;
   for (std::size_t g = 0; g < all.groups.size(); ++g) {
     for (const auto& [rag, cluster] : all.rags[g]) {
-      const double off = cluster.mean() - all.groups[g].mean();
-      between += cluster.n * off * off;
+      const Value off = cluster.mean() - all.groups[g].mean();
+      between += cluster.n * product(off, off);
     }
     size += all.groups[g].n - all.mean_size(static_cast<int>(g));
   }
   for (const RagSample& s : samples) {
-    const double off = s.value - all.rags[s.group].at(s.rag).mean();
-    within += off * off;
+    const Value off = s.value - all.rags[s.group].at(s.rag).mean();
+    within += product(off, off);
   }
   const double B = between / n_more_rags, W = within / n_repeats, m_0 = size / n_more_rags;
   return (B - W) / (B + (m_0 - 1) * W);
 }
 
 double autocorrelation(std::span<const RagSample> samples, const Clusters& all) {
-  std::vector<double> last(all.groups.size());
+  std::vector<Value> last(all.groups.size());
   std::vector<bool> has_last(all.groups.size());
   double products = 0, squares = 0;
   for (const RagSample& s : samples) {
-    const double off = s.value - all.groups[s.group].mean();
-    if (has_last[s.group]) products += last[s.group] * off;
-    squares += off * off;
+    const Value off = s.value - all.groups[s.group].mean();
+    if (has_last[s.group]) products += product(last[s.group], off);
+    squares += product(off, off);
     last[s.group] = off, has_last[s.group] = true;
   }
   return products / squares;

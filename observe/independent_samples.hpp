@@ -9,7 +9,9 @@
 //   a row in time    n_eff = n (1 - r)/(1 + r),   r = sum d_i d_{i+1}/sum d_i^2 over all groups,   d = value - mean of its group
 //                    first-order autoregression, long rows: G. V. Bayley and J. M. Hammersley, J. R. Stat. Soc. Suppl. 8 (1946) 184
 //
-// rho or r below zero counts as zero: samples are not taken for more than they are. n_eff is at least 1.
+// Squares and products of values with two components are those of vectors. rho or r below zero counts as zero: samples are not taken for
+// more than they are. n_eff is at least 1.
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,8 +19,8 @@ namespace snag {
 
 struct RagSample {
   int group = 0;
-  int rag = -1;  // of its group; -1: not known
-  double value = 0;
+  int rag = -1;                   // of its group; -1: not known
+  std::array<double, 2> value{};  // a number and 0; of an axis the cosine and sine of twice its angle, so that nothing wraps
 };
 
 enum class Dependence {

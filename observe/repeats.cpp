@@ -19,30 +19,27 @@ double mean_axis(const std::vector<double>& values) {
   return 0.5 * degrees * std::atan2(s, c);
 }
 
-/// Values of one quantity, checked.
-std::vector<RagSample> samples_of(const Repeats& repeats, std::size_t o, const std::string& where) {
-  std::vector<RagSample> samples;
-  for (const Repeats::Row& row : repeats.rows) {
-    if (!std::isfinite(row.values[o]))
-      throw Error(ExitCode::usage, where + ": " + repeats.quantities[o].name + " of group \"" + repeats.groups[row.group] + "\" is " +
-                                       words(row.values[o]) + ", must be a finite number; leave out rows without one");
-    samples.push_back({row.group, row.rag, row.values[o]});
-  }
-  return samples;
+double checked(double value, const Repeats& repeats, const Repeats::Row& row, std::size_t o, const std::string& where) {
+  if (std::isfinite(value)) return value;
+  throw Error(ExitCode::usage, where + ": " + repeats.quantities[o].name + " of group \"" + repeats.groups[row.group] + "\" is " +
+                                   words(value) + ", must be a finite number; leave out rows without one");
 }
 
 GroupComparison compare(const Repeats& repeats, std::size_t o, const std::string& where) {
   GroupComparison result;
   result.quantity = repeats.quantities[o];
-  std::vector<RagSample> samples = samples_of(repeats, o, where);
+  const bool is_axis = result.quantity.is_axis();
+  std::vector<RagSample> samples;
   std::vector<double> all;
   std::vector<std::vector<double>> by_group(repeats.groups.size());
-  for (const RagSample& s : samples) all.push_back(s.value), by_group[s.group].push_back(s.value);
-  // Axes count from the mean of all, so that no two of them lie more than 90 degrees from it.
-  const bool is_axis = result.quantity.is_axis();
+  for (const Repeats::Row& row : repeats.rows) {
+    const double value = checked(row.values[o], repeats, row, o, where), twice = 2 * value / degrees;
+    samples.push_back({row.group, row.rag, {is_axis ? std::cos(twice) : value, is_axis ? std::sin(twice) : 0}});
+    all.push_back(value), by_group[row.group].push_back(value);
+  }
+  // Means of axes count from the mean of all, so that none of them lies more than 90 degrees from it.
   const double origin = is_axis ? mean_axis(all) : 0;
   const auto unwrapped = [&](double value) { return is_axis ? origin + std::remainder(value - origin, half_turn) : value; };
-  for (RagSample& s : samples) s.value = unwrapped(s.value);
 
   std::vector<double> means, deviations, counts;
   for (const std::vector<double>& values : by_group) {

@@ -26,8 +26,8 @@ struct Repeats {
   std::vector<Row> rows;  // in the order in which they were taken
 };
 
-/// A CSV file with the columns "group", perhaps "rag", and one for each quantity with its unit: "area [m2]". Groups and rags are any
-/// words. Blank lines and lines with # are passed over. Throws Error(usage) naming the line, Error(io).
+/// A CSV file with the columns "group", perhaps "rag", and one for each quantity with its unit: "area [m2]", "orientation [deg]". Groups
+/// and rags are any words. Blank lines and lines with # are passed over. Throws Error(usage) naming the line, Error(io).
 Repeats read_repeats(const std::filesystem::path& file);
 
 /// Mean and standard deviation (n - 1; not a number for one value) of a quantity.

@@ -58,7 +58,10 @@ class Reading {
     for (const std::string& column : columns_) {
       if (column.empty()) refuse("a column has no name");
       if (std::count(columns_.begin(), columns_.end(), column) > 1) refuse("the column \"" + column + "\" stands twice");
-      if (column != "group" && column != "rag") repeats_.quantities.push_back(quantity_of(column));
+      if (column == "group" || column == "rag") continue;
+      repeats_.quantities.push_back(quantity_of(column));
+      if (repeats_.quantities.back().is_axis() && repeats_.quantities.back().unit != "deg")
+        refuse("the column \"" + column + "\" must be in degrees; write orientation [deg]");
     }
     if (std::find(columns_.begin(), columns_.end(), "group") == columns_.end())
       refuse("there is no column \"group\" (" + joined(columns_) + "); name the operating point of each row");

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "observe/independent_samples.hpp"
@@ -86,6 +87,22 @@ TEST(IndependentSamples, NothingIsCountedTwiceInFavour) {
   const std::vector<RagSample> once{{0, 0, 1}, {0, 1, 3}, {0, 2, 4}};
   EXPECT_EQ(independent_samples(once, 1).dependence, Dependence::none);
   EXPECT_EQ(independent_samples(once, 1).counts[0], 3);
+}
+
+// Axes at 80, -80 of one rag and 0, 20 of another, as vectors of the doubled angle: two rags that differ, though 80 and -80 look far apart.
+// Within a rag half of |e(a) - e(b)|^2 = 1 - cos 2(a - b) = 1 - cos 40; between their means e(90) and e(10) times cos 20: cos^2 20 (1 - cos
+// 160).
+TEST(IndependentSamples, AxesDoNotWrap) {
+  const auto axis = [](int rag, double angle) {
+    const double twice = angle * std::numbers::pi / 90;
+    return RagSample{0, rag, {std::cos(twice), std::sin(twice)}};
+  };
+  const auto cosine = [](double angle) { return std::cos(angle * std::numbers::pi / 180); };
+  const IndependentSamples found = independent_samples(std::vector{axis(0, 80), axis(0, -80), axis(1, 0), axis(1, 20)}, 1);
+  const double W = 1 - cosine(40), B = 2 * cosine(20) * cosine(20) * (1 - cosine(160));
+  EXPECT_NEAR(found.correlation, (B - W) / (B + W), 1e-12);
+  EXPECT_NEAR(found.counts[0], 4 / (1 + found.correlation), 1e-12);
+  EXPECT_GT(found.correlation, 0.8);
 }
 
 // A row 1 2 3 4: r = 1.25/5, n_eff = 4 (1 - r)/(1 + r) = 2.4. A row that alternates counts in full.
