@@ -82,6 +82,27 @@ TEST(Repeats, TooFewIndependentSamples) {
   EXPECT_NE(anova_csv({found}).find("nan,nan,autocorrelation"), std::string::npos);
 }
 
+TEST(Repeats, FalseAlarms) {
+  // Requirement: of three groups of 20 rags seen 10 times each, drawn from one law with an intraclass correlation of 0.3, p_eff is below
+  // 0.05 in about 5 % of the draws, where p is in nearly half of them.
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  constexpr int n_draws = 400;
+  int alarms = 0, alarms_eff = 0;
+  for (int draw = 0; draw < n_draws; ++draw) {
+    Repeats repeats{{"a", "b", "c"}, {{"area", "m2"}}, {}};
+    for (int rag = 0; rag < 60; ++rag) {
+      const double own = std::sqrt(0.3) * normal(engine);
+      for (int pass = 0; pass < 10; ++pass) repeats.rows.push_back({rag / 20, rag % 20, {own + std::sqrt(0.7) * normal(engine)}});
+    }
+    const GroupComparison found = compare_groups(repeats, "draw").at(0);
+    alarms += found.by_count.p < 0.05, alarms_eff += found.by_independent->p < 0.05;
+  }
+  EXPECT_GT(alarms, 0.35 * n_draws);
+  EXPECT_GE(alarms_eff, 0.02 * n_draws);
+  EXPECT_LE(alarms_eff, 0.09 * n_draws);
+}
+
 TEST(Repeats, Refused) {
   // Requirement: one message that names what is wrong and where.
   const auto refused = [](const std::string& text, const std::string& message) {
