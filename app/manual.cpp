@@ -6,6 +6,7 @@
 #include "app/study.hpp"
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
+#include "observe/camera.hpp"
 
 namespace snag {
 
@@ -61,6 +62,13 @@ std::string case_file_manual() {
       "# The study file\n\n"
       "A file of its own for `snag study`: a case, what varies, what is kept of each run.\n\n";
   for (const Section& section : study_sections()) text += section_text(section);
+  text +=
+      "# The camera file\n\n"
+      "A file of its own for `snag observe --camera`: how pixels and metres belong together, what counts as cloth, where the pump is.\n\n";
+  Camera camera;
+  for (const Section& section : camera.sections()) text += section_text(section);
+  VoluteView volute;
+  text += section_text(volute.section());
   return text;
 }
 

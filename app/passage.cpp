@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dem/tile_particles.hpp"
 
@@ -72,13 +71,10 @@ void Passage::look_at(const Vec3& x, std::int64_t* counts) const {
     if (is_beyond(x, openings_, false)) ++counts[upstream];
     return;
   }
-  if (geometry_->is_upstream(x)) ++counts[upstream];
-  if (geometry_->is_out(x)) ++counts[out];
-  if (geometry_->radius(x) > geometry_->impeller_radius()) ++counts[outside_impeller];
-  const bool is_in_discharge = geometry_->is_in_discharge(x);
-  if (is_in_discharge) ++counts[discharge];
-  const double past = geometry_->sense() * geometry_->angle(x);
-  if (past > 0 && past < std::numbers::pi / 2) ++counts[is_in_discharge ? past_outside : past_inside];
+  const PlaceInPump place = geometry_->place_of(x);
+  counts[upstream] += place.upstream, counts[out] += place.out, counts[discharge] += place.in_discharge;
+  counts[outside_impeller] += place.outside_impeller;
+  if (place.just_past_tongue) ++counts[place.in_discharge ? past_outside : past_inside];
 }
 
 void Passage::observe(RagSystem& rags, double time, double step) {

@@ -84,6 +84,15 @@ bool PassageGeometry::is_in_discharge(const Vec3& x) const {
   return is_out(x) || (dot(past, outlet_.normal) > 0 && dot(past, away_from_shaft_) >= 0);
 }
 
+PlaceInPump PassageGeometry::place_of(const Vec3& x) const {
+  const double past = sense_ * angle(x);
+  return {.upstream = is_upstream(x),
+          .out = is_out(x),
+          .in_discharge = is_in_discharge(x),
+          .outside_impeller = radius(x) > impeller_radius_,
+          .just_past_tongue = past > 0 && past < std::numbers::pi / 2};
+}
+
 double PassageGeometry::angle(const Vec3& x) const {
   const Vec3 arm = x - origin_;
   const double a = std::atan2(dot(arm, second_), dot(arm, first_));

@@ -29,6 +29,12 @@ struct PassageSettings {
   Section section();
 };
 
+/// What a point counts for when a rag's way is told (app/rag_journey.hpp).
+struct PlaceInPump {
+  bool upstream = false, out = false, in_discharge = false, outside_impeller = false;
+  bool just_past_tongue = false;  // within a quarter turn past its angle in the sense of rotation
+};
+
 class PassageGeometry {
  public:
   /// `axis` and `origin` (m) of the shaft, `speed` of it (right-handed about the axis; the sign counts). `where` stands in messages. Throws
@@ -38,13 +44,13 @@ class PassageGeometry {
   bool is_upstream(const Vec3& x) const { return inlet_.beyond(x) > 0; }
   bool is_out(const Vec3& x) const { return outlet_.beyond(x) > 0; }
   bool is_in_discharge(const Vec3& x) const;
+  PlaceInPump place_of(const Vec3& x) const;
   /// rad, in (-pi, pi].
   double angle(const Vec3& x) const;
   /// Distance from the axis, m.
   double radius(const Vec3& x) const;
   /// Along the axis from its origin, towards the inlet, m.
   double height(const Vec3& x) const { return dot(x - origin_, up_); }
-  double impeller_radius() const { return impeller_radius_; }
   /// +1 where the impeller turns towards larger angles, -1 towards smaller ones.
   int sense() const { return sense_; }
 

@@ -52,9 +52,7 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
   if (seen.tension > max_tension_)
     max_tension_ = seen.tension, max_tension_time_ = time, max_tension_angle_ = seen.tension_angle, max_tension_place_ = seen.tension_place;
   if (sense_ == 0 || wholly_in_ < 0 || has_exited() || 2 * seen.n_in_discharge > seen.n) return;
-  const double turned = (angle_ / two_pi - std::floor(angle_ / two_pi)) * n_bins;
-  const int bin = std::min(static_cast<int>(turned), n_bins - 1);
-  bin_time_[bin] += step, bin_radius_[bin] += step * seen.radius;
+  volute_.add(angle_, seen.radius, step);
 }
 
 void RagJourney::enter(const RagSighting& seen, double time) {
@@ -120,10 +118,7 @@ RagVerdict RagJourney::verdict() const {
   v.stuck_on_tongue = contact_[tongue].stuck_time(), v.stuck_on_impeller = contact_[impeller].stuck_time();
   v.tongue_contact = contact_[tongue].contact;
   if (max_tension_time_ >= 0) v.max_tension_angle = degrees * max_tension_angle_;
-  for (int bin = 0; bin < n_bins; ++bin) {
-    v.volute.push_back({(bin + 0.5) * 360 / n_bins, bin_time_[bin], {}});
-    if (bin_time_[bin] > 0) v.volute.back().mean_radius = bin_radius_[bin] / bin_time_[bin];
-  }
+  v.volute = volute_;
   return v;
 }
 
@@ -135,8 +130,8 @@ void RagJourney::for_numbers(Self& self, const Visit& visit) {
   visit(self.n_recirculations_), visit(self.entered_), visit(self.wholly_in_), visit(self.reached_outlet_), visit(self.exited_);
   for (auto& c : self.contact_) visit(c.begin), visit(c.last), visit(c.is_stuck), visit(c.stuck), visit(c.contact);
   visit(self.wall_contact_);
-  for (auto& time : self.bin_time_) visit(time);
-  for (auto& radius : self.bin_radius_) visit(radius);
+  for (auto& time : self.volute_.time) visit(time);
+  for (auto& radius_time : self.volute_.radius_time) visit(radius_time);
   visit(self.max_tension_), visit(self.max_tension_time_), visit(self.max_tension_angle_);
   for (int c = 0; c < 3; ++c) visit(self.max_tension_place_[c]);
 }

@@ -23,6 +23,7 @@
 
 #include "base/vec3.hpp"
 #include "dem/contacts/contact_solver.hpp"
+#include "observe/volute_histogram.hpp"
 
 namespace snag {
 
@@ -50,11 +51,7 @@ struct RagVerdict {
   std::optional<double> stuck_on_tongue, stuck_on_impeller;          // s, of all episodes of more than 1 s
   double wall_contact = 0, impeller_contact = 0, other_contact = 0;  // s
   std::optional<double> tongue_contact;                              // s
-  struct VoluteBin {
-    double angle = 0, time = 0;  // middle, deg; s
-    std::optional<double> mean_radius;
-  };
-  std::vector<VoluteBin> volute;  // of the centroid from wholly in the casing until it has passed the tongue outwards
+  std::optional<VoluteStay> volute;  // of the centroid from wholly in the casing until it has passed the tongue outwards
   double max_tension = 0;
   std::optional<double> max_tension_time, max_tension_angle;  // s, deg
   Vec3 max_tension_place;                                     // m
@@ -98,7 +95,6 @@ class RagJourney {
     double stuck_time() const { return stuck + (is_stuck ? last - begin : 0); }
     bool is_stuck_at(double time) const;
   };
-  static constexpr int n_bins = 18;
   enum { impeller, tongue, other };  // as WallPlace
 
   void note(Event what, double time) { log_.push_back({time, angle_, what}); }
@@ -117,8 +113,8 @@ class RagJourney {
   std::int64_t n_recirculations_ = 0;
   double entered_ = -1, wholly_in_ = -1, reached_outlet_ = -1, exited_ = -1;  // s, -1: not yet
   std::array<Contact, n_wall_places> contact_;
-  double wall_contact_ = 0;                               // s
-  std::array<double, n_bins> bin_time_{}, bin_radius_{};  // s, m s
+  double wall_contact_ = 0;  // s
+  VoluteStay volute_;
   double max_tension_ = 0, max_tension_time_ = -1, max_tension_angle_ = 0;
   Vec3 max_tension_place_;
 };

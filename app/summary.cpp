@@ -32,8 +32,12 @@ nlohmann::ordered_json events_json(const RagVerdict& rag) {
 
 nlohmann::ordered_json volute_json(const RagVerdict& rag) {
   nlohmann::ordered_json bins = nlohmann::ordered_json::array();
-  for (const auto& bin : rag.volute)
-    bins.push_back({{"angle_deg", bin.angle}, {"time_s", bin.time}, {"mean_radius_m", or_null(bin.mean_radius)}});
+  for (int bin = 0; rag.volute && bin < n_volute_bins; ++bin) {
+    const double time = rag.volute->time[bin];
+    nlohmann::ordered_json radius;
+    if (time > 0) radius = rag.volute->radius_time[bin] / time;
+    bins.push_back({{"angle_deg", (bin + 0.5) * 360 / n_volute_bins}, {"time_s", time}, {"mean_radius_m", radius}});
+  }
   return bins;
 }
 

@@ -60,14 +60,6 @@ double area_metric(std::span<const double> a, std::span<const double> b);
 /// Which hypotheses are rejected at this false discovery rate.
 std::vector<bool> benjamini_hochberg(std::span<const double> p, double rate = 0.05);
 
-/// One-way analysis of variance from means, standard deviations and counts of the groups.
-struct Anova {
-  double F = 0, p = 1;
-};
-Anova anova(std::span<const double> means, std::span<const double> deviations, std::span<const double> counts);
-/// The share of each count that must be independent for the analysis to give this p.
-double independent_share(std::span<const double> means, std::span<const double> deviations, std::span<const double> counts, double p);
-
 /// n log(RSS/n) + k log n of a least-squares fit: of a line in x, and of a step between two sets (below: those in the first set).
 double bic_of_line(std::span<const double> x, std::span<const double> y);
 double bic_of_step(const std::vector<bool>& first, std::span<const double> y);

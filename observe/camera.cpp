@@ -33,6 +33,7 @@ std::vector<Section> Camera::sections() {
             number("right", &right, "1", -infinity, "Direction to the right in the picture."),
             number("up", &up, "1", -infinity, "Direction up in the picture; the camera stands on the side of right x up."),
             number("distance", &distance, "m", 0, "Of the camera from the object plane; 0: parallel projection."),
+            number("interval", &interval, "s", 0, "Time between two pictures that were taken; not given: times are numbers of pictures."),
             number("blur", &blur, "1", 0, "Virtual camera: standard deviation of its blur, pixels."),
             number("noise", &noise, "1", 0, "Virtual camera: standard deviation of its noise, grey levels of 255."),
             number("background_level", &background_level, "1", 0, "Virtual camera: grey level without cloth."),
@@ -60,6 +61,11 @@ Camera read_camera(const std::filesystem::path& path) {
   const CaseFile file = CaseFile::read(path);
   Camera camera;
   for (const Section& section : camera.sections()) file.root().table(section.name).read(section.parameters);
+  if (file.root().has("volute")) {
+    camera.volute.emplace();
+    file.root().table("volute").read(camera.volute->section().parameters);
+    check_volute_view(*camera.volute, file.root().table("volute").where());
+  }
   file.reject_unread();
   check_camera(camera, file.root().table("camera").where());
   if (!camera.background.empty()) camera.background = file.path(camera.background).string();

@@ -5,10 +5,12 @@
 //   in metres in the object plane through `centre`; D the distance of the camera from that plane (infinite: parallel projection).
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/parameter.hpp"
+#include "observe/volute_view.hpp"
 
 namespace snag {
 
@@ -17,6 +19,7 @@ struct Camera {
   double pixel = 0;                       // side of a pixel in the object plane, m
   Vec3 centre, right{1, 0, 0}, up{0, 1, 0};
   double distance = 0;                              // D, m; 0: parallel
+  double interval = 0;                              // between pictures that were taken, s; 0: not told
   double blur = 0, noise = 0;                       // virtual: standard deviations, pixels and grey levels
   double background_level = 200, cloth_level = 60;  // virtual
 
@@ -26,6 +29,8 @@ struct Camera {
   double minimum_pixels = 0;  // smaller blobs are dropped
   bool fill_holes = true;
   std::string background;  // picture, beside the camera file; empty: mean of all pictures
+
+  std::optional<VoluteView> volute;  // where the pump is in the picture
 
   int width() const { return static_cast<int>(pixels[0]); }
   int height() const { return static_cast<int>(pixels[1]); }
@@ -37,7 +42,7 @@ struct Camera {
   std::vector<Section> sections();
 };
 
-/// Reads [camera] and [cloth] of a camera file. Throws Error(usage, io).
+/// Reads [camera], [cloth] and [volute] of a camera file. Throws Error(usage, io).
 Camera read_camera(const std::filesystem::path& file);
 /// Makes the directions unit vectors at right angles; throws Error(usage) naming `where` on what cannot be a camera.
 void check_camera(Camera& camera, const std::string& where);

@@ -44,18 +44,28 @@ void CoverageMap::add(const Blob& blob) {
   for_pixels(blob, camera_, [&](int column, int row) { ++count_[static_cast<std::size_t>(row) * camera_.width() + column]; });
 }
 
+void CoverageMap::add(const CoverageMap& other) {
+  n_ += other.n_;
+  for (std::size_t k = 0; k < count_.size(); ++k) count_[k] += other.count_[k];
+}
+
 double CoverageMap::share(int column, int row) const {
   return n_ == 0 ? 0 : static_cast<double>(count_[static_cast<std::size_t>(row) * camera_.width() + column]) / n_;
 }
 
 void CoverageMap::write_picture(const std::filesystem::path& file) const {
-  cv::Mat levels(camera_.height(), camera_.width(), CV_8UC1), colours;
-  for (int row = 0; row < levels.rows; ++row)
-    for (int column = 0; column < levels.cols; ++column)
-      levels.at<std::uint8_t>(row, column) = static_cast<std::uint8_t>(std::lround(255 * share(column, row)));
+  std::vector<double> shares;
+  for (int row = 0; row < camera_.height(); ++row)
+    for (int column = 0; column < camera_.width(); ++column) shares.push_back(share(column, row));
+  write_shares(file, camera_.width(), camera_.height(), shares);
+}
+
+void write_shares(const std::filesystem::path& file, int width, int height, const std::vector<double>& shares) {
+  cv::Mat levels(height, width, CV_8UC1), colours;
+  for (std::size_t k = 0; k < shares.size(); ++k) levels.data[k] = static_cast<std::uint8_t>(std::lround(255 * shares[k]));
   cv::applyColorMap(levels, colours, cv::COLORMAP_VIRIDIS);
-  for (const double percent : {10, 30, 50, 70, 90}) {
-    const cv::Mat above = levels >= 2.55 * percent;
+  for (const double share : contour_shares) {
+    const cv::Mat above = levels >= 255 * share;
     cv::drawContours(colours, outlines_of(above), -1, {255, 255, 255}, 1);
   }
   write(file, colours);
