@@ -19,13 +19,14 @@ LinePlot plot_over_angle(const std::string& title, const std::string& y_label) {
   return plot;
 }
 
-/// Bars without sides: the share holds from the begin of a bin to its end.
+/// The outline of bars, from zero: the share holds from the begin of a bin to its end.
 LinePlot share_plot(const std::vector<NamedVolute>& volutes) {
   LinePlot plot = plot_over_angle("Where rags stay", "share of time [%]");
   for (const auto& [name, histogram] : volutes) {
-    PlotLine line{name, {}, {}};
+    PlotLine line{name, {0}, {0}};
     for (int bin = 0; bin < n_volute_bins; ++bin)
       for (const int end : {bin, bin + 1}) line.x.push_back(end * bin_width), line.y.push_back(100 * histogram.share(bin));
+    line.x.push_back(n_volute_bins * bin_width), line.y.push_back(0);
     plot.lines.push_back(line);
   }
   return plot;
