@@ -57,7 +57,7 @@ Passage::Passage(MPI_Comm comm, std::vector<Opening> openings, std::optional<Pas
     : comm_(comm),
       openings_(std::move(openings)),
       geometry_(std::move(geometry)),
-      journeys_(n_rags, RagJourney(geometry_ ? geometry_->sense() : 0)),
+      journeys_(n_rags, geometry_ ? RagJourney(geometry_->sense(), geometry_->speed()) : RagJourney(0)),
       sightings_(n_rags),
       states_(n_rags),
       n_out_(n_rags),

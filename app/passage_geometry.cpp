@@ -74,7 +74,7 @@ PassageGeometry::PassageGeometry(const PassageSettings& s, const Vec3& origin, c
                                      " lies on the axis of [rotating_zone], where no angle begins; "
                                      "give the middle of its nose");
   first_ = unit(arm), second_ = cross(up_, first_);
-  sense_ = speed * dot(axis, up_) < 0 ? -1 : 1;
+  speed_ = speed * dot(axis, up_);
   const Vec3 side = across(arm, out);
   away_from_shaft_ = norm(side) > least_part * norm(arm) ? unit(side) : Vec3{};  // an outlet along the radius: the plane alone decides
 }
@@ -85,7 +85,7 @@ bool PassageGeometry::is_in_discharge(const Vec3& x) const {
 }
 
 PlaceInPump PassageGeometry::place_of(const Vec3& x) const {
-  const double past = sense_ * angle(x);
+  const double past = sense() * angle(x);
   return {.upstream = is_upstream(x),
           .out = is_out(x),
           .in_discharge = is_in_discharge(x),

@@ -52,7 +52,9 @@ class PassageGeometry {
   /// Along the axis from its origin, towards the inlet, m.
   double height(const Vec3& x) const { return dot(x - origin_, up_); }
   /// +1 where the impeller turns towards larger angles, -1 towards smaller ones.
-  int sense() const { return sense_; }
+  int sense() const { return speed_ < 0 ? -1 : 1; }
+  /// Of the impeller, towards larger angles, rad/s.
+  double speed() const { return speed_; }
 
   /// The nose of the tongue: a line along the axis.
   const Vec3& tongue() const { return tongue_; }
@@ -63,8 +65,7 @@ class PassageGeometry {
   Vec3 origin_, up_, first_, second_;  // unit: along the shaft towards the inlet; to the tongue; a quarter turn further
   Opening inlet_, outlet_;
   Vec3 tongue_, away_from_shaft_;  // unit, across the discharge
-  double tongue_reach_, impeller_radius_;
-  int sense_;
+  double tongue_reach_, impeller_radius_, speed_;
 };
 
 /// The table [passage], none if the case has none; `zone` may be null. Throws Error(usage).

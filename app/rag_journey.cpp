@@ -18,17 +18,23 @@ const char* const event_names[] = {"entered",         "wholly in the casing", "t
 
 }  // namespace
 
-bool RagJourney::Contact::add(bool touched, double time, double step) {
+bool RagJourney::Contact::add(bool touched, double time, double step, double angle) {
   if (!touched) return false;
   contact += step;
   if (last < 0 || time - step - last > longest_gap) {
     if (is_stuck) stuck += last - begin;
-    begin = time - step, is_stuck = false;
+    begin = time - step, begin_angle = angle, is_stuck = false;
   }
   last = time;
   const bool was_stuck = is_stuck;
   is_stuck = last - begin > stuck_after;
   return is_stuck && !was_stuck;
+}
+
+void RagJourney::Contact::recirculate(double time, double angle, double wall_speed) {
+  if (last < 0 || std::abs(angle - begin_angle - wall_speed * (time - begin)) < two_pi) return;
+  if (is_stuck) stuck += last - begin;
+  begin = time, begin_angle = angle, is_stuck = false;
 }
 
 bool RagJourney::Contact::is_stuck_at(double time) const { return is_stuck && time - last <= longest_gap; }
@@ -45,7 +51,7 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
 
   if (std::any_of(seen.touched.begin(), seen.touched.end(), [](bool touched) { return touched; })) wall_contact_ += step;
   for (const int place : {impeller, tongue, other}) {
-    const bool is_new = contact_[place].add(seen.touched[place], time, step);
+    const bool is_new = contact_[place].add(seen.touched[place], time, step, angle_);
     if (!is_new || sense_ == 0 || was_out || place == other) continue;
     note(place == tongue ? stuck_on_tongue : stuck_on_impeller, time);
   }
@@ -83,6 +89,7 @@ void RagJourney::pass_tongue(const RagSighting& seen, double before, double time
   } else if (is_passing_ && past > passed_beyond && seen.n_past_inside >= seen.n_past_outside) {
     ++n_recirculations_, is_past_tongue_ = is_passing_ = false;
     note(recirculated, time);
+    contact_[impeller].recirculate(time, angle_, impeller_speed_), contact_[tongue].recirculate(time, angle_, 0);
   }
 }
 
@@ -128,7 +135,7 @@ void RagJourney::for_numbers(Self& self, const Visit& visit) {
   visit(self.time_), visit(self.angle_), visit(self.is_seen_), visit(self.is_armed_), visit(self.is_passing_), visit(self.is_past_tongue_),
       visit(self.is_upstream_);
   visit(self.n_recirculations_), visit(self.entered_), visit(self.wholly_in_), visit(self.reached_outlet_), visit(self.exited_);
-  for (auto& c : self.contact_) visit(c.begin), visit(c.last), visit(c.is_stuck), visit(c.stuck), visit(c.contact);
+  for (auto& c : self.contact_) visit(c.begin), visit(c.last), visit(c.begin_angle), visit(c.is_stuck), visit(c.stuck), visit(c.contact);
   visit(self.wall_contact_);
   for (auto& time : self.volute_.time) visit(time);
   for (auto& radius_time : self.volute_.radius_time) visit(radius_time);

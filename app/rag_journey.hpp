@@ -10,7 +10,9 @@
 //                      then goes out did not recirculate. A pass counts once the centroid was more than a quarter turn away from the
 //                      tongue since the last one, and not if it went back in between: nor is swinging at the tongue a recirculation, or
 //                      turning in the eye of the impeller
-//   stuck on ...       it touches the tongue, or the impeller, for more than 1 s without a gap longer than 50 ms; told once each time
+//   stuck on ...       it touches the tongue, or the impeller, for more than 1 s without a gap longer than 50 ms; told once each time. Who
+//                      recirculates and has gone round past the wall since the contact began, a full turn or more, is not stuck on it:
+//                      the contact begins anew
 //   reached the outlet the first particle is out;      exited   all of them are
 //
 // Without a pump only the last two are told. Times are ends of steps; a rag touches a wall for the whole of a step in which it touches it
@@ -65,8 +67,8 @@ struct RagVerdict {
 
 class RagJourney {
  public:
-  /// `sense` of the impeller: +1 towards larger angles, -1 towards smaller; 0: no pump.
-  explicit RagJourney(int sense) : sense_(sense), is_upstream_(sense != 0) {}
+  /// `sense` of the impeller: +1 towards larger angles, -1 towards smaller; 0: no pump. `impeller_speed` with that sign, rad/s.
+  explicit RagJourney(int sense, double impeller_speed = 0) : sense_(sense), impeller_speed_(impeller_speed), is_upstream_(sense != 0) {}
 
   /// The step of length `step` (s) that ended at `time`.
   void add(const RagSighting& seen, double time, double step);
@@ -88,10 +90,13 @@ class RagJourney {
   /// Contact with walls of one place, in episodes.
   struct Contact {
     double begin = -1, last = -1;   // of the episode, s; -1: none yet
+    double begin_angle = 0;         // of the centroid, rad
     bool is_stuck = false;          // it has lasted for more than 1 s
     double stuck = 0, contact = 0;  // s: ended episodes of more than 1 s; all steps with contact
     /// True if the episode has just become one of being stuck.
-    bool add(bool touched, double time, double step);
+    bool add(bool touched, double time, double step, double angle);
+    /// It recirculated, past a wall that turns with this speed (rad/s): the episode begins anew if it has gone round past it.
+    void recirculate(double time, double angle, double wall_speed);
     double stuck_time() const { return stuck + (is_stuck ? last - begin : 0); }
     bool is_stuck_at(double time) const;
   };
@@ -106,6 +111,7 @@ class RagJourney {
   static void for_numbers(Self& self, const Visit& visit);
 
   int sense_;
+  double impeller_speed_;  // rad/s
   std::vector<Entry> log_;
   double time_ = 0;
   double angle_ = 0;  // unwrapped, rad

@@ -239,6 +239,25 @@ TEST(Passage, StuckOnTheImpeller) {
   EXPECT_EQ(rag.verdict().tongue_contact.value(), 0);
 }
 
+/// Led round the volute on a floor that turns as the impeller, `turns` in the time, counter-clockwise.
+RagVerdict led_round(double turns, double seconds) {
+  Led rag(geometry(), {}, true);
+  const auto on_it = [](double degrees) { return at(degrees, in_gap, -0.05 + half_length + 0.9e-3); };
+  rag.look(on_it(180));
+  rag.follow(seconds, [&](double s) { return on_it(180 + 360 * turns * s); });
+  EXPECT_NEAR(rag.verdict().impeller_contact, seconds, 2 * step);
+  return rag.verdict();
+}
+
+TEST(Passage, GoingRoundIsNotStuck) {
+  const RagVerdict slow = led_round(7, 1.4), with_the_impeller = led_round(1.4 * 125 / (2 * std::numbers::pi), 1.4);
+  EXPECT_EQ(slow.outcome, "recirculating");
+  EXPECT_EQ(slow.recirculations.value(), 7);
+  EXPECT_EQ(slow.stuck_on_impeller.value(), 0);
+  EXPECT_EQ(with_the_impeller.outcome, "stuck_on_impeller");
+  EXPECT_NEAR(with_the_impeller.stuck_on_impeller.value(), 1.4, 2 * step);
+}
+
 TEST(Passage, NeverEntered) {
   Led rag;
   rag.look(at(180, 0.03, 0.2));
