@@ -19,7 +19,7 @@ namespace snag {
 
 struct ContinuitySettings {
   int n_non_orthogonal = 1;
-  double tolerance = 1e-6, tolerance_intermediate = 1e-2;
+  double tolerance = 1e-6, tolerance_intermediate = 1e-1;
   std::string multigrid = "boomeramg";
 };
 

@@ -17,7 +17,7 @@ struct FlowSettings {
   int n_non_orthogonal = 1;
   double momentum_tolerance = 1e-8;
   double pressure_tolerance = 1e-6;
-  double pressure_tolerance_intermediate = 1e-2;
+  double pressure_tolerance_intermediate = 1e-1;
   std::string multigrid = "boomeramg";
   Vec3 initial_velocity;  // m/s
   Vec3 body_force;        // N/m3

@@ -5,7 +5,7 @@
 //   sum_f k_f (x_P - x_N) + sum_b k_b x_P = b_P
 //
 // The operator is applied face by face, so that it follows a turning mesh at no cost; a matrix is assembled for the set-up of the
-// preconditioner only, which is repeated when iterations grow beyond 1.4 times those of a fresh one.
+// preconditioner only, which is repeated when iterations grow beyond 1.8 times those of a fresh one.
 #include <memory>
 #include <span>
 #include <string>

@@ -49,7 +49,6 @@ std::string case_text(const std::filesystem::path& mesh, const std::string& moti
 outer_correctors = 2
 n_non_orthogonal = 1
 momentum_tolerance = 3e-6
-pressure_tolerance_intermediate = 0.05
 pressure_tolerance = 1e-3
 [turbulence]
 model = "k_epsilon"
