@@ -118,7 +118,7 @@ Response beside(const Response& mixture, const Response& lead, Response moved) {
 
 std::vector<RunRequest> Responses::requests_of(const Request& request) const {
   RunRequest run;
-  run.point = request.point, run.step_factor = request.step_factor;
+  run.point = request.point, run.step_factor = request.step_factor, run.restart = request.state.restart;
   for (std::size_t e = 0; e < request.state.effects.size(); ++e) {
     const auto& [k, theta] = request.state.effects[e];
     if (theta == 0) continue;

@@ -16,6 +16,7 @@ struct State {
   Eigen::VectorXd nuisances;                      // in standard uncertainties, by index of Nuisances
   std::vector<int> forms{};                       // that leads, by effect; what is not there: the first
   Eigen::VectorXd shares{};                       // of the other forms, in standard deviations, see other_forms(); what is not there: 0
+  std::optional<Restart> restart{};
   int form(std::size_t effect) const { return effect < forms.size() ? forms[effect] : 0; }
 };
 
@@ -74,6 +75,7 @@ class Responses {
   int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
   State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }
   bool acts_at(int nuisance, int point) const;
+  bool restarts(int point) const { return simulator_.restarts(point); }
 
   struct Request {
     State state;

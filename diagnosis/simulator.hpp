@@ -1,9 +1,11 @@
 #pragma once
 // What the diagnosis sees of the physics: named effects, each one number, and runs that answer with the observables. The solver behind it
 // is not seen (app/ implements it; tests use formulas).
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,6 +40,12 @@ struct Slot {
   double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN: a scalar of the run
 };
 
+/// A run goes on from a measured state: at this time its pieces are moved, each as it lies, and made faster.
+struct Restart {
+  double time = 0;                               // s
+  std::array<double, 3> position{}, velocity{};  // changes of both, m, m/s
+};
+
 /// One run of the model of an operating point.
 struct RunRequest {
   int point = 0;
@@ -46,6 +54,7 @@ struct RunRequest {
   std::uint64_t seed = 0;                   // of random effects and of the initial pose
   double step_factor = 1;                   // time step over that of the case, for u_num
   std::map<std::string, int> forms{};       // of the effects, by name; absent: the first
+  std::optional<Restart> restart{};
 };
 
 struct RunResult {
@@ -64,6 +73,8 @@ class Simulator {
   virtual const std::vector<Slot>& slots(int point) const = 0;
   /// Time at which the runs of a point end, s; NaN: not known.
   virtual double run_end(int) const { return std::numeric_limits<double>::quiet_NaN(); }
+  /// Whether runs of a point can go on from a measured state.
+  virtual bool restarts(int) const { return false; }
   /// Runs all of them, in parallel where it can; equal requests are run once and kept.
   virtual std::vector<RunResult> run(std::span<const RunRequest> requests) = 0;
   /// Runs done so far, without those that were kept.

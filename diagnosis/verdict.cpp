@@ -37,6 +37,8 @@ Json cell(const GapCell& c) {
   json["u_input"] = number(c.u_input);
   json["u_D"] = number(c.u_D);
   json["u_S"] = number(c.u_S);
+  json["restart_z"] = number(c.restart_z);
+  json["origin"] = c.origin;
   return json;
 }
 

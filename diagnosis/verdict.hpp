@@ -2,6 +2,7 @@
 // What a diagnosis says: where the gap lies, which effect causes it, how far it shrinks; and verdict.json.
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct GapCell {
   double p = 1;                            // two-sided
   std::string test = "z";                  // z | binomial | negative_binomial | log_rank | energy_distance
   bool withheld = false, significant = false, onset = false, blind = false;
+  double restart_z =
+      std::numeric_limits<double>::quiet_NaN();  // z of a run that goes on from the measured state at the begin of the window
+  std::string origin{};                          // born | inherited | undecided: by restart_z; empty: not judged
 };
 
 /// Simulation and data of one observable at one operating point over time, SI, each value a mean over a bin of time.

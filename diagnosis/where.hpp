@@ -1,5 +1,5 @@
 #pragma once
-// Where the gap lies: cells (observable, third of the time, operating point) of E = S - D of the base model against
+// Where the gap lies: cells (observable, quarter of the time, operating point) of E = S - D of the base model against
 //
 //   u_val^2 = u_num^2 + u_input^2 + u_D^2 + scatter_S/N_S                                              [ASME V&V 20]
 //

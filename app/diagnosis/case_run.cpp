@@ -139,14 +139,14 @@ double seen_between(What w, const Instant& a, const Instant& b, double s) {
 }
 
 /// What is asked, in the order of time; numbers of the whole run last.
-struct Slot {
+struct Question {
   double time;
   What what;
   std::size_t place;
 };
 
-std::vector<Slot> slots_of(const std::vector<Asked>& asked, bool has_window) {
-  std::vector<Slot> slots;
+std::vector<Question> slots_of(const std::vector<Asked>& asked, bool has_window) {
+  std::vector<Question> slots;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const What w = what_of(asked[i].observable);
     const bool timed = !std::isnan(asked[i].time);
@@ -157,7 +157,7 @@ std::vector<Slot> slots_of(const std::vector<Asked>& asked, bool has_window) {
                              : "without a time, but changes in time; give t_s, or a window of the camera in [observe] of the case"));
     slots.push_back({timed ? asked[i].time : infinity, w, i});
   }
-  std::stable_sort(slots.begin(), slots.end(), [](const Slot& a, const Slot& b) { return a.time < b.time; });
+  std::stable_sort(slots.begin(), slots.end(), [](const Question& a, const Question& b) { return a.time < b.time; });
   return slots;
 }
 
@@ -183,10 +183,10 @@ class WindowMean {
 /// Answers as the run goes by.
 class Observer {
  public:
-  Observer(const RagSystem& rags, const ObserveSettings& settings, std::vector<Slot> slots, double end, double dt)
+  Observer(const RagSystem& rags, const ObserveSettings& settings, std::vector<Question> slots, double end, double dt)
       : rags_(rags), settings_(settings), view_(settings.view()), journey_(settings, view_, end), slots_(std::move(slots)), dt_(dt) {
     values_.resize(slots_.size(), std::numeric_limits<double>::quiet_NaN());
-    for (const Slot& slot : slots_) {
+    for (const Question& slot : slots_) {
       if (of_picture(slot.what)) picture_times_.push_back(slot.time);
       if (of_whole_run(slot.what))
         whole_run_ = true;
@@ -203,7 +203,7 @@ class Observer {
       for (const What w : in_window_) window_.add(w, now);
     const double tolerance = 1e-9 * dt_;
     for (; next_ < slots_.size() && slots_[next_].time <= time + tolerance; ++next_) {
-      const Slot& slot = slots_[next_];
+      const Question& slot = slots_[next_];
       const bool here = std::abs(slot.time - time) <= tolerance;
       const double share = here ? 1 : (slot.time - before_.time) / (time - before_.time);
       values_[slot.place] = seen_between(slot.what, here ? now : before_, now, share);
@@ -213,7 +213,7 @@ class Observer {
   }
   std::vector<double> values() {
     const double size = 2 * rags_.rags().front().radius;
-    for (const Slot& slot : slots_)
+    for (const Question& slot : slots_)
       if (std::isinf(slot.time)) values_[slot.place] = of_whole_run(slot.what) ? journey_.told(slot.what, size) : window_.mean(slot.what);
     return values_;
   }
@@ -230,7 +230,7 @@ class Observer {
   View view_;
   Journey journey_;
   WindowMean window_;
-  std::vector<Slot> slots_;
+  std::vector<Question> slots_;
   std::vector<What> in_window_;  // asked as means over the window
   std::vector<double> values_, picture_times_;
   std::size_t next_ = 0;
@@ -244,9 +244,9 @@ std::int64_t n_steps_of(const TimeSettings& time, double step_factor) {
   return std::max<std::int64_t>(1, std::llround(static_cast<double>(time.n_steps()) / step_factor));
 }
 
-double last_time(const std::vector<Slot>& slots, double end) {
+double last_time(const std::vector<Question>& slots, double end) {
   double last = 0;
-  for (const Slot& slot : slots) {
+  for (const Question& slot : slots) {
     if (std::isinf(slot.time)) return end;
     if (slot.time <= end * (1 + 1e-9)) last = slot.time;
   }
@@ -273,15 +273,27 @@ void kick(RagSystem& rags, const OutsideForce& outside, double time, double dt) 
   }
 }
 
+/// `time`: at which the rags are, at most a step before that of the restart.
+void move(RagSystem& rags, const Restart& restart, double time) {
+  const auto &by = restart.position, &faster = restart.velocity;
+  const Vec3 dv{faster[0], faster[1], faster[2]}, dx = Vec3{by[0], by[1], by[2]} - (restart.time - time) * dv;
+  for (Tile& tile : rags.tiles()) {
+    for_particles(tile, [&](int k, int, int) {
+      tile.set_vector(Tile::x, k, tile.vector(Tile::x, k) + dx);
+      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dv);
+    });
+  }
+}
+
 }  // namespace
 
 bool is_observable_of_particles(const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
 std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside,
-                            WaterStore* store) {
+                            WaterStore* store, const std::optional<Restart>& restart) {
   const log::Silence silence;
   Simulation run(file, MPI_COMM_SELF, {}, store);
-  std::vector<Slot> slots = slots_of(asked, run.observe_settings.has_window());
+  std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());
   if (!run.rags || (run.mesh && !run.frozen()))
     throw Error(ExitCode::usage,
                 file.root().where() + ": must be a case of particles without a mesh or in frozen water, to be run in a moment");
@@ -292,6 +304,11 @@ std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& aske
   const double dt = run.time_settings.step = end / static_cast<double>(n_steps);
   const double last = last_time(slots, end);
   Observer observer(*run.rags, run.observe_settings, std::move(slots), end, dt);
+  const std::int64_t restart_step = restart ? static_cast<std::int64_t>(restart->time / dt + 1e-9) : -1;
+  const auto restart_at = [&](std::int64_t n) {
+    if (n == restart_step) move(*run.rags, *restart, static_cast<double>(n) * dt);
+  };
+  restart_at(0);
   observer.look(0);
   for (std::int64_t n = 0; n < n_steps && static_cast<double>(n) * dt < last * (1 - 1e-9); ++n) {
     // Without a mesh there are no openings to leave by, and nothing to be told of the way.
@@ -301,6 +318,7 @@ std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& aske
       run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
     if (outside) kick(*run.rags, outside, (static_cast<double>(n) + 0.5) * dt, dt);
     if (run.mesh && run.passage->all_exited()) break;
+    restart_at(n + 1);
     observer.look(static_cast<double>(n + 1) * dt);
   }
   return observer.values();

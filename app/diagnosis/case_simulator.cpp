@@ -73,14 +73,22 @@ std::string program_fingerprint(MPI_Comm comm) {
   return known = own;
 }
 
+std::string text_of(const std::string& name, double value) {
+  char digits[32];
+  return name + "=" + std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr) + ";";
+}
+
 std::string text_of(const std::map<std::string, double>& values) {
   std::string text;
-  char digits[32];
-  for (const auto& [name, value] : values) {
-    if (value == 0) continue;
-    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    text += name + "=" + std::string(digits, end) + ";";
-  }
+  for (const auto& [name, value] : values)
+    if (value != 0) text += text_of(name, value);
+  return text;
+}
+
+std::string text_of(const Restart& restart) {
+  std::string text = text_of("restart", restart.time);
+  for (const double value : restart.position) text += text_of("x", value);
+  for (const double value : restart.velocity) text += text_of("v", value);
   return text;
 }
 
@@ -144,6 +152,7 @@ CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
   std::sort(change.overrides.begin(), change.overrides.end());
   std::string settings = text_of({{"step", request.step_factor}});
   for (const std::string& value : change.overrides) settings += value + ";";
+  if (request.restart) settings += text_of(*request.restart);
   return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change)};
 }
 
@@ -151,7 +160,8 @@ RunResult CaseSimulator::done(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   RunResult result;
   try {
-    result.values = run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor, {}, &store_);
+    result.values =
+        run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor, {}, &store_, job.request->restart);
   } catch (const std::exception& failure) {
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
     result.failure = failure.what();

@@ -29,6 +29,7 @@ class CaseSimulator final : public Simulator {
   const std::vector<Slot>& slots(int point) const override { return points_[static_cast<std::size_t>(point)].slots; }
   std::vector<RunResult> run(std::span<const RunRequest> requests) override;
   double run_end(int point) const override { return points_[static_cast<std::size_t>(point)].base.end(); }
+  bool restarts(int point) const override { return points_[static_cast<std::size_t>(point)].base.restarts(); }
   int n_runs() const override { return n_runs_; }
   int n_used() const override { return static_cast<int>(used_.size()); }
 

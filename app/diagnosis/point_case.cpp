@@ -107,7 +107,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
-  facts_ = facts_of(tree_->root, run);
+  facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
   forces_ = listed_forces(tree_->root);
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {

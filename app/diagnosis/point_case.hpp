@@ -35,6 +35,8 @@ class PointCase {
   const std::vector<std::string>& forces() const { return forces_; }
   /// The water is computed with the rags: a run of all ranks with an output folder, instead of one in memory.
   bool is_whole_run() const { return !facts_.prescribed; }
+  /// Runs can go on from a measured state: nothing hangs on the cell that holds a particle.
+  bool restarts() const { return restarts_; }
 
   /// The case of a run of this seed with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name
   /// that is neither an effect nor a key of the case.
@@ -65,7 +67,8 @@ class PointCase {
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
   BaseCase facts_;
-  bool crumpled_ = false;                                         // a piece starts crumpled, by its seed
+  bool crumpled_ = false;  // a piece starts crumpled, by its seed
+  bool restarts_ = false;
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
   Vec3 right_, up_;                                               // of the camera

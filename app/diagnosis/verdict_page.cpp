@@ -119,8 +119,9 @@ std::string map_of_gap(const Verdict& v) {
     char z[32];
     std::snprintf(z, sizeof z, std::abs(c.z) < 9.95 ? "%.1f" : "%.0f", c.z);
     cells += "<rect x=\"" + words(x) + "\" y=\"" + words(y) + "\" width=\"" + words(width - 2) + "\" height=\"" + words(height - 2) +
-             "\" fill=\"" + heat(c.z) + "\"/><text x=\"" + words(x + width / 2 - 1) + "\" y=\"" + words(y + 0.66 * height) +
-             "\" text-anchor=\"middle\"" + (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
+             "\" fill=\"" + heat(c.z) + "\"" + (c.origin == "born" ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" +
+             words(x + width / 2 - 1) + "\" y=\"" + words(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
+             (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
   }
   std::string labels;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -132,6 +133,16 @@ std::string map_of_gap(const Verdict& v) {
   const double all_width = std::max(760.0, left + width * static_cast<double>(points.size()));
   return "<svg viewBox=\"0 0 " + words(all_width) + " " + words(top + height * static_cast<double>(rows.size()) + 4) +
          "\" role=\"img\">\n" + labels + cells + "</svg>\n";
+}
+
+/// What a cell is to the others.
+std::string remark_on(const GapCell& cell) {
+  std::string remark;
+  if (cell.onset) remark += "begins here ";
+  if (!cell.origin.empty())
+    remark += (cell.origin == "born" ? "born here" : cell.origin) + std::string(" (restarted: ") + html::number(cell.restart_z) + ") ";
+  if (cell.blind && !cell.significant) remark += "blind ";
+  return remark + (cell.withheld ? "withheld" : "");
 }
 
 std::string window(const GapCell& cell) {
@@ -180,18 +191,17 @@ std::string where(const Verdict& v) {
   std::vector<std::vector<std::string>> rows, more;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const GapCell& c = *cells[i];
-    const std::string remark =
-        std::string(c.onset ? "begins here " : "") + (c.blind && !c.significant ? "blind " : "") + (c.withheld ? "withheld" : "");
     (i < shown ? rows : more)
         .push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
                     html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
-                    (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark});
+                    (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark_on(c)});
   }
   const std::vector<std::string> header{"Cell", "measured (SI)", "simulated", "u of the difference", "difference/u", ""};
   const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
   return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
          " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
-         "standard uncertainty; points beside each other.</p>\n" +
+         "standard uncertainty; points beside each other. Where a run that goes on from the measured state at the begin of a part differs "
+         "again, that part makes a gap of its own (framed: born here); where it agrees, the gap is inherited from before.</p>\n" +
          map_of_gap(v) + curves(v) + html::table(header, rows) +
          (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
 }

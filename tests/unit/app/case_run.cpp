@@ -52,6 +52,21 @@ TEST(CaseRun, OrderAndEnd) {
   EXPECT_EQ(seen[0], seen[3]);
 }
 
+/// Requirement: a run that goes on from another state is the motion from there, also where the time of that state is between two steps;
+/// what was before it is as without it.
+TEST(CaseRun, GoesOnFromAMeasuredState) {
+  const double rate = 18 * 1.0 / (1150 * 25e-6), time = 0.40002;
+  const std::vector<Asked> asked{{"z", 0.3999}, {"z", 0.4001}, {"z", 0.42}, {"x", 0.8}, {"vz", 0.401}};
+  const Restart restart{.time = time, .position = {0.01, 0, 0.02}, .velocity = {0, 0, 0.05}};
+  const auto before = run(falling_sphere, asked);
+  const auto after = run_for(CaseFile::parse(falling_sphere), asked, 1, {}, nullptr, restart);
+  EXPECT_EQ(after[0], before[0]);
+  for (const auto& [i, t] : {std::pair{1, 0.4001}, {2, 0.42}})
+    EXPECT_NEAR(after[i] - before[i], 0.02 + 0.05 * (1 - std::exp(-rate * (t - time))) / rate, 1e-6) << t;
+  EXPECT_NEAR(after[3] - before[3], 0.01, 1e-15);
+  EXPECT_NEAR(after[4] - before[4], 0.05 * std::exp(-rate * (0.401 - time)), 0.05 * rate * 1e-4);
+}
+
 /// Requirement: the picture of a stiff fibre is that of its rectangle: area, elongation, orientation in the picture's plane.
 TEST(CaseRun, PictureOfAFibre) {
   const std::string fibre = R"(

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "diagnosis/diagnose.hpp"
 #include "diagnosis/statistics.hpp"
@@ -19,6 +20,7 @@ struct Truth {
   double form = 0;                            // relative error of form of the effects, changing sign along the path
   double body = 0;                            // m/s2, periodic force that no candidate is like
   double stratification = 0;                  // drag that grows along the path
+  double gust = 0;                            // m/s2, along x and z from 0.30 s to 0.38 s
 };
 
 struct Flow {
@@ -37,7 +39,8 @@ using Theta = std::map<std::string, double>;
 
 // Positions x, z at the times; `form` and `body` only of truths.
 inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, const Theta& nuisances, const std::vector<double>& times,
-                                               double step, std::uint64_t seed, const Truth* truth = nullptr) {
+                                               double step, std::uint64_t seed, const Truth* truth = nullptr,
+                                               const std::optional<Restart>& restart = {}) {
   const auto get = [](const Theta& map, const std::string& name) {
     const auto found = map.find(name);
     return found == map.end() ? 0.0 : found->second;
@@ -54,7 +57,13 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
   double x = 0, z = 0, vx = f.mean, vz = 0, t = 0, eddy_x = 0, eddy_z = 0;
   std::size_t next = 0;
   double old_x = 0, old_z = 0;
+  bool restarted = false;
   while (next < times.size()) {
+    if (restart && !restarted && t >= restart->time - 1e-12) {
+      restarted = true;
+      x += restart->position[0], z += restart->position[2], vx += restart->velocity[0], vz += restart->velocity[2];
+      old_x = x - step * vx, old_z = z - step * vz;
+    }
     while (next < times.size() && times[next] <= t + 1e-12) {
       const double w = t > 0 ? (times[next] - (t - step)) / step : 1;
       result.push_back({scale * (old_x + w * (x - old_x)), scale * (old_z + w * (z - old_z))});
@@ -70,8 +79,9 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
     const double mass = 1 + added * wave * r, L = lift * wave * r * f.shear * flow;
     const double ax = (wx * k + pressure * wave * r * dux + L * wz + (truth ? truth->body * std::sin(15 * t) : 0)) / mass;
     const double az = ((r - 1) * g + wz * k + pressure * wave * r * duz - L * wx + (truth ? truth->body * std::cos(15 * t) : 0)) / mass;
+    const double gust = truth && t > 0.30 && t < 0.38 ? truth->gust : 0;
     old_x = x, old_z = z;
-    vx += step * ax, vz += step * az, x += step * vx, z += step * vz, t += step;
+    vx += step * (ax + gust), vz += step * (az + gust), x += step * vx, z += step * vz, t += step;
     if (dispersion > 0) {
       constexpr double memory = 0.1;
       eddy_x += -eddy_x * step / memory + dispersion * std::sqrt(2 * step / memory) * random();
@@ -122,8 +132,11 @@ class Sphere final : public Simulator {
   std::vector<RunResult> run(std::span<const RunRequest> requests) override {
     std::vector<RunResult> results;
     for (const RunRequest& request : requests) {
-      const auto key = std::tuple(request.point, request.effects, request.nuisances,
-                                  request.effects.contains("turbulent_dispersion") ? request.seed : 0, request.step_factor);
+      constexpr std::array<double, 3> none{};
+      const auto key =
+          std::tuple(request.point, request.effects, request.nuisances, request.effects.contains("turbulent_dispersion") ? request.seed : 0,
+                     request.step_factor, request.restart ? request.restart->time : 0, request.restart ? request.restart->position : none,
+                     request.restart ? request.restart->velocity : none);
       const auto found = kept_.find(key);
       if (found != kept_.end()) {
         results.push_back(found->second);
@@ -134,7 +147,8 @@ class Sphere final : public Simulator {
       std::vector<double> times;
       for (const Slot& s : slots)
         if (s.observable == slots.front().observable) times.push_back(s.time);
-      const auto at = path(request.point, request.effects, request.nuisances, times, 1e-3 * request.step_factor, request.seed);
+      const auto at = path(request.point, request.effects, request.nuisances, times, 1e-3 * request.step_factor, request.seed, nullptr,
+                           request.restart);
       RunResult result;
       for (std::size_t i = 0; i < slots.size(); ++i)
         result.values.push_back(at[i % times.size()][experiment_.observables[slots[i].observable].id == "z"]);
@@ -143,6 +157,7 @@ class Sphere final : public Simulator {
     }
     return results;
   }
+  bool restarts(int) const override { return true; }
   int n_runs() const override { return n_runs_; }
 
  private:
@@ -150,7 +165,7 @@ class Sphere final : public Simulator {
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;
   std::vector<std::vector<Slot>> slots_;
-  std::map<std::tuple<int, Theta, Theta, std::uint64_t, double>, RunResult> kept_;
+  std::map<std::tuple<int, Theta, Theta, std::uint64_t, double, double, std::array<double, 3>, std::array<double, 3>>, RunResult> kept_;
   int n_runs_ = 0;
 };
 
