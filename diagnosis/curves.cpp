@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace snag {
 
 namespace {
@@ -19,12 +21,16 @@ GapCurve curve_of(const Responses& model, const Fitter& fitter, const Fit* effec
     const Row& row = point.rows[i];
     const Observable& observable = model.experiment().observables[row.observable];
     if (observable.id != id || row.kind != Row::Kind::path) continue;
+    const bool logarithm = observable.kind == Observable::Kind::lognormal;
+    const double unit = parse_unit(observable.unit)->factor;
+    const auto in_unit = [&](double value) { return (logarithm ? std::exp(value) : value) / unit; };
+    const double u = std::sqrt(point.covariance(i, i) + observable.bias_u * observable.bias_u);
     curve.unit = observable.unit;
     curve.time.push_back(0.5 * (row.begin + row.end));
-    curve.measured.push_back(row.value);
-    curve.u.push_back(std::sqrt(point.covariance(i, i) + observable.bias_u * observable.bias_u));
-    curve.base.push_back(fitter.base().responses[p].value[i]);
-    if (effect) curve.with_effect.push_back(effect->at.responses[p].value[i]);
+    curve.measured.push_back(in_unit(row.value));
+    curve.u.push_back(logarithm ? in_unit(row.value) * u : u / unit);
+    curve.base.push_back(in_unit(fitter.base().responses[p].value[i]));
+    if (effect) curve.with_effect.push_back(in_unit(effect->at.responses[p].value[i]));
   }
   return curve;
 }

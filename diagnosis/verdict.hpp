@@ -26,7 +26,8 @@ struct GapCell {
   std::string origin{};                          // born | inherited | undecided: by restart_z; empty: not judged
 };
 
-/// Simulation and data of one observable at one operating point over time, SI, each value a mean over a bin of time.
+/// Simulation and data of one observable at one operating point over time, in the unit of the data, each value a mean over a bin of time
+/// (lognormal: a geometric mean).
 struct GapCurve {
   std::string observable, unit, point;
   std::vector<double> time{};         // s

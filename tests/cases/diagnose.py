@@ -44,6 +44,15 @@ class Diagnose(harness.CaseTest):
         mass = verdict["parameters"]["added_mass"]
         self.assertLess(abs(mass["mean"] - 0.5), 4 * mass["sd"])
         self.assertGreater(verdict["shrinkage"]["added_mass"]["mean"], 0.8)
+        # Paths in the unit of the data, and the gap of the start, the only time at which the added mass acts, handed on.
+        for curve in verdict["curves"]:
+            measured = [float(line.split(",")[4]) for line in (EXAMPLE / "data.csv").read_text().splitlines()
+                        if line.startswith(curve["point"] + ",") and line.split(",")[3] == curve["observable"]]
+            self.assertEqual(curve["unit"], "mm")
+            self.assertAlmostEqual(curve["measured"][-1], measured[-1], delta=5 * curve["u"][-1])
+        origins = [cell["origin"] for cell in verdict["where"] if cell["significant"] and not cell["onset"]]
+        self.assertGreater(len(origins), 5)
+        self.assertGreaterEqual(origins.count("inherited"), 0.9 * len(origins))
         page = (run.folder / "report.html").read_text()
         for text in ("Which effect", "How far the gap shrinks", "Where the gap is", "added_mass"):
             self.assertIn(text, page)
