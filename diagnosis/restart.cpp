@@ -160,52 +160,75 @@ class RunsFromEntry {
   std::vector<double> share_;  // what a request's change stands for, in standard uncertainties
 };
 
-}  // namespace
+class OriginJudge {
+ public:
+  OriginJudge(Responses& model, const Fitter& fitter) : model_(model), fitter_(fitter) {}
 
-void judge_origins(Responses& model, const Fitter& fitter, std::vector<GapCell>& cells) {
-  const Experiment& experiment = model.experiment();
-  const auto point_of = [&](const GapCell& cell) {
-    return static_cast<int>(
-        std::find_if(experiment.points.begin(), experiment.points.end(), [&](const auto& p) { return p.id == cell.point; }) -
-        experiment.points.begin());
+  void judge(std::vector<GapCell>& cells) {
+    for (GapCell& cell : cells)
+      if (cell.significant && !std::isnan(cell.window[0])) restart(cell);
+    const auto born = benjamini_hochberg(p_values_);
+    for (std::size_t i = 0; i < judged_.size(); ++i) judged_[i]->origin = born[i] ? "born" : gone_[i] ? "inherited" : "undecided";
+  }
+
+ private:
+  struct Runs {
+    RunsFromEntry asked;
+    std::vector<Response> answers;
   };
-  std::vector<GapCell*> judged;
-  std::vector<double> p_values;
-  std::vector<bool> gone;
-  std::map<std::pair<int, double>, std::pair<RunsFromEntry, std::vector<Response>>> entries;
-  for (GapCell& cell : cells) {
-    if (!cell.significant || std::isnan(cell.window[0])) continue;
-    const int p = point_of(cell);
-    const PointSummary& point = model.points()[p];
-    const auto training = std::find(model.training().begin(), model.training().end(), p) - model.training().begin();
-    const Response& base = fitter.base().responses[training];
+
+  void restart(GapCell& cell) {
+    const auto& points = model_.experiment().points;
+    const int p =
+        static_cast<int>(std::find_if(points.begin(), points.end(), [&](const auto& o) { return o.id == cell.point; }) - points.begin());
+    const std::vector<int> rows = rows_after_others(cell, model_.points()[p]);
+    if (rows.empty() || !model_.restarts(p)) return;
+    const Runs* runs = runs_from(p, cell.window[0]);
+    if (!runs) return;
+    const PointSummary& point = model_.points()[p];
+    const auto [E, of_model] = runs->asked.gap(point, rows, runs->answers);
+    if (!std::isfinite(E + of_model)) return;
+    cell.restart_z = E / std::sqrt(point.covariance(rows, rows).mean() + of_model + cell.u_S * cell.u_S);
+    judged_.push_back(&cell), p_values_.push_back(two_sided_p(cell.restart_z));
+    gone_.push_back(std::abs(E) < inherited_share * std::abs(cell.simulated - cell.measured));
+  }
+
+  /// Rows of the cell; none if its window is the first of the path.
+  std::vector<int> rows_after_others(const GapCell& cell, const PointSummary& point) const {
     std::vector<int> rows;
-    bool earlier = false;
+    bool first = true;
     for (int i = 0; i < point.n_gaussian; ++i) {
       const Row& row = point.rows[i];
-      if (row.kind != Row::Kind::path || experiment.observables[row.observable].id != cell.observable) continue;
-      earlier = earlier || row.begin < cell.window[0];
+      if (row.kind != Row::Kind::path || model_.experiment().observables[row.observable].id != cell.observable) continue;
+      first = first && row.begin >= cell.window[0];
       if (row.begin >= cell.window[0] && row.end <= cell.window[1]) rows.push_back(i);
     }
-    if (!earlier || rows.empty() || !model.restarts(p)) continue;
-    auto found = entries.find({p, cell.window[0]});
-    if (found == entries.end()) {
-      const auto entry = measured_state(experiment, point, base, cell.window[0]);
-      if (!entry) continue;
-      RunsFromEntry runs(model, p, *entry);
-      if (model.runs_left() < static_cast<int>(runs.requests.size()) * model.n_seeds(model.base())) return;
-      std::vector<Response> responses = model.run(runs.requests);
-      found = entries.emplace(std::pair{p, cell.window[0]}, std::pair{std::move(runs), std::move(responses)}).first;
-    }
-    const auto& [runs, responses] = found->second;
-    const auto [E, of_model] = runs.gap(point, rows, responses);
-    const double data = point.covariance(rows, rows).mean();
-    cell.restart_z = E / std::sqrt(data + of_model + cell.u_S * cell.u_S);
-    judged.push_back(&cell), p_values.push_back(two_sided_p(cell.restart_z));
-    gone.push_back(std::abs(E) < inherited_share * std::abs(cell.simulated - cell.measured));
+    return first ? std::vector<int>() : rows;
   }
-  const auto born = benjamini_hochberg(p_values);
-  for (std::size_t i = 0; i < judged.size(); ++i) judged[i]->origin = born[i] ? "born" : gone[i] ? "inherited" : "undecided";
-}
+
+  /// Null where the data do not hold the state, or the budget does not hold the runs.
+  const Runs* runs_from(int p, double time) {
+    const auto found = runs_.find({p, time});
+    if (found != runs_.end()) return &found->second;
+    const auto training = std::find(model_.training().begin(), model_.training().end(), p) - model_.training().begin();
+    const auto entry = measured_state(model_.experiment(), model_.points()[p], fitter_.base().responses[training], time);
+    if (!entry) return nullptr;
+    RunsFromEntry asked(model_, p, *entry);
+    if (model_.runs_left() < static_cast<int>(asked.requests.size()) * model_.n_seeds(model_.base())) return nullptr;
+    std::vector<Response> answers = model_.run(asked.requests);
+    return &runs_.emplace(std::pair{p, time}, Runs{std::move(asked), std::move(answers)}).first->second;
+  }
+
+  Responses& model_;
+  const Fitter& fitter_;
+  std::map<std::pair<int, double>, Runs> runs_;  // by point and time of the entry
+  std::vector<GapCell*> judged_;
+  std::vector<double> p_values_;
+  std::vector<bool> gone_;  // most of the gap, by the restart
+};
+
+}  // namespace
+
+void judge_origins(Responses& model, const Fitter& fitter, std::vector<GapCell>& cells) { OriginJudge(model, fitter).judge(cells); }
 
 }  // namespace snag
