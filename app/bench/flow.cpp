@@ -17,10 +17,10 @@
 #include <numeric>
 
 #include "app/bench/bandwidth.hpp"
+#include "app/bench/bench_mesh.hpp"
 #include "app/bench/peer.hpp"
 #include "app/bench/record.hpp"
 #include "app/bench/traffic.hpp"
-#include "app/mesh_generator.hpp"
 #include "app/simulation.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
@@ -68,32 +68,6 @@ patches = ["impeller_walls", "casing_walls"]
 kind = "wall"
 )";
   return text;
-}
-
-/// The mesh of the benchmark, kept in the output folder. Collective.
-std::filesystem::path pump_mesh(const std::filesystem::path& out, const std::string& level) {
-  auto mesh = std::filesystem::absolute(out) / ("pump_" + level + ".msh"), unfinished = mesh;
-  unfinished.replace_extension(".unfinished.msh");
-  int made = 0;
-  together(world, [&] {
-    std::error_code failure;
-    std::filesystem::create_directories(mesh.parent_path(), failure);
-    if (failure)
-      throw Error(ExitCode::io, out.string() + ": the output folder cannot be made (" + failure.message() + "); choose another --out");
-    made = std::filesystem::exists(mesh);
-  });
-  MPI_Bcast(&made, 1, MPI_INT, 0, world);
-  if (made) return mesh;
-  log::info("bench: making the mesh (" + level + ")");
-  const ExitCode code = generate_mesh(MPI_COMM_WORLD, {"pump", "--set", "resolution=\"" + level + "\"", "--out", unfinished.string()});
-  if (code != ExitCode::ok) throw Error(code, "bench: no mesh was made; try snag mesh pump by itself");
-  together(world, [&] {
-    if (rank_of(world) != 0) return;
-    auto parameters = mesh, written = unfinished;  // what snag-mesh writes beside the mesh
-    std::filesystem::rename(written.replace_extension(".resolved.toml"), parameters.replace_extension(".resolved.toml"));
-    std::filesystem::rename(unfinished, mesh);
-  });
-  return mesh;
 }
 
 /// Fields of the owned cells.
@@ -320,7 +294,7 @@ void check(const FlowBenchOptions& options) {
 
 ExitCode bench_flow(const FlowBenchOptions& options) {
   check(options);
-  const auto mesh = pump_mesh(options.out, options.level);
+  const auto mesh = bench_mesh(options.out, "pump_" + options.level, {"pump", "--set", "resolution=\"" + options.level + "\""});
   const double bandwidth = triad_bandwidth(world);
   const Steps steps = sliding_steps(mesh, flow_in_the_frame(mesh), options.n_steps);
   std::optional<PeerFlow> peer;

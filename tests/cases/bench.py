@@ -1,6 +1,6 @@
 # timeout: 600
 # processors: 2
-"""Requirement: a benchmark of the flow writes what it measured, with its limit, under stable keys; and refuses what it does not know."""
+"""Requirement: a benchmark writes what it measured, with its limit, under stable keys; and refuses what it does not know."""
 import json
 import shutil
 import subprocess
@@ -63,6 +63,20 @@ class Bench(harness.CaseTest):
         self.assertLess(values["flow.momentum_drop"]["peer_value"], 0.02)
         self.assertIsNone(values["flow.momentum"]["peer"], "the peer does not tell the time of each equation")
         self.assertEqual(len(json.loads((run.folder / "peer" / "peer.json").read_text())["wall_s"]), 2)
+
+    def test_coupling(self):
+        """Each kernel: the parts make up the step, and the exchange loses nothing."""
+        run = self.bench("coupling", "--steps", "1", ranks=2)
+        records = json.loads((run.folder / "bench.json").read_text())
+        values = {record["name"]: record["value"] for record in records}
+        self.assertEqual(len(values), len(records), "no name twice")
+        for kernel in ("cell", "gaussian", "wendland"):
+            step, flow, rags, coupling = (values[f"coupling.{kernel}_{part}"] for part in ("step", "flow", "rags", "coupling"))
+            self.assertGreater(min(flow, rags, coupling), 0)
+            self.assertAlmostEqual((flow + rags + coupling) / step, 1, delta=0.3)
+            self.assertAlmostEqual(values[f"coupling.{kernel}_share"], coupling / step)
+            self.assertLess(values[f"coupling.{kernel}_exchange"], 1e-10)
+        self.assertGreater(values["coupling.rag_in_prescribed_flow"], 0)
 
     def test_dem(self):
         """The cases on one rank, the same sheet on both, and the limits."""
