@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "coupling/cells_around.hpp"
 #include "coupling/vector_math.hpp"
@@ -15,6 +16,7 @@ namespace snag {
 namespace {
 
 constexpr double none = -infinity;  // exponent where no cell is in the support
+constexpr int most_components = 9;  // of a field: a tensor
 
 }  // namespace
 
@@ -241,18 +243,42 @@ std::vector<Vec3> Kernel::average(std::span<const Vec3> field) const {
   return vectors;
 }
 
+namespace {
+
+/// Calls act with the number of components, as a constant where loops over cells should unroll.
+template <class Act>
+void with_components(int components, const Act& act) {
+  switch (components) {
+    case 1:
+      return act(std::integral_constant<int, 1>());
+    case 3:
+      return act(std::integral_constant<int, 3>());
+    case 4:
+      return act(std::integral_constant<int, 4>());
+    default:
+      return act(components);
+  }
+}
+
+}  // namespace
+
 void Kernel::average(const Stencils& stencils, std::span<const CellField> fields, int components, std::vector<double>& values) const {
   const int n = stencils.router.n_received();
   std::vector<double> answers(static_cast<std::size_t>(n) * components, 0.0), entries;
-  for (int i = 0; i < n; ++i) {
-    double* answer = answers.data() + static_cast<std::size_t>(i) * components;
-    for (const auto& [cell_values, m] : fields) {
-      for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
-        const double* value = cell_values + static_cast<std::size_t>(stencils.cell[s]) * m;
-        for (int j = 0; j < m; ++j) answer[j] += stencils.weight[s] * value[j];
+  int first = 0;
+  for (const auto& [cell_values, n_components] : fields) {
+    with_components(n_components, [&, from = cell_values](auto m) {
+      for (int i = 0; i < n; ++i) {
+        std::array<double, most_components> sum{};
+        for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
+          const double* value = from + static_cast<std::size_t>(stencils.cell[s]) * m;
+          const double weight = stencils.weight[s];
+          for (int j = 0; j < m; ++j) sum[j] += weight * value[j];
+        }
+        std::copy_n(sum.data(), static_cast<int>(m), answers.data() + static_cast<std::size_t>(i) * components + first);
       }
-      answer += m;
-    }
+    });
+    first += n_components;
   }
   stencils.router.back(answers, components, entries);
   for (int e = 0; e < stencils.router.n_entries(); ++e) {
@@ -269,14 +295,18 @@ void Kernel::spread(std::span<const double> amounts, int components, std::span<d
 void Kernel::spread(const Stencils& stencils, std::span<const double> amounts, int components, std::span<double> field) const {
   std::vector<double> received;
   stencils.router.forward_particles(amounts, components, received);
-  for (int i = 0; i < stencils.router.n_received(); ++i) {
-    const double* amount = received.data() + static_cast<std::size_t>(i) * components;
-    for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
-      const int c = stencils.cell[s];
-      const double share = stencils.weight[s] / mesh_.cell_volume[c];
-      for (int j = 0; j < components; ++j) field[static_cast<std::size_t>(c) * components + j] += share * amount[j];
+  with_components(components, [&](auto m) {
+    for (int i = 0; i < stencils.router.n_received(); ++i) {
+      std::array<double, most_components> amount{};
+      std::copy_n(received.data() + static_cast<std::size_t>(i) * m, static_cast<int>(m), amount.data());
+      for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
+        const int c = stencils.cell[s];
+        const double share = stencils.weight[s] / mesh_.cell_volume[c];
+        double* to = field.data() + static_cast<std::size_t>(c) * m;
+        for (int j = 0; j < m; ++j) to[j] += share * amount[j];
+      }
     }
-  }
+  });
 }
 
 std::array<double, 2> Kernel::width_over_cell_size() const {

@@ -21,7 +21,7 @@
 
 namespace snag {
 
-/// A cell field, components interleaved, [at least n_cells][components].
+/// A cell field, components (at most 9) interleaved, [at least n_cells][components].
 struct CellField {
   const double* values = nullptr;
   int components = 1;
@@ -39,8 +39,8 @@ class Kernel {
   /// Fluid -> particles, consistent: all fields in one message, [n_particles][sum of components]. Collective.
   std::vector<double> average(std::span<const CellField> fields) const;
   std::vector<Vec3> average(std::span<const Vec3> field) const;
-  /// Particles -> fluid, conservative: amounts [n_particles][components] are added as amount per m3 to field [n_cells][components].
-  /// Collective.
+  /// Particles -> fluid, conservative: amounts [n_particles][components], at most 9 of them, are added as amount per m3 to field
+  /// [n_cells][components]. Collective.
   void spread(std::span<const double> amounts, int components, std::span<double> field) const;
 
   double width() const { return width_; }
