@@ -5,6 +5,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "base/error.hpp"
 #include "coupling/cells_around.hpp"
 #include "coupling/vector_math.hpp"
 #include "parallel/rows.hpp"
@@ -256,6 +257,9 @@ void with_components(int components, const Act& act) {
     case 4:
       return act(std::integral_constant<int, 4>());
     default:
+      if (components > most_components)
+        throw Error(ExitCode::invariant, "kernel: a field of " + std::to_string(components) + " components, at most " +
+                                             std::to_string(most_components) + " are provided for; please report this");
       return act(components);
   }
 }

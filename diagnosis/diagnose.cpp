@@ -51,10 +51,10 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   verdict.identifiability = attribution.identifiability;
   verdict.identifiability.next_experiment = next_experiment(model, attribution);
   verdict.where = gap_cells(model, fitter);
-  judge_origins(model, fitter, verdict.where);
   verdict.curves = gap_curves(model, fitter, chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr, verdict.where);
   if (options.progress) options.progress("withheld points", 0.9);
   measure_shrinkage(model, attribution, chosen, verdict);
+  judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
   return verdict;
 }

@@ -16,7 +16,7 @@ struct State {
   Eigen::VectorXd nuisances;                      // in standard uncertainties, by index of Nuisances
   std::vector<int> forms{};                       // that leads, by effect; what is not there: the first
   Eigen::VectorXd shares{};                       // of the other forms, in standard deviations, see other_forms(); what is not there: 0
-  std::optional<Restart> restart{};
+  std::optional<Restart> restart{};               // of where the pieces are, on the way
   int form(std::size_t effect) const { return effect < forms.size() ? forms[effect] : 0; }
 };
 

@@ -54,7 +54,7 @@ struct RunRequest {
   std::uint64_t seed = 0;                   // of random effects and of the initial pose
   double step_factor = 1;                   // time step over that of the case, for u_num
   std::map<std::string, int> forms{};       // of the effects, by name; absent: the first
-  std::optional<Restart> restart{};
+  std::optional<Restart> restart{};         // absent: the run goes its own way
 };
 
 struct RunResult {

@@ -6,7 +6,10 @@
 // of the particles, water at them, reaction of the rag spread by the kernel, exchange between ranks.
 #include "app/bench/coupling.hpp"
 
+#include <algorithm>
 #include <iostream>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/bench/bench_mesh.hpp"

@@ -6,8 +6,7 @@ import harness
 
 REVOLUTION = 0.05  # s
 # It comes in with the design flow, which is then throttled; times in s, shares of 26.8 L/s. Contacts are stiffer than in the demo: a rag that
-# stays is jammed between vane and tongue again and again. Breakage is off, as published: hung over the vane, the rag is stretched by the
-# drag of free spheres beyond what it would bear, which is printed. What is asked here is that nothing gets lost.
+# stays is jammed between vane and tongue again and again.
 THROTTLED = ["rag.0.shear_modulus_MPa=10", "time.end_ms=1260", "boundary.0.times_s=[0, 0.02, 0.2, 0.24]", "boundary.0.factors=[0, 1, 1, 0.0746]", "boundary.0.ramp_ms=0",
              "output.report=false", "output.fields_interval_ms=1000", "output.rags_interval_ms=20"]
 
@@ -30,6 +29,7 @@ class RagKept(harness.CaseTest):
             self.assertEqual(summary["conservation"][name], 0, name)
         self.assertLess(summary["conservation"]["momentum_exchange_rel"], 1e-10)
         self.assertLess(rag["max_wall_overlap_over_radius"], 0.5)
+        self.assertLess(rag["bond_strain_p99"], 0.36)
 
     def test_on_one_rank(self):
         self.keep(1)
