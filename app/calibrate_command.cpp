@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/report/calibration_page.hpp"
+#include "app/report/independence_section.hpp"
 #include "base/atomic_file.hpp"
 #include "base/log.hpp"
 #include "base/units.hpp"
@@ -19,7 +19,7 @@ namespace {
 struct CalibrateOptions {
   std::string tests_file, out;
   std::vector<std::string> radii{"1.5mm"};
-  bool as_published = false;
+  bool as_published = false, independence = false;
   int n_seeds = CalibrationSettings{}.n_seeds;
 };
 
@@ -60,7 +60,7 @@ void tell_result(const TextileTests& tests, const Calibration& c) {
 }
 
 void write_results(const std::filesystem::path& out, const TextileTests& tests, const std::vector<Calibration>& calibrations,
-                   const std::string& tests_file) {
+                   const std::optional<IndependencePart>& independence, const std::string& tests_file) {
   std::error_code code;
   std::filesystem::create_directories(out / "pictures", code);
   if (code) throw Error(ExitCode::io, out.string() + ": the output folder cannot be made (" + code.message() + "); give another --out");
@@ -73,9 +73,11 @@ void write_results(const std::filesystem::path& out, const TextileTests& tests, 
       write_atomically(out / pictures.back(), drawing.svg);
     }
   }
+  if (independence)
+    for (const NamedDrawing& drawing : independence->drawings) write_atomically(out / "pictures" / drawing.file, drawing.svg);
   write_atomically(out / "passport.toml",
                    passport_text(tests, calibrations, std::filesystem::path(tests_file).filename().string(), pictures));
-  write_atomically(out / "calibration.html", calibration_page(tests, calibrations, drawings));
+  write_atomically(out / "calibration.html", calibration_page(tests, calibrations, drawings, independence));
 }
 
 ExitCode run_calibrate(const CalibrateOptions& options) {
@@ -92,8 +94,15 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
     calibrations.push_back(calibrate(MPI_COMM_WORLD, tests, settings));
     tell_result(tests, calibrations.back());
   }
+  std::optional<IndependencePart> part;
+  if (options.independence) {
+    const Calibration& calibration = calibrations[calibrations.size() / 2];
+    log::info("independence of particle radius, step, dashpots and friction about " + words(1e3 * calibration.settings.radius) + " mm");
+    part = IndependencePart{calibration.settings.radius, independence(MPI_COMM_WORLD, tests, calibration), {}};
+    part->drawings = independence_drawings(tests, part->found);
+  }
   together(MPI_COMM_WORLD, [&] {
-    if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, options.tests_file);
+    if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, part, options.tests_file);
   });
   log::info("passport: " + (out / "passport.toml").string() + ", report: " + (out / "calibration.html").string());
   return ExitCode::ok;
@@ -109,6 +118,9 @@ Action add_calibrate(CLI::App& app) {
   command->add_option("--radius", options->radii, "Particle radius, such as 1.5mm (the default); several make one passport");
   command->add_flag("--as-published", options->as_published,
                     "Count the clamps of the elongation test twice, as Jensen (2018) did: half of the measured force");
+  command->add_flag(
+      "--independence", options->independence,
+      "Show what ought not to matter, about the middle radius: particle radius, time step, dashpots and friction; some 15 minutes more");
   command->add_option("--seeds", options->n_seeds, "Drapes at the tangential stiffness that is chosen (default 4)")
       ->check(CLI::Range(2, 100));
   command->add_option("--out", options->out, "Output folder (default results/calibrate-NAME of the tests' file)");

@@ -88,6 +88,9 @@ void read_record(const Table& root) {
                               setting("tests", &text, "File of the measurements."), setting("clamps", &text, "How they were counted."),
                               setting("pictures", &pictures, "Of the calibration."), noted("thickness", "m"),
                               noted("contact_radius_over_radius", "1")});
+  for (const Table& table : root.tables("check"))
+    table.read({noted("radius", "m"), setting("direction", &text, "LW or CW."), noted("grab_force", "N"),
+                noted("grab_force_deviation", "1"), noted("grab_strain_deviation", "1"), noted("tip_above_plane", "m")});
   for (const Table& table : root.tables("drape"))
     table.read({noted("radius", "m"), noted("area", "m2"), noted("area_deviation", "1"), noted("area_spread", "m2"),
                 noted("wave_size", "m"), noted("wave_size_deviation", "1"), noted("wave_size_spread", "m"), noted("waves", "1"),

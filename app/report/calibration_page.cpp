@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "app/report/drawing.hpp"
 #include "app/report/html.hpp"
+#include "app/report/independence_section.hpp"
 #include "app/report/line_plot.hpp"
 #include "app/report/page.hpp"
 #include "base/words.hpp"
@@ -16,16 +16,9 @@ namespace snag {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr const char *measured_colour = "#D55E00", *cloth_colour = "#0072B2", *table_colour = "#9aa7b4";
+constexpr const char* cloth_colour = "#0072B2";
 
-std::string millimetres(double length) { return words(std::round(1e4 * length) / 10) + " mm"; }
 std::string stem(const Calibration& c) { return "r" + words(1e3 * c.settings.radius) + "mm"; }
-
-std::string percent(double ratio) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%+.1f %%", 100 * ratio);
-  return text;
-}
 
 std::string range_text(const MeasuredRange& range, double scale) {
   return range.given() ? html::number(scale * range.low) + " to " + html::number(scale * range.high) : "";
@@ -33,32 +26,13 @@ std::string range_text(const MeasuredRange& range, double scale) {
 
 /// The strip over the edge, the plane, and the points where measured overhangs would touch it.
 NamedDrawing strip_drawing(const TextileTests& tests, const Calibration& c, int d) {
-  const double length = tests.bending[d].overhang, angle = tests.plane_angle, r = c.settings.radius;
-  Drawing drawing({-0.25 * length, -0.85 * length}, {1.1 * length, 0.15 * length});
-  drawing.area({{-0.25 * length, -r}, {0, -r}, {0, -0.85 * length}, {-0.25 * length, -0.85 * length}}, "#e6eaef");
-  drawing.line({{0, 0}, {1.05 * length * std::cos(angle), -1.05 * length * std::sin(angle)}}, measured_colour, 1.5, true);
-  std::vector<DrawingPoint> axis{{-0.25 * length, 0}};
-  for (const Vec3& x : c.bending[d].shape.centres) {
-    drawing.circle({x.x, x.z}, r, cloth_colour);
-    axis.push_back({x.x, x.z});
-  }
-  const Vec3 tip = c.bending[d].shape.tip;
-  axis.push_back({tip.x, tip.z});
-  drawing.line(axis, cloth_colour, 2);
+  Drawing drawing = over_the_edge(tests, d, c.settings.radius);
+  for (const Vec3& x : c.bending[d].shape.centres) drawing.circle({x.x, x.z}, c.settings.radius, cloth_colour);
+  add_strip(tests, d, c.bending[d].shape, cloth_colour, drawing);
   return {"strip_" + std::string(direction_key[d]) + "_" + stem(c) + ".svg",
-          std::string("Strip ") + direction_name[d] + ", " + millimetres(length) + " over the edge; dashed: the plane at " +
-              words(std::round(1800 / pi * angle) / 10) + " degrees",
+          std::string("Strip ") + direction_name[d] + ", " + millimetres(tests.bending[d].overhang) +
+              " over the edge; dashed: the plane at " + words(std::round(1800 / pi * tests.plane_angle) / 10) + " degrees",
           drawing.svg()};
-}
-
-Drawing from_above(const TextileTests& tests) {
-  const double reach = 0.53 * tests.drape.sample_diameter;
-  return Drawing({-reach, -reach}, {reach, reach});
-}
-
-void add_circles(const TextileTests& tests, Drawing& drawing) {
-  drawing.circle({}, tests.drape.disc_diameter / 2, table_colour);
-  drawing.circle({}, tests.drape.wave_size, measured_colour, "none", true);
 }
 
 /// Cells of the cloth from the lowest up, lit from the upper left.
@@ -96,30 +70,19 @@ NamedDrawing drape_drawing(const TextileTests& tests, const Calibration& c) {
 }
 
 NamedDrawing outline_drawing(const TextileTests& tests, const Calibration& c) {
-  constexpr const char* colours[] = {"#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
   Drawing drawing = from_above(tests);
   for (const double size : {tests.drape.wave_size_range.low, tests.drape.wave_size_range.high})
     if (size > 0) drawing.circle({}, size, "#f0c9a8");
   add_circles(tests, drawing);
   std::size_t k = 0;
   for (const DrapeSample& sample : c.drapes[c.chosen].samples) {
-    const std::string colour = colours[k++ % std::size(colours)];
-    const auto& radius = sample.outline.radius;
-    std::vector<DrawingPoint> points;
-    for (std::size_t i = 0; i <= radius.size(); i += 2) {
-      const double angle = 2 * pi * static_cast<double>(i) / static_cast<double>(radius.size()), r = radius[i % radius.size()];
-      points.push_back({r * std::cos(angle), r * std::sin(angle)});
-    }
-    drawing.line(points, colour);
+    const std::string colour = line_colour(k++);
+    add_outline(sample.outline, colour, drawing);
     for (const Wave& wave : sample.outline.waves)
       drawing.circle({wave.radius * std::cos(wave.angle), wave.radius * std::sin(wave.angle)}, 1.2e-3, colour, colour);
   }
   return {"outlines_" + stem(c) + ".svg",
           "Outlines of all seeds, dots at the waves; dashed: the mean measured wave size, pale: the smallest and largest", drawing.svg()};
-}
-
-std::string figure_of(const NamedDrawing& drawing) {
-  return "<figure>" + drawing.svg + "<figcaption>" + escaped(drawing.caption) + "</figcaption></figure>\n";
 }
 
 std::string elongation_section(const TextileTests& tests, const Calibration& c) {
@@ -220,7 +183,7 @@ std::vector<NamedDrawing> calibration_drawings(const TextileTests& tests, const 
 }
 
 std::string calibration_page(const TextileTests& tests, const std::vector<Calibration>& calibrations,
-                             const std::vector<std::vector<NamedDrawing>>& drawings) {
+                             const std::vector<std::vector<NamedDrawing>>& drawings, const std::optional<IndependencePart>& independence) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: calibration</title>\n<style>" +
@@ -234,6 +197,7 @@ std::string calibration_page(const TextileTests& tests, const std::vector<Calibr
     page += section("Bending" + radius, bending_section(tests, c, drawings[i]));
     page += section("Drape" + radius, drape_section(tests, c, drawings[i]));
   }
+  if (independence) page += section("What ought not to matter", independence_section(tests, *independence));
   return page + "</body>\n</html>\n";
 }
 

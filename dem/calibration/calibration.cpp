@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/words.hpp"
-#include "parallel/session.hpp"
 
 namespace snag {
 
@@ -15,26 +14,6 @@ constexpr double first_share = 0.12;  // S_t of the scan's first point over the 
 constexpr double scan_factor = 2;
 constexpr int scan_points = 3;
 constexpr int most_extensions = 5;  // of the scan, where its best point is an end
-constexpr double pixel = 2e-4;      // of the picture from above, m: a thousandth of the sample
-
-DrapeTest drape_test(const TextileTests& tests) {
-  return {tests.drape.sample_diameter, tests.drape.disc_diameter, tests.drape.mass_per_area};
-}
-
-DrapeCloth drape_cloth(const TextileTests& tests, double radius, const std::array<BondProperties, 2>& bond) {
-  return {.radius = radius,
-          .bond = bond,
-          .bond_damping = tests.bond_damping,
-          .rotation_friction = tests.rotation_friction,
-          .shear_modulus = tests.shear_modulus,
-          .restitution = tests.restitution,
-          .static_friction = tests.static_friction,
-          .rolling_friction = tests.rolling_friction};
-}
-
-Strip strip_of(const TextileTests& tests, int direction, double radius, const BondProperties& bond) {
-  return {radius, tests.bending[direction].overhang, tests.bending[direction].mass_per_area, bond};
-}
 
 double square(double x) { return x * x; }
 
@@ -99,10 +78,13 @@ void DrapeFit::refine() {
   add(between);
 }
 
+/// All seeds at the best point; where they make another one the best, at that one too.
 void DrapeFit::complete() {
-  std::vector<Job> jobs;
-  for (int seed = coarse_seeds + 1; seed <= settings_.n_seeds; ++seed) jobs.push_back({best(), seed});
-  run(jobs);
+  for (std::size_t at = best(); static_cast<int>(points_[at].samples.size()) < settings_.n_seeds; at = best()) {
+    std::vector<Job> jobs;
+    for (int seed = static_cast<int>(points_[at].samples.size()) + 1; seed <= settings_.n_seeds; ++seed) jobs.push_back({at, seed});
+    run(jobs);
+  }
 }
 
 void DrapeFit::add(const std::vector<double>& stiffnesses) {
@@ -117,32 +99,14 @@ void DrapeFit::add(const std::vector<double>& stiffnesses) {
             [](const auto& a, const auto& b) { return a.tangential_stiffness() < b.tangential_stiffness(); });
 }
 
-Outline outline_of(const RagSheet& sheet, double radius) { return outline(seen_from_above(sheet, radius, pixel), {}); }
-
 void DrapeFit::run(const std::vector<Job>& jobs) {
-  const int n_directions = OutlineSettings{}.n_directions, width = n_directions + 4;
-  std::vector<double> mine(jobs.size() * width, 0.0), all(mine.size());
-  together(comm_, [&] {
-    for (std::size_t j = rank_of(comm_); j < jobs.size(); j += size_of(comm_)) {
-      const DrapePoint& point = points_[jobs[j].point];
-      const Drape drape = relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, point.bond), jobs[j].seed);
-      const Outline seen = outline_of(drape.sheet, settings_.radius);
-      double* row = &mine[j * width];
-      std::copy(seen.radius.begin(), seen.radius.end(), row);
-      row += n_directions;
-      row[0] = seen.area, row[1] = drape.cost.n_peaks, row[2] = drape.cost.time, row[3] = static_cast<double>(drape.cost.n_steps);
-    }
+  const std::vector<DrapeSample> samples = drape_samples(comm_, jobs.size(), [&](std::size_t j) {
+    const DrapePoint& point = points_[jobs[j].point];
+    const Drape drape = relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, point.bond), jobs[j].seed);
+    return DrapeSample{jobs[j].seed, outline_from_above(drape.sheet, settings_.radius), drape.cost};
   });
-  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    const double* row = &all[j * width];
-    DrapePoint& point = points_[jobs[j].point];
-    DrapeSample sample{jobs[j].seed, outline_from(std::vector<double>(row, row + n_directions), row[n_directions], {}), {}};
-    row += n_directions;
-    sample.cost = {static_cast<int>(row[1]), row[2], static_cast<std::int64_t>(row[3])};
-    point.samples.push_back(std::move(sample));
-    average(point);
-  }
+  for (std::size_t j = 0; j < jobs.size(); ++j) points_[jobs[j].point].samples.push_back(samples[j]);
+  for (const Job& job : jobs) average(points_[job.point]);
   for (const DrapePoint& point : points_)
     if (std::any_of(jobs.begin(), jobs.end(),
                     [&](const Job& job) { return job.point == static_cast<std::size_t>(&point - points_.data()); }))

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "dem/calibration/cantilever.hpp"
-#include "dem/calibration/drape.hpp"
+#include "dem/calibration/drape_samples.hpp"
 #include "dem/calibration/elongation.hpp"
 #include "dem/calibration/textile_tests.hpp"
-#include "observe/outline.hpp"
 
 namespace snag {
 
@@ -23,13 +22,6 @@ struct CalibrationSettings {
   bool as_published = false;                                                 // clamps of the elongation test counted twice
   int n_seeds = 4;                                                           // of the drape at the S_t that is chosen; two at the others
   std::function<void(const std::string&)> tell = [](const std::string&) {};  // progress, in words
-};
-
-/// One laying of the cloth.
-struct DrapeSample {
-  int seed = 0;
-  Outline outline;
-  RelaxationCost cost;
 };
 
 /// What the drape says of one tangential stiffness.

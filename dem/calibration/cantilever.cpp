@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "dem/calibration/relaxation.hpp"
+#include "dem/calibration/still_air.hpp"
 #include "dem/tile_particles.hpp"
 
 namespace snag {
@@ -39,6 +40,21 @@ constexpr double strip_tolerance = 2e-6;  // m, of the places at rest
 constexpr double bracket_share = 2e-4;    // of S_nb: moves the tip by a few thousandths of a millimetre
 constexpr std::uintmax_t most_evaluations = 60;
 
+/// Particles beyond the edge, and what the last stands for.
+struct StripCells {
+  int n = 0;
+  double share = 0;  // phi
+
+  explicit StripCells(const Strip& strip) {
+    const double cells = strip.overhang / (2 * strip.radius);
+    n = static_cast<int>(std::ceil(cells - 0.5 - 1e-9));
+    share = cells - n + 0.5;
+    if (n < 1)
+      throw Error(ExitCode::usage, "bending test: an overhang of " + words(strip.overhang) + " m holds no particle of radius " +
+                                       words(strip.radius) + " m, it must be longer than the radius; use a smaller --radius");
+  }
+};
+
 RagPiece strip_piece(const Strip& strip, int n) {
   RagPiece piece;
   Rag& rag = piece.rag;
@@ -47,29 +63,21 @@ RagPiece strip_piece(const Strip& strip, int n) {
   rag.inertia = 0.4 * rag.mass * strip.radius * strip.radius;
   rag.bond = {strip.bond, {}};
   piece.centre = {n * strip.radius, 0, 0};
-  return relaxing(piece);
+  return piece;
 }
 
-/// S_nb of a strip after Peirce (1930): B = w L^3 cos(angle/2)/(8 tan(angle)), S_nb = B/I.
-double stiffness_of_peirce(const Strip& strip, double angle) {
-  const double I = std::numbers::pi / 4 * std::pow(strip.radius, 4);
-  return strip.mass_per_area * standard_gravity * std::pow(strip.overhang, 3) * std::cos(angle / 2) / (8 * std::tan(angle)) / I;
-}
+/// The strip, held at the edge, and its weight.
+struct HeldStrip {
+  HeldStrip(const Strip& strip, const StripCells& cells, const RagPiece& piece, double safety)
+      : rags(MPI_COMM_SELF, DemSettings{{}, safety}, {piece}),
+        weight(piece.rag.mass * standard_gravity, cells.n, cells.share, strip.radius) {
+    rags.clamp([](std::int64_t id) { return id == 0; });
+  }
+  RagSystem rags;
+  StripWeight weight;
+};
 
-}  // namespace
-
-StripShape hanging_strip(const Strip& strip) {
-  const double cells = strip.overhang / (2 * strip.radius);
-  const int n = static_cast<int>(std::ceil(cells - 0.5 - 1e-9));
-  if (n < 1)
-    throw Error(ExitCode::usage, "bending test: an overhang of " + words(strip.overhang) + " m holds no particle of radius " +
-                                     words(strip.radius) + " m, it must be longer than the radius; use a smaller --radius");
-  const double share = cells - n + 0.5;
-  const RagPiece piece = strip_piece(strip, n);
-  RagSystem rags(MPI_COMM_SELF, DemSettings{{}, 0.9}, {piece});
-  rags.clamp([](std::int64_t id) { return id == 0; });
-  StripWeight weight(piece.rag.mass * standard_gravity, n, share, strip.radius);
-  relax(rags, {.gravity = standard_gravity, .length = strip.overhang, .tolerance = strip_tolerance}, &weight);
+StripShape shape_of(const RagSystem& rags, const Strip& strip, int n) {
   StripShape shape;
   shape.centres.resize(n + 1);
   for (const Tile& tile : rags.tiles())
@@ -81,6 +89,36 @@ StripShape hanging_strip(const Strip& strip) {
       shape.tip = shape.centres[n] + (strip.overhang - 2 * strip.radius * n) * carried_direction<0>(tile.field(Tile::qw)[k], v.x, v.y, v.z);
     });
   return shape;
+}
+
+/// S_nb of a strip after Peirce (1930): B = w L^3 cos(angle/2)/(8 tan(angle)), S_nb = B/I.
+double stiffness_of_peirce(const Strip& strip, double angle) {
+  const double I = std::numbers::pi / 4 * std::pow(strip.radius, 4);
+  return strip.mass_per_area * standard_gravity * std::pow(strip.overhang, 3) * std::cos(angle / 2) / (8 * std::tan(angle)) / I;
+}
+
+}  // namespace
+
+Strip strip_of(const TextileTests& tests, int direction, double radius, const BondProperties& bond) {
+  return {radius, tests.bending[direction].overhang, tests.bending[direction].mass_per_area, bond};
+}
+
+StripShape hanging_strip(const Strip& strip) {
+  const StripCells cells(strip);
+  HeldStrip held(strip, cells, relaxing(strip_piece(strip, cells.n)), 0.9);
+  relax(held.rags, {.gravity = standard_gravity, .length = strip.overhang, .tolerance = strip_tolerance}, &held.weight);
+  return shape_of(held.rags, strip, cells.n);
+}
+
+StripShape moved_strip(const Strip& strip, double bond_damping, double duration, double air, double share) {
+  const StripCells cells(strip);
+  RagPiece piece = strip_piece(strip, cells.n);
+  piece.rag.bond_damping = bond_damping;
+  HeldStrip held(strip, cells, piece, share);
+  held.rags.set_damping_rate(air);
+  StillAir slowing(piece.rag, air, &held.weight);
+  held.rags.advance(duration, &slowing);
+  return shape_of(held.rags, strip, cells.n);
 }
 
 double height_above_plane(const Vec3& tip, double angle) { return tip.x * std::sin(angle) + tip.z * std::cos(angle); }

@@ -10,11 +10,9 @@
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "dem/rag.hpp"
+#include "dem/calibration/textile_tests.hpp"
 
 namespace snag {
-
-inline constexpr double standard_gravity = 9.81;  // m/s2
 
 /// A strip over an edge at the origin; x out, z up.
 struct Strip {
@@ -24,6 +22,8 @@ struct Strip {
   BondProperties bond;       // along the strip
 };
 
+Strip strip_of(const TextileTests& tests, int direction, double radius, const BondProperties& bond);
+
 struct StripShape {
   std::vector<Vec3> centres;  // of particles 0 .. n, m
   Vec3 tip;                   // m
@@ -31,6 +31,10 @@ struct StripShape {
 
 /// The strip at rest. Throws Error(usage) if the overhang holds no particle, Error(diverged) if it does not come to rest.
 StripShape hanging_strip(const Strip& strip);
+
+/// The strip after `duration` s of its own motion from flat, with dashpots in its bonds (c_d) in air that slows it by `air` (1/s), in
+/// steps of a `share` of the stable one.
+StripShape moved_strip(const Strip& strip, double bond_damping, double duration, double air, double share);
 
 /// Distance of the tip from the plane that falls at `angle` (rad) from the edge; positive above it, m.
 double height_above_plane(const Vec3& tip, double angle);

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "dem/calibration/cantilever.hpp"
+#include "dem/calibration/still_air.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/tile_particles.hpp"
 #include "dem/walls.hpp"
@@ -114,23 +114,22 @@ class DrapeRun {
   RagSystem rags_;
 };
 
-/// Air: slows every particle at a rate.
-class Air : public TileForce {
- public:
-  Air(const Rag& rag, double rate) : rag_(rag), rate_(rate) {}
-  void add(std::size_t, Tile& tile, double) override {
-    for_particles(tile, [&](int k, int, int) {
-      tile.set_vector(Tile::fx, k, tile.vector(Tile::fx, k) - (rate_ * rag_.mass) * tile.vector(Tile::vx, k));
-      tile.set_vector(Tile::tx, k, tile.vector(Tile::tx, k) - (rate_ * rag_.inertia) * tile.vector(Tile::wx, k));
-    });
-  }
-
- private:
-  Rag rag_;
-  double rate_;
-};
-
 }  // namespace
+
+DrapeTest drape_test(const TextileTests& tests) {
+  return {tests.drape.sample_diameter, tests.drape.disc_diameter, tests.drape.mass_per_area};
+}
+
+DrapeCloth drape_cloth(const TextileTests& tests, double radius, const std::array<BondProperties, 2>& bond) {
+  return {.radius = radius,
+          .bond = bond,
+          .bond_damping = tests.bond_damping,
+          .rotation_friction = tests.rotation_friction,
+          .shear_modulus = tests.shear_modulus,
+          .restitution = tests.restitution,
+          .static_friction = tests.static_friction,
+          .rolling_friction = tests.rolling_friction};
+}
 
 Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, const RagSheet* start) {
   DrapeRun run(test, relaxing(round_cloth(test, cloth, start)), cloth, 0.9);
@@ -147,7 +146,7 @@ Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, doub
   DrapeRun run(test, piece, cloth, 0.8);
   if (!start) begin_waves(run.rags(), seed);
   run.rags().set_damping_rate(air);
-  Air slowing(piece.rag, air);
+  StillAir slowing(piece.rag, air);
   run.rags().advance(duration, &slowing);
   Drape drape;
   drape.cost = {0, run.rags().time(), run.rags().n_sub_steps()};
@@ -166,6 +165,11 @@ Coverage seen_from_above(const RagSheet& sheet, double radius, double pixel) {
     triangles.push_back({a, a + 1, a + 2}), triangles.push_back({a, a + 2, a + 3});
   }
   return coverage(points, triangles, View{}, pixel);
+}
+
+Outline outline_from_above(const RagSheet& sheet, double radius) {
+  constexpr double pixel = 2e-4;  // m
+  return outline(seen_from_above(sheet, radius, pixel), {});
 }
 
 }  // namespace snag

@@ -9,6 +9,7 @@
 
 #include "base/vec3.hpp"
 #include "dem/calibration/relaxation.hpp"
+#include "dem/calibration/textile_tests.hpp"
 #include "dem/rag_measures.hpp"
 #include "observe/outline.hpp"
 
@@ -28,6 +29,9 @@ struct DrapeCloth {
   double restitution = 0.01, static_friction = 0.5, rolling_friction = 0.01;
 };
 
+DrapeTest drape_test(const TextileTests& tests);
+DrapeCloth drape_cloth(const TextileTests& tests, double radius, const std::array<BondProperties, 2>& bond);
+
 struct Drape {
   RagSheet sheet;       // at rest; the table's top is at z = 0, its axis the z axis
   RelaxationCost cost;  // n_peaks = 0: of a dynamic run
@@ -42,5 +46,7 @@ Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, doub
 /// The cloth from above: triangles between the particles, and for each particle the square of cloth that it stands for, 2 r_p wide in its
 /// own plane, so that the cloth ends where its last cells end. `pixel`: m.
 Coverage seen_from_above(const RagSheet& sheet, double radius, double pixel);
+/// Outline of that, from pixels of a thousandth of the published sample.
+Outline outline_from_above(const RagSheet& sheet, double radius);
 
 }  // namespace snag

@@ -52,10 +52,11 @@ BondProperties elongation_bond(const TextileTests& tests, int direction, double 
   return bond;
 }
 
-GrabTest simulated_grab_test(const TextileTests& tests, int direction, double radius, const std::array<BondProperties, 2>& bond) {
+GrabTest simulated_grab_test(const TextileTests& tests, int direction, double radius, const std::array<BondProperties, 2>& bond,
+                             double share) {
   const RagPiece piece = pulled_cloth(tests, radius, bond);
   const Rag& rag = piece.rag;
-  RagSystem rags(MPI_COMM_SELF, DemSettings{}, {piece});
+  RagSystem rags(MPI_COMM_SELF, DemSettings{{}, share}, {piece});
   rags.clamp([&](std::int64_t id) { return id % rag.n_columns == 0 || id % rag.n_columns == rag.n_columns - 1; });
   // It begins with the velocities of a steady pull, so that no wave runs through it.
   for (Tile& tile : rags.tiles())

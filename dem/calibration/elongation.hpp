@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dem/calibration/textile_tests.hpp"
+#include "dem/rag_settings.hpp"
 
 namespace snag {
 
@@ -23,8 +24,9 @@ struct GrabTest {
 
 /// The test by the motion of the bonded particles: the cloth between two clamps, which part until the force has fallen to half. The cloth
 /// beside the clamps is left out: it would carry little, but drag at the clamps' corners, where bonds that do not yield would tear before
-/// the cloth does (at 1.5 mm lengthwise at 140 N instead of 172 N). `bond`: both directions, [0] the one that is pulled. On this rank
-/// alone.
-GrabTest simulated_grab_test(const TextileTests& tests, int direction, double radius, const std::array<BondProperties, 2>& bond);
+/// the cloth does (at 1.5 mm lengthwise at 140 N instead of 172 N). `bond`: both directions, [0] the one that is pulled. `share`: of the
+/// stable step. On this rank alone.
+GrabTest simulated_grab_test(const TextileTests& tests, int direction, double radius, const std::array<BondProperties, 2>& bond,
+                             double share = DemSettings{}.safety);
 
 }  // namespace snag

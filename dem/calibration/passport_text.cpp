@@ -35,6 +35,14 @@ std::string bond_text(const TextileTests& tests, const Calibration& c, int d) {
   return text;
 }
 
+/// The tests as simulated with the bonds that were found.
+std::string check_text(const TextileTests& tests, const Calibration& c, int d) {
+  const ElongationResult& measured = tests.elongation[d];
+  return "\n[[check]]\n" + line("radius_m", c.settings.radius) + "direction = " + toml_text(std::string(direction_key[d])) + "\n" +
+         line("grab_force_N", c.grab[d].max_force) + line("grab_force_deviation", c.grab[d].max_force / measured.max_force - 1) +
+         line("grab_strain_deviation", c.grab[d].strain_at_max / measured.max_strain - 1) + line("tip_above_plane_m", c.bending[d].height);
+}
+
 std::string drape_text(const TextileTests& tests, const Calibration& c) {
   const DrapePoint& drape = c.drapes[c.chosen];
   std::size_t fewest = drape.samples[0].outline.waves.size(), most = fewest;
@@ -62,7 +70,8 @@ std::string passport_text(const TextileTests& tests, const std::vector<Calibrati
   std::string list;
   for (const std::string& picture : pictures) list += (list.empty() ? "" : ", ") + toml_text(picture);
   text += "pictures = [" + list + "]\n";
-  for (const Calibration& c : calibrations) text += bond_text(tests, c, 0) + bond_text(tests, c, 1) + drape_text(tests, c);
+  for (const Calibration& c : calibrations)
+    text += bond_text(tests, c, 0) + bond_text(tests, c, 1) + check_text(tests, c, 0) + check_text(tests, c, 1) + drape_text(tests, c);
   return text;
 }
 

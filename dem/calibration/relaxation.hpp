@@ -15,12 +15,14 @@
 
 namespace snag {
 
+inline constexpr double standard_gravity = 9.81;  // m/s2
+
 struct Relaxation {
-  double gravity = 9.81;         // m/s2, of the weight in the measure of rest
-  double length = 0;             // l, m
-  double tolerance = 0;          // u, m
-  double longest_time = 20;      // of the motion, s
-  int steps_between_looks = 20;  // at the kinetic energy
+  double gravity = standard_gravity;  // m/s2, of the weight in the measure of rest
+  double length = 0;                  // l, m
+  double tolerance = 0;               // u, m
+  double longest_time = 20;           // of the motion, s
+  int steps_between_looks = 20;       // at the kinetic energy
 };
 
 /// What a relaxation took.

@@ -25,6 +25,8 @@ Parameter number(const char* key, double* target, const char* unit, const char* 
           .required = required};
 }
 
+constexpr double lightest = 0.01, heaviest = 100;  // kg/m2: below the thinnest tissue the motion takes days
+
 /// A key that describes the laboratory's procedure and enters no computation.
 Parameter noted(const char* key, double* target, const char* unit) { return number(key, target, unit, "For the record.", false, 0); }
 
@@ -102,7 +104,8 @@ void read_bending(const Table& root, TextileTests& t) {
     const Table table = direction_of(test, d);
     BendingResult& r = t.bending[d];
     table.read({number("overhang_mean", &r.overhang, "m", "Length over the edge at which the tip touches the plane, mean."),
-                number("mass_per_area", &r.mass_per_area, "kg/m2", "Of the strip as tested."), count(&r.repetitions)});
+                number("mass_per_area", &r.mass_per_area, "kg/m2", "Of the strip as tested.", true, lightest, heaviest),
+                count(&r.repetitions)});
     r.overhang_range = read_range(table, "overhang_range", "m", r.overhang);
     if (length > 0 && r.overhang > length)
       throw Error(ExitCode::usage, table.where() + " overhang_mean: is " + words(r.overhang) + " m, longer than the strip of " +
@@ -116,7 +119,7 @@ void read_drape(const Table& root, TextileTests& t) {
   double density = 0;
   test.read({number("sample_diameter", &r.sample_diameter, "m", "Of the round sample."),
              number("disc_diameter", &r.disc_diameter, "m", "Of the table it lies on."),
-             number("mass_per_area", &r.mass_per_area, "kg/m2", "Of the sample as tested."),
+             number("mass_per_area", &r.mass_per_area, "kg/m2", "Of the sample as tested.", true, lightest, heaviest),
              number("area_mean", &r.area, "m2", "Of the draped sample seen from above, mean."),
              number("wave_size_mean", &r.wave_size, "m", "From the centre to the outline at its peaks, mean."),
              number("wave_count_mean", &r.wave_count, "1", "Peaks of the outline, mean."), noted("wet_density", &density, "kg/m3"),

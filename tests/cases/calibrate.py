@@ -1,6 +1,7 @@
 # timeout: 600
 # processors: 2
 """Requirement: `snag calibrate` makes a textile passport that a case can use and a report, the same on one rank and on two; tests that no cloth gives end with exit code 2 and one clear message."""
+import math
 import re
 import shutil
 import tomllib
@@ -36,8 +37,9 @@ class Calibrate(harness.CaseTest):
 
     def test_missing_direction(self):
         text = TESTS.read_text()
-        block = re.search(r"\[bending\.CW\]\n(?:[^\[\n].*\n)+", text).group(0)
-        self.refused(["[bending]", "crosswise", "missing"], block, "")
+        for test, key, direction in (("bending", "CW", "crosswise"), ("elongation", "LW", "lengthwise")):
+            block = re.search(rf"\[{test}\.{key}\]\n(?:[^\[\n].*\n)+", text).group(0)
+            self.refused([f"[{test}]", direction, "missing"], block, "")
 
     def test_negative_force(self):
         self.refused(["max_force_mean_N", "-172"], "max_force_mean_N = 172.0", "max_force_mean_N = -172.0")
@@ -48,6 +50,9 @@ class Calibrate(harness.CaseTest):
     def test_rag_that_cannot_reach_the_plane(self):
         self.refused(["reach", "overhang"], "overhang_mean_m = 0.034                 # Fig. 2.8 text: mean 33.5 mm\noverhang_range_m = [0.031, 0.036]", "overhang_mean_m = 0.3")
 
+    def test_strip_lighter_than_tissue(self):
+        self.refused(["[bending.CW]", "mass_per_area", "0.01"], "mass_per_area_kg_m2 = 0.38", "mass_per_area_kg_m2 = 1e-12")
+
     def test_overhang_below_a_particle(self):
         self.refused(["overhang", "radius", "--radius"], "overhang_mean_m = 0.021                 # Fig. 2.8 text: mean 21.5 mm\noverhang_range_m = [0.020, 0.024]", "overhang_mean_m = 0.004", "--radius", "5mm")
 
@@ -57,8 +62,8 @@ class Calibrate(harness.CaseTest):
     def test_radius_without_unit(self):
         self.refused(["--radius"], "", "", "--radius", "1.5")
 
-    def calibrate(self, radius, ranks, out):
-        run = harness.snag(["calibrate", TESTS, "--radius", radius, "--seeds", "2", "--out", self.work / out], ranks, self.work / out)
+    def calibrate(self, radius, ranks, out, *arguments):
+        run = harness.snag(["calibrate", TESTS, "--radius", radius, "--seeds", "2", *arguments, "--out", self.work / out], ranks, self.work / out)
         self.assertEqual(run.code, 0, run.tail())
         return (run.folder / "passport.toml").read_text()
 
@@ -77,11 +82,28 @@ class Calibrate(harness.CaseTest):
         self.assertIn(drape["waves"], [6, 6.5, 7])
         self.assertIn("Grab test lengthwise", (self.work / "one/calibration.html").read_text())
 
+        for bond in passport["bond"]:
+            for name, unit in (("normal_stiffness", "N_m3"), ("tangential_stiffness", "N_m3"), ("bending_stiffness", "N_m3"), ("normal_strength", "Pa")):
+                low, high = bond[f"{name}_range_{unit}"]
+                self.assertTrue(low <= bond[f"{name}_{unit}"] <= high, f"{name}: {bond[f'{name}_{unit}']} is not in {low} to {high}")
+            self.assertLess(bond["normal_stiffness_range_N_m3"][0], bond["normal_stiffness_N_m3"], "the tests scatter")
+
         shutil.copy(self.work / "one/passport.toml", self.work)
         self.run_case(self.case(SHEET.format(radius=5)))
         outside = harness.snag(["run", self.case(SHEET.format(radius=3)), "--out", self.work / "outside"])
         self.assertEqual(outside.code, 2, outside.tail())
         self.assertIn("3 mm is outside the calibrated radii 5 mm", outside.messages[0])
+
+    def test_as_published(self):
+        """Clamps counted twice: half of the stiffness and strength, so half of the measured force."""
+        published = tomllib.loads(self.calibrate("5mm", 2, "published", "--as-published"))
+        self.assertEqual(published["textile"]["clamps"], "counted twice, as published")
+        area, columns = math.pi * 0.005**2, 2 * 0.1 / 0.01
+        for bond, force, strain in zip(published["bond"], (172, 70.1), (0.358, 0.264)):
+            self.assertAlmostEqual(bond["normal_strength_Pa"] / (force / columns / area), 1, delta=1e-5)
+            self.assertAlmostEqual(bond["normal_stiffness_N_m3"] / (force / columns / area / strain / 0.01), 1, delta=1e-5)
+        for check in published["check"]:
+            self.assertAlmostEqual(check["grab_force_deviation"], -0.5, delta=0.02)
 
 
 if __name__ == "__main__":

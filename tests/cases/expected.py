@@ -3,6 +3,8 @@
 """Requirement: a case of cases/ gives the numbers of its expected.toml, each within its tolerance and for the reason given there.
 
 expected.py CASE [--long]     entries with `long = true` are checked with --long only; the case then runs as it stands, else with [short] set = [...].
+
+A cloth is calibrated instead, with the arguments `calibrate = [...]`, or those of [short], and the keys are those of its passport.
 """
 import sys
 import tomllib
@@ -38,18 +40,28 @@ class Expected(harness.CaseTest):
         expected = tomllib.loads((folder / "expected.toml").read_text())
         entries = [e for e in expected["expect"] if LONG or not e.get("long", False)]
         self.assertTrue(entries, "nothing is expected: the test would show nothing")
-        shortened = [] if LONG else [word for s in expected.get("short", {}).get("set", []) for word in ("--set", s)]
-        run = self.run_case(folder / "case.toml", expected.get("ranks", 2), *shortened, "--set", "output.report=false", timeout=expected.get("timeout_s", 600))
+        numbers = self.calibrated(folder, expected) if "calibrate" in expected else self.summary(folder, expected)
         wrong = []
         for entry in entries:
             self.assertTrue(entry["why"], f"{entry['key']}: say why this value is expected")
             self.assertTrue({"value", "minimum", "maximum"} & set(entry), f"{entry['key']}: give value, minimum or maximum")
-            found = looked_up(run.summary, entry["key"])
+            found = looked_up(numbers, entry["key"])
             problem = out_of_tolerance(entry, found)
             print(f"  {entry['key']} = {found}" + (f"  WRONG: {problem}" if problem else ""))
             if problem:
                 wrong.append(f"{entry['key']} = {found}: {problem} ({entry['why']})")
         self.assertFalse(wrong, "\n".join(wrong))
+
+    def summary(self, folder, expected):
+        shortened = [] if LONG else [word for s in expected.get("short", {}).get("set", []) for word in ("--set", s)]
+        return self.run_case(folder / "case.toml", expected.get("ranks", 2), *shortened, "--set", "output.report=false", timeout=expected.get("timeout_s", 600)).summary
+
+    def calibrated(self, folder, expected):
+        arguments = expected["calibrate"] if LONG else expected["short"]["calibrate"]
+        out = self.work / "out"
+        run = harness.snag(["calibrate", folder / "tests.toml", *arguments, "--out", out], expected.get("ranks", 2), out, expected.get("timeout_s", 600))
+        self.assertEqual(run.code, 0, run.tail())
+        return tomllib.loads((out / "passport.toml").read_text())
 
 
 if __name__ == "__main__":

@@ -153,6 +153,23 @@ def arrays(attributes):
     return {attributes.GetArrayName(i): vtk_to_numpy(attributes.GetArray(i)) for i in range(attributes.GetNumberOfArrays())}
 
 
+def particles(file):
+    """Of a file particles_*.vtp: the places, and the numbers of the rags they belong to."""
+    sheet = read_vtk(file)
+    return vtk_to_numpy(sheet.GetPoints().GetData()), arrays(sheet.GetPointData())["rag [1]"].astype(int)
+
+
+def touching_particles(position, rag, diameter):
+    """Rags of all pairs of particles of different rags that are nearer than a diameter: [pair][2], the lower number first."""
+    pairs = []
+    for begin in range(0, len(rag), 500):  # a block against all, so that it fits into memory
+        block = slice(begin, begin + 500)
+        square = sum((position[block, None, k] - position[None, :, k]) ** 2 for k in range(3))
+        one, other = numpy.nonzero((square < diameter**2) & (rag[block, None] < rag[None, :]))
+        pairs.append(numpy.stack([rag[block][one], rag[other]], axis=1))
+    return numpy.concatenate(pairs)
+
+
 class CaseTest(unittest.TestCase):
     """Each test has a temporary folder; meshes are made once a script."""
 

@@ -1,7 +1,11 @@
 # timeout: 300
 # processors: 3
-"""Requirement: rags released one after the other at a patch leave the mesh as whole objects, all counted, alike on 1 and 3 ranks and after a resume."""
+"""Requirement: many rags are kept apart and counted, alike on 1 and 3 ranks: 240 that fall into a box touch each other and come to rest as a
+heap; those released one after the other leave the mesh as whole objects, also after a resume."""
+import math
+
 import harness
+import numpy
 from small_cases import CHANNEL, CHANNEL_MESH
 
 RELEASED = """copies = 3
@@ -13,14 +17,162 @@ release_spread = 0.3
 velocity_m_s = [0.5, 0, 0]
 """
 
+# Five sheets rolled up about z, one above the other and one after the other.
+ROLLED = """copies = 5
+copy_interval_ms = 20
+copy_step_m = [0, 0.0175, 0]
+centre_m = [0.275, 0.015, 0.05]
+pose_file = "rolled.csv"
+velocity_m_s = [0.5, 0, 0]
+"""
+
+# 16 columns of 15 sheets each. Those of neighbouring columns stand across each other, and all move sideways and turn as they fall.
+PILE = """
+[case]
+name = "pile"
+[time]
+end_s = 0.24
+step_ms = 4
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[contact]
+impact_speed_m_s = 3
+[[wall]]
+kind = "box"
+lower_m = [-0.08, -0.08, 0]
+upper_m = [0.08, 0.08, 0.5]
+[output]
+report = false
+rags_interval_ms = 80
+"""
+PILE_COLUMN = """
+[[rag]]
+name = "column {number}"
+length_mm = 32
+width_mm = 24
+radius_mm = 2
+breakage = true
+centre_m = [{x}, {y}, 0.022]
+lengthwise = {lengthwise}
+crosswise = {crosswise}
+velocity_m_s = {velocity}
+spin_rad_s = {spin}
+copies = 15
+copy_step_m = [0, 0, 0.012]
+"""
+N_PILED, N_IN_SHEET, N_BONDS, RADIUS, BOX_WIDTH = 240, 48, 82, 0.002, 0.16
+SHEET_MASS = 0.785 * N_IN_SHEET * (2 * RADIUS) ** 2  # kg, by the default mass_per_area
+CLOSEST_PACKING = math.pi / math.sqrt(18)  # of equal spheres, share of the space
+
+
+def pile():
+    text = PILE
+    for i in range(4):
+        for j in range(4):
+            along_x, side, other_side = (i + j) % 2 == 0, (-1) ** i, (-1) ** j
+            text += PILE_COLUMN.format(
+                number=4 * i + j, x=round(-0.0585 + 0.039 * i, 4), y=round(-0.0585 + 0.039 * j, 4),
+                lengthwise=[1, 0, 0.5] if along_x else [0, 1, 0.5], crosswise=[0, 1, 0.2] if along_x else [1, 0, 0.2],
+                velocity=[round((0.3 - 0.2 * i) * other_side, 1), 0.4 * side, -1.5], spin=[20 * side * other_side, -20 * side, 0])
+    return text
+
+
+def largest_heap(rag_pairs, n_rags):
+    """Number of rags that hang together by their contacts."""
+    heap = numpy.arange(n_rags)
+    for one, other in rag_pairs:
+        heap[heap == heap[one]] = heap[other]
+    return numpy.bincount(heap).max()
+
+
+class Pile(harness.CaseTest):
+    """How many touch is counted here from the places of the particles, not taken from the program."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.case_file = cls.shared / "pile.toml"
+        cls.case_file.write_text(pile())
+        cls.done = harness.snag(["run", cls.case_file, "--out", cls.shared / "one"], 1, cls.shared / "one")
+        assert cls.done.code == 0, cls.done.tail()
+
+    def test_every_rag_is_kept_whole(self):
+        summary = self.done.summary
+        self.assertEqual(len({rag["name"] for rag in summary["rags"]}), N_PILED)
+        for rag in summary["rags"]:
+            self.assertEqual((rag["particles"], rag["bonds"], rag["broken_bonds"], rag["outcome"]), (N_IN_SHEET, N_BONDS, 0, "in_domain"))
+            self.assertEqual(rag["corrected_positions"], 0)
+            self.assertLess(rag["max_wall_overlap_over_radius"], 0.2)
+            self.assertLess(rag["max_overlap_over_radius"], 0.2)
+        for name in ("particles_lost", "bonds_lost", "particles_beyond_walls"):
+            self.assertEqual(summary["conservation"][name], 0, name)
+        files = sorted((self.done.folder / "rags").glob("particles_*.vtp"))
+        self.assertEqual(len(files), 4)
+        for file in files:
+            position, rag = harness.particles(file)
+            numpy.testing.assert_array_equal(numpy.bincount(rag), numpy.full(N_PILED, N_IN_SHEET), file.name)
+            self.assertLess(numpy.abs(position[:, :2]).max(), BOX_WIDTH / 2)
+            self.assertGreater(position[:, 2].min(), 0)
+
+    def test_hundreds_touch_each_other(self):
+        contacts = self.done.monitor("contacts")
+        position, rag = harness.particles(max((self.done.folder / "rags").glob("particles_*.vtp")))
+        touching = harness.touching_particles(position, rag, 2 * RADIUS)
+        rag_pairs = numpy.unique(touching, axis=0)
+        n_touching, heap = len(numpy.unique(rag_pairs)), largest_heap(rag_pairs, N_PILED)
+        in_pile = contacts.column("contacts")[contacts.column("time") > 0.08]
+        print(f"  at the end {n_touching} of {N_PILED} rags touch another, {len(rag_pairs)} pairs of rags at {len(touching)} pairs of particles, "
+              f"{heap} rags in one heap; monitor: {in_pile[-1]:.0f} contacts, never below {in_pile.min():.0f} after 0.08 s, "
+              f"overlap {contacts.column('overlap_over_radius_max').max():.2f} r")
+        self.assertGreater(n_touching, 0.95 * N_PILED)
+        self.assertGreater(len(rag_pairs), 300)  # each rag touches two and a half others in the mean
+        self.assertGreater(heap, 0.9 * N_PILED)
+        self.assertGreater(in_pile.min(), 10 * N_PILED)
+        self.assertAlmostEqual(in_pile[-1] / len(touching), 1, delta=0.02)  # the monitor also counts a rag's contacts with itself
+
+    def test_they_lie_on_each_other(self):
+        """Spheres that keep apart cannot be packed closer than CLOSEST_PACKING, so their mean height has a least value."""
+        position, _ = harness.particles(max((self.done.folder / "rags").glob("particles_*.vtp")))
+        least = 0.5 * len(position) * 4 / 3 * math.pi * RADIUS**3 / CLOSEST_PACKING / BOX_WIDTH**2
+        print(f"  mean height {1000 * position[:, 2].mean():.1f} mm, of the closest packing {1000 * least:.1f} mm")
+        self.assertGreater(position[:, 2].mean(), least)
+        self.assertLess(position[:, 2].mean(), 4 * least, "the rags have not come down")
+
+    def test_energy_is_only_lost(self):
+        rags = self.done.monitor("rags")
+        of_a_step = lambda values: values.reshape(-1, N_PILED)  # [step][rag]
+        kinetic = of_a_step(rags.column("kinetic_energy"))
+        whole = kinetic + of_a_step(rags.column("bond_energy")) + SHEET_MASS * 9.81 * of_a_step(rags.column("z"))
+        total = whole.sum(axis=1)
+        print(f"  energy from {total[0]:.3g} to {total[-1]:.3g} J, largest rise in a step {numpy.diff(total).max() / total[0]:.1e} of it; kinetic from "
+              f"{kinetic.sum(axis=1).max():.3g} to {kinetic.sum(axis=1)[-1]:.3g} J, of one rag at most {kinetic.max():.2g} of {whole[0].max():.2g} J")
+        self.assertLess(numpy.diff(total).max(), 1e-3 * total[0])
+        self.assertLess(kinetic.sum(axis=1)[-1], 0.01 * kinetic.sum(axis=1).max())
+        self.assertLess(kinetic.max(), whole[0].max(), "a rag is faster than its fall can make it")
+        self.assertLess(rags.column("bond_strain_max").max(), 0.05)
+
+    def test_the_same_on_three_ranks(self):
+        """The fall and the impacts, one rank's rags among those of the others."""
+        three = harness.snag(["run", self.case_file, "--out", self.work / "three", "--set", "time.end_s=0.06"], 3, self.work / "three")
+        self.assertEqual(three.code, 0, three.tail())
+        self.assertGreater(three.monitor("contacts").column("contacts").max(), 10 * N_PILED)
+        for name in ("rags", "contacts"):
+            one, other = self.done.monitor(name), three.monitor(name)
+            self.assertEqual(other.column("time")[-1], 0.06)
+            one.values = one.values[: len(other.values)]
+            differences = harness.largest_difference(one, other)
+            print(f"  monitors/{name}.csv up to 0.06 s: largest difference {max(differences.values()):.1e}")
+            for column, difference in differences.items():
+                self.assertLessEqual(difference, 1e-12, f"{name}.csv, {column}")
+
 
 class ManyRags(harness.CaseTest):
-    def channel(self, more=""):
+    def channel(self, more="", released=RELEASED, end=0.1):
         text = CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="gaussian")
         rag = "length_mm = 60\nwidth_mm = 40\nradius_mm = 2\ncentre_m = [0.08, 0.05, 0.05]\nlengthwise = [0.3, 0.2, 0.9]\n"
         self.assertIn(rag, text)
-        return self.case(text.replace(rag, "name = \"small\"\nlength_mm = 40\nwidth_mm = 24\nradius_mm = 2\nlengthwise = [0, 0, 1]\ncrosswise = [0, 1, 0]\n" + RELEASED)
-                         .replace("end_s = 0.05", "end_s = 0.1") + more)
+        return self.case(text.replace(rag, "name = \"small\"\nlength_mm = 40\nwidth_mm = 24\nradius_mm = 2\nlengthwise = [0, 0, 1]\ncrosswise = [0, 1, 0]\n" + released)
+                         .replace("end_s = 0.05", f"end_s = {end}") + more)
 
     def test_leave_as_whole_objects(self):
         case = self.channel()
@@ -41,6 +193,34 @@ class ManyRags(harness.CaseTest):
             for r in (1, 2):
                 self.assertAlmostEqual(starts[r] - starts[0], 0.008 * r, places=9)
         self.assert_monitors_agree(*runs, "rags", 1e-6)
+
+    def test_poses_from_a_file_leave_as_whole_objects(self):
+        n_columns, n_rows, radius, arc = 10, 6, 0.002, 0.007  # arc: radius of the roll, m
+        turn = 2 * math.asin(radius / arc)  # between neighbours, which stay a diameter apart
+        rows = ["id,x,y,z,qw,qx,qy,qz"]
+        for row in range(n_rows):
+            for column in range(n_columns):
+                angle = (column - (n_columns - 1) / 2) * turn
+                rows.append(f"{row * n_columns + column},{arc * math.sin(angle)},{-arc * math.cos(angle)},{(row - (n_rows - 1) / 2) * 2 * radius},"
+                            f"{math.cos(angle / 2)},0,0,{math.sin(angle / 2)}")
+        (self.work / "rolled.csv").write_text("\n".join(rows) + "\n")
+        # Rag k is put in at 20 k ms, unrolls, and is gone some 84 ms later.
+        run = self.run_case(self.channel(released=ROLLED, end=0.132).rename(self.work / "rolled.toml"), 2, "--set", "output.rags_interval_ms=5")
+        self.assertEqual([rag["outcome"] for rag in run.summary["rags"]], ["exited"] * 3 + ["in_domain"] * 2)
+        for rag in run.summary["rags"]:
+            self.assertEqual((rag["particles"], rag["bonds"], rag["broken_bonds"]), (60, 104, 0))
+        self.assertEqual((run.summary["conservation"]["particles_lost"], run.summary["conservation"]["bonds_lost"]), (0, 0))
+        time, rag = run.monitor("rags").column("time"), run.monitor("rags").column("rag")
+        n_seen = []
+        for file in sorted((run.folder / "rags").glob("particles_*.vtp"))[1:]:
+            position, of_rag = harness.particles(file)
+            now = float(harness.arrays(harness.read_vtk(file).GetFieldData())["TimeValue"][0])
+            there = rag[numpy.abs(time - now) < 1e-9].astype(int)
+            n_seen.append(len(there))
+            numpy.testing.assert_array_equal(numpy.bincount(of_rag, minlength=5), [60 * (r in there) for r in range(5)], file.name)
+        print(f"  rags in the mesh, every 5 ms: {n_seen}")
+        self.assertGreaterEqual(max(n_seen), 3)
+        self.assertEqual(n_seen[-1], 2)
 
     def test_resume_after_some_have_left(self):
         case = self.channel("[checkpoint]\ninterval_s = 0.03\n")

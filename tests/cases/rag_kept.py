@@ -29,7 +29,8 @@ class RagKept(harness.CaseTest):
             self.assertEqual(summary["conservation"][name], 0, name)
         self.assertLess(summary["conservation"]["momentum_exchange_rel"], 1e-10)
         self.assertLess(rag["max_wall_overlap_over_radius"], 0.5)
-        self.assertLess(rag["bond_strain_p99"], 0.36)
+        # No bound on the strain: the vane, whose motion is given, passes the tongue while the cloth hangs on both, and pulls it further than
+        # it would bear (cases/pump-demo/README.md). Bonds do not break here, as published; none may be lost on the way between ranks and zones.
 
     def test_on_one_rank(self):
         self.keep(1)

@@ -82,6 +82,50 @@ TEST(ContactFriction, RollingFrictionStopsASphere) {
   EXPECT_LT(norm(set.pieces.get(0, Tile::wx)) * r, 1e-4);
 }
 
+// Two particles held in contact, free to spin: rolling against each other about an axis across the contact they slow at mu_r R* F_n/I each,
+// F_n = 4/3 E* sqrt(R*) d^(3/2), until they rest and do not turn back. Equal spheres roll without slip; without Coulomb friction
+// nothing else acts on unequal ones. Spins about the contact's normal, and common ones, do not roll. To 1e-9: the decay is linear.
+TEST(ContactFriction, RollingFrictionSlowsTwoParticles) {
+  const double mu_r = 0.05, G = 1e6, nu = 0.25, overlap = 2e-5, step = 1e-6;
+  for (const double r_2 : {1e-3, 2e-3}) {
+    const double r_1 = 1e-3, R = r_1 * r_2 / (r_1 + r_2), E = G / (1 - nu);  // E*, R*
+    const double torque = mu_r * R * 4.0 / 3 * E * std::sqrt(R) * std::pow(overlap, 1.5);
+    const Vec3 n = unit({1, -2, 2}), t = unit(cross(n, {0, 0, 1}));
+    const Rag first = Pieces::sphere(r_1, 540, G, nu), second = Pieces::sphere(r_2, 540, G, nu);
+    const Vec3 start = 20.0 * t;
+    // w_1 - w_2 falls at torque (1/I_1 + 1/I_2) until it vanishes.
+    const double rests_at = 2 * norm(start) / (torque * (1 / first.inertia + 1 / second.inertia));
+    const auto spins_after = [&](const Vec3& w_1, const Vec3& w_2, double time) {
+      Pieces pieces;
+      pieces.add_sphere(first, {}, {}, w_1), pieces.add_sphere(second, (r_1 + r_2 - overlap) * n, {}, w_2);
+      ContactSettings settings;
+      settings.rolling_friction = mu_r;
+      if (r_1 != r_2) settings.static_friction = 0;
+      ContactSolver contacts(settings, pieces.rags, nullptr);
+      const auto tiles = pieces.owned();
+      for (int k = 0; k < std::lround(time / step); ++k) {
+        pieces.clear_forces();
+        contacts.add_forces(tiles, {}, step);
+        for (const int p : {0, 1})
+          pieces.set(p, Tile::wx, pieces.get(p, Tile::wx) + step / pieces.rags[p].inertia * pieces.get(p, Tile::tx));
+      }
+      return std::array{pieces.get(0, Tile::wx), pieces.get(1, Tile::wx)};
+    };
+    const double half = std::lround(rests_at / 2 / step) * step;
+    const auto [w_1, w_2] = spins_after(start, -start, half);
+    EXPECT_LE(norm((start - w_1) / (torque * half / first.inertia) - t), 1e-9);
+    EXPECT_LE(norm((-start - w_2) / (torque * half / second.inertia) + t), 1e-9);
+
+    const auto [rest_1, rest_2] = spins_after(start, -start, 2 * rests_at);
+    EXPECT_LE(norm(rest_1 - rest_2), 1e-6 * norm(start));
+    const auto [drill_1, drill_2] = spins_after(20.0 * n, {}, half);
+    EXPECT_LE(norm(drill_1 - 20.0 * n) + norm(drill_2), 1e-9 * norm(start));
+    if (r_1 == r_2) continue;
+    const auto [common_1, common_2] = spins_after(start, start, half);
+    EXPECT_LE(norm(common_1 - start) + norm(common_2 - start), 1e-9 * norm(start));
+  }
+}
+
 // A sphere on a conveyor belt (a translating plane) is taken along: sliding at mu g first, then rolling with 2/7 of the belt's speed.
 TEST(ContactFriction, BeltTakesASphereAlong) {
   OnPlane set({}, {}, WallMotion{.axis = {0, 0, 1}, .origin = {}, .speed = 0, .velocity = {0.1, 0, 0}});

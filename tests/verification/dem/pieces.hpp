@@ -20,6 +20,9 @@ inline RagPiece cloth(int n_columns, int n_rows) {
   return piece;
 }
 
+/// Two particles bonded lengthwise (0) or crosswise (1).
+inline RagPiece pair_along(int direction) { return direction == 0 ? cloth(2, 1) : cloth(1, 2); }
+
 /// Calls a function for each particle: (tile, place, id).
 class EachParticle : public TileForce {
  public:
