@@ -3,9 +3,6 @@
 #endif
 #include "dem/integrator.hpp"
 
-#include <algorithm>
-#include <limits>
-
 namespace snag {
 
 namespace {
@@ -70,14 +67,16 @@ void drift(Tile& tile, double dt) {
   for (int k = 0; k < rows.n; ++k) drift_one(f, k, dt);
 }
 
-void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift) {
+Box kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift) {
   const Rows rows(tile);
   double* f[Tile::n_fields];
   std::copy_n(rows.field, Tile::n_fields, f);
   const double* free = rows.free;
   const double per_mass = dt / inertia.mass, per_moment = dt / inertia.moment;
   const Vec3 fall = dt * inertia.gravity;
-#pragma omp simd
+  Box all;
+  double low_x = all.lower.x, low_y = low_x, low_z = low_x, high_x = all.upper.x, high_y = high_x, high_z = high_x;
+#pragma omp simd reduction(min : low_x, low_y, low_z) reduction(max : high_x, high_y, high_z)
   for (int k = 0; k < rows.n; ++k) {
     const double moves = free[k];
     f[Tile::vx][k] += moves * (per_mass * f[Tile::fx][k] + fall.x);
@@ -86,8 +85,15 @@ void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_dri
     f[Tile::wx][k] += moves * per_moment * f[Tile::tx][k];
     f[Tile::wy][k] += moves * per_moment * f[Tile::ty][k];
     f[Tile::wz][k] += moves * per_moment * f[Tile::tz][k];
+    const bool counts = moves > 0.5;
+    const Vec3 v{f[Tile::vx][k], f[Tile::vy][k], f[Tile::vz][k]};
+    low_x = std::min(low_x, counts ? v.x : low_x), high_x = std::max(high_x, counts ? v.x : high_x);
+    low_y = std::min(low_y, counts ? v.y : low_y), high_y = std::max(high_y, counts ? v.y : high_y);
+    low_z = std::min(low_z, counts ? v.z : low_z), high_z = std::max(high_z, counts ? v.z : high_z);
     drift_one(f, k, dt_drift);
   }
+  all.lower = {low_x, low_y, low_z}, all.upper = {high_x, high_y, high_z};
+  return all;
 }
 
 Box bounding_box(const Tile& tile, int j) {

@@ -7,6 +7,9 @@
 // the coupling is what the particles received, to round-off, and nothing of the forces has to be kept for a restart or another rank.
 //
 // Rotation by the exponential map, q <- exp(dt w/2) q: exact for a constant w.
+#include <algorithm>
+#include <limits>
+
 #include "base/vec3.hpp"
 #include "dem/tile.hpp"
 
@@ -20,15 +23,23 @@ struct Inertia {
   double moment = 1;  // kg m2
   Vec3 gravity;       // m/s2
 };
-/// Change velocities by the forces fx .. tz and gravity over `dt`, then drift for `dt_drift`. Particles that are not free keep their
-/// velocity.
-void kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift);
-
-/// Lower and upper corner of the positions of particles (m); lower > upper if none exists.
+/// Smallest and largest of a vector over particles; lower > upper if there is none.
 struct Box {
-  Vec3 lower, upper;
+  Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  bool empty() const { return !(lower.x <= upper.x); }
+  void include(const Box& other) {
+    for (int c = 0; c < 3; ++c) lower[c] = std::min(lower[c], other.lower[c]), upper[c] = std::max(upper[c], other.upper[c]);
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
-/// Of the particles in row j of a tile.
+
+/// Change velocities by the forces fx .. tz and gravity over `dt`, then drift for `dt_drift`. Particles that are not free keep their
+/// velocity. Returns the velocities of those that are, m/s.
+Box kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift);
+
+/// Of the positions in row j of a tile, m.
 Box bounding_box(const Tile& tile, int j);
 
 }  // namespace snag

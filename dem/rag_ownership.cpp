@@ -59,12 +59,13 @@ int RagSystem::neighbour_number(int number, int column_step, int row_step) const
 
 void RagSystem::set_pointers() {
   owned_pointers_.clear();
-  n_owned_particles_ = 0;
+  n_owned_particles_ = 0, has_clamped_ = false;
   for (Tile& tile : tiles_) {
     owned_pointers_.push_back(&tile);
     int n = 0;
     centre_of(tile, n);
     n_owned_particles_ += n;
+    for_particles(tile, [&](int k, int, int) { has_clamped_ = has_clamped_ || tile.free[k] < 0.5; });
   }
 }
 
@@ -80,6 +81,7 @@ std::vector<double> RagSystem::all_row_boxes() {
   for (int t = 0; t < n_all_tiles(); ++t) first[t + 1] = first[t] + static_cast<std::size_t>(n_rows_of(t));
   std::vector<double> boxes(6 * first.back(), std::numeric_limits<double>::infinity());
   boxes_.clear();
+  grown_.lower = grown_.upper = {};
   for (std::size_t i = 0; i < tiles_.size(); ++i)
     for (int j = 0; j < tiles_[i].ny; ++j) {
       const Box box = bounding_box(tiles_[i], j);
@@ -92,16 +94,29 @@ std::vector<double> RagSystem::all_row_boxes() {
 }
 
 /// True once a row has left its box by more than what the ghosts were chosen for.
-bool RagSystem::ghosts_outdated() const {
+bool RagSystem::ghosts_outdated(const Box* moved) {
   const double margin = contacts_->skin() / 2 + ghost_path(*contacts_);
+  const auto within = [&] {
+    for (int c = 0; c < 3; ++c)
+      if (grown_.lower[c] < -margin || grown_.upper[c] > margin) return false;
+    return true;
+  };
+  if (moved && !moved->empty()) {  // a look at all particles only if this bound is not enough
+    grown_.lower += moved->lower, grown_.upper += moved->upper;
+    if (within()) return false;
+  }
+  grown_ = {};
   auto then = boxes_.begin();
   for (const Tile& tile : tiles_)
     for (int j = 0; j < tile.ny; ++j, ++then) {
       const Box now = bounding_box(tile, j);
-      for (int c = 0; c < 3; ++c)
-        if (now.lower[c] < then->lower[c] - margin || now.upper[c] > then->upper[c] + margin) return true;
+      if (now.empty()) continue;
+      for (int c = 0; c < 3; ++c) {
+        grown_.lower[c] = std::min(grown_.lower[c], now.lower[c] - then->lower[c]);
+        grown_.upper[c] = std::max(grown_.upper[c], now.upper[c] - then->upper[c]);
+      }
     }
-  return false;
+  return !within();
 }
 
 /// What is sent and received, by rank and tile: of each tile the rows between the first and the last that are needed. "Needed" is found by

@@ -126,18 +126,20 @@ void RagSystem::advance(double dt, TileForce* force) {
   const double step = dt / n;
   if (contacts_) contacts_->set_time(time_ + step / 2);
   for (Tile& tile : tiles_) drift(tile, step / 2);
+  const Box* moved = nullptr;  // not known of the half drift and of what was done to the rags in between
   for (int k = 0; k < n; ++k) {
-    exchange_ghosts();
-    evaluate_and_move(step, k + 1 < n ? step : step / 2, force);
+    exchange_ghosts(moved);
+    evaluate_and_move(step, k + 1 < n ? step : step / 2, force, moved);
+    moved = has_clamped_ ? nullptr : &moved_;
   }
   time_ += dt, n_sub_steps_ += n, n_particle_steps_ += n * n_owned_particles_;
   halo_->exchange();
   check();
 }
 
-void RagSystem::exchange_ghosts() {
+void RagSystem::exchange_ghosts(const Box* moved) {
   if (contacts_ && size_of(comm_) > 1) {
-    int outdated = ghosts_outdated(), any = 0;
+    int outdated = ghosts_outdated(moved), any = 0;
     MPI_Allreduce(&outdated, &any, 1, MPI_INT, MPI_MAX, comm_);
     if (any) renew_ghosts();
   }
@@ -151,21 +153,24 @@ void RagSystem::evaluate_contacts() {
   contacts_->add_forces(owned_pointers_, ghost_pointers_, 0);
 }
 
-void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force) {
+void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force, const Box* moved) {
   halo_->fill_rings();
-  if (contacts_) contacts_->evaluate(owned_pointers_, ghost_pointers_, step);
+  if (contacts_) contacts_->evaluate(owned_pointers_, ghost_pointers_, step, moved);
+  Box velocities;
   // Everything else a tile at a time, while it is in the cache.
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
     if (rags_[tile.rag].n_bonds == 0) {
       std::fill_n(tile.field(Tile::fx), (Tile::n_fields - Tile::fx) * tile.field_size, 0.0);
     } else {
-      broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile);
+      broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile, tiles_[(i + 1) % tiles_.size()]);
     }
     if (contacts_) contacts_->add_to_tile(i);
     if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces
-    kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step);
+    velocities.include(kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step));
   }
+  moved_ = {};
+  if (!velocities.empty()) moved_.lower = drift_step * velocities.lower, moved_.upper = drift_step * velocities.upper;
 }
 
 void RagSystem::clamp(const std::function<bool(std::int64_t)>& held) {
@@ -175,6 +180,7 @@ void RagSystem::clamp(const std::function<bool(std::int64_t)>& held) {
         const int k = tile.index(i, j);
         tile.free[k] = tile.exists[k] > 0.5 && !held(particle_id(rags_[tile.rag], tile, i, j)) ? 1 : 0;
       }
+  set_pointers();
 }
 
 void RagSystem::set_clamp_velocity(const std::function<Vec3(std::int64_t)>& velocity) {

@@ -124,8 +124,8 @@ class RagSystem {
 
  private:
   void set_limit();
-  void exchange_ghosts();
-  void evaluate_and_move(double step, double drift_step, TileForce* force);
+  void exchange_ghosts(const Box* moved = nullptr);
+  void evaluate_and_move(double step, double drift_step, TileForce* force, const Box* moved);
   struct TileLists {
     std::vector<TileRows> send, receive;  // by ascending number of the tile
     bool operator==(const TileLists&) const = default;
@@ -134,7 +134,7 @@ class RagSystem {
   void find_ghosts();
   void renew_ghosts();
   void set_ghosts(std::map<int, TileLists> lists);
-  bool ghosts_outdated() const;
+  bool ghosts_outdated(const Box* moved);
   class NeededRows;
   void add_ring_sources(NeededRows& needed) const;
   void add_near_rows(NeededRows& needed);
@@ -172,7 +172,10 @@ class RagSystem {
   std::vector<Tile> ghosts_;
   std::vector<Tile*> owned_pointers_;
   std::vector<const Tile*> ghost_pointers_;
-  std::vector<Box> boxes_;  // of the rows of the owned tiles when ghosts were chosen
+  std::vector<Box> boxes_;    // of the rows of the owned tiles when ghosts were chosen
+  Box grown_;                 // bounds of how far the corners of all of these have moved since, m
+  Box moved_;                 // bounds of the last drift of the particles that are free, m
+  bool has_clamped_ = false;  // some particles of this rank are not free, so moved_ does not hold
   std::int64_t n_owned_particles_ = 0;
   std::unique_ptr<TileHalo> halo_;
   std::unique_ptr<ContactSolver> contacts_;

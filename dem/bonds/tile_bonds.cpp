@@ -62,27 +62,50 @@ template <int direction>
           .a = {a[0][k], a[1][k], a[2][k]}};
 }
 
+/// What the next tile to be swept needs from memory, a row at a time, while this one computes: hardware guesses it too late, for each of so
+/// many streams ends at every page.
+struct Ahead {
+  static constexpr int n_lists = Tile::n_fields + 3, line = 8;  // doubles
+  const double* row[n_lists];
+
+  Ahead(const Tile& tile, int j) {
+    const std::size_t first = static_cast<std::size_t>(std::min(j, tile.ny - 1) + 1) * tile.stride;
+    for (int f = 0; f < Tile::n_fields; ++f) row[f] = tile.field(f) + first;
+    row[Tile::n_fields] = tile.bond_x.data() + first, row[Tile::n_fields + 1] = tile.bond_y.data() + first;
+    row[Tile::n_fields + 2] = tile.free.data() + first;
+  }
+  /// Places i .. i + 7 of the lists of even number (0) or odd number (1).
+  template <int half>
+  [[gnu::always_inline]] void fetch(int i) const {
+#pragma GCC unroll 16
+    for (int f = half; f < n_lists; f += 2) __builtin_prefetch(row[f] + i, 0, 2);
+  }
+};
+
 /// Bonds k of one row: from particle k of `one` to k + 1 of the same row (direction 0) or k of the next row `two` (direction 1).
 template <int direction, bool damped, bool breakage>
-void evaluate(const BondLaw& given_law, const Row& one, const Row& two, double* whole, int stride, RowForces& out) {
+void evaluate(const BondLaw& given_law, const Row& one, const Row& two, double* whole, int stride, RowForces& out, const Ahead& ahead) {
   const BondLaw law = given_law;
   constexpr int shift = direction == 0 ? 1 : 0;
   const int n = stride / 8 * 8;
+  for (int line = 0; line < n; line += Ahead::line) {
+    ahead.fetch<direction>(line);
 #pragma omp simd
-  for (int i = 0; i < n; ++i) {
-    const int k = margin + i;
-    const BondForce bond = bond_force<direction, damped>(law, end_at<direction>(one, k), end_at<direction>(two, k + shift));
-    bool present = whole[i] > 0.5;
-    if constexpr (breakage) {
-      present = present & bond_holds(law, bond);
-      whole[i] = present ? 1.0 : 0.0;
+    for (int i = line; i < line + Ahead::line; ++i) {
+      const int k = margin + i;
+      const BondForce bond = bond_force<direction, damped>(law, end_at<direction>(one, k), end_at<direction>(two, k + shift));
+      bool present = whole[i] > 0.5;
+      if constexpr (breakage) {
+        present = present & bond_holds(law, bond);
+        whole[i] = present ? 1.0 : 0.0;
+      }
+      out.force[0][k] = present ? bond.force.x : 0.0, out.force[1][k] = present ? bond.force.y : 0.0;
+      out.force[2][k] = present ? bond.force.z : 0.0;
+      out.torque1[0][k] = present ? bond.torque1.x : 0.0, out.torque1[1][k] = present ? bond.torque1.y : 0.0;
+      out.torque1[2][k] = present ? bond.torque1.z : 0.0;
+      out.torque2[0][k] = present ? bond.torque2.x : 0.0, out.torque2[1][k] = present ? bond.torque2.y : 0.0;
+      out.torque2[2][k] = present ? bond.torque2.z : 0.0;
     }
-    out.force[0][k] = present ? bond.force.x : 0.0, out.force[1][k] = present ? bond.force.y : 0.0;
-    out.force[2][k] = present ? bond.force.z : 0.0;
-    out.torque1[0][k] = present ? bond.torque1.x : 0.0, out.torque1[1][k] = present ? bond.torque1.y : 0.0;
-    out.torque1[2][k] = present ? bond.torque1.z : 0.0;
-    out.torque2[0][k] = present ? bond.torque2.x : 0.0, out.torque2[1][k] = present ? bond.torque2.y : 0.0;
-    out.torque2[2][k] = present ? bond.torque2.z : 0.0;
   }
 }
 
@@ -137,29 +160,30 @@ bool is_chain(const Tile& tile) {
 }
 
 template <bool damped, bool breakage>
-void sweep_chain(const BondLaws& laws, Tile& tile) {
+void sweep_chain(const BondLaws& laws, Tile& tile, const Tile& next_tile) {
   static const RowForces none;
   Workspace& w = workspace();
   load(tile, 0, w.rows[0]);
-  evaluate<0, damped, breakage>(laws[0], w.rows[0], w.rows[0], &tile.bond_x[tile.stride], tile.stride, w.along);
+  evaluate<0, damped, breakage>(laws[0], w.rows[0], w.rows[0], &tile.bond_x[tile.stride], tile.stride, w.along, {next_tile, 0});
   gather(w.along, none, none, 0, tile);
 }
 
 template <bool damped, bool breakage>
-void sweep(const BondLaws& laws, Tile& tile) {
-  if (is_chain(tile)) return sweep_chain<damped, breakage>(laws, tile);
+void sweep(const BondLaws& laws, Tile& tile, const Tile& next_tile) {
+  if (is_chain(tile)) return sweep_chain<damped, breakage>(laws, tile, next_tile);
   Workspace& w = workspace();
   RowForces& along = w.along;
   Row *row = &w.rows[0], *next = &w.rows[1];
   RowForces *below = &w.between[0], *above = &w.between[1];
   load(tile, -1, *row);
   load(tile, 0, *next);
-  evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[0], tile.stride, *below);
+  evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[0], tile.stride, *below, {next_tile, -1});
   for (int j = 0; j < tile.ny; ++j) {
     std::swap(row, next);
     load(tile, j + 1, *next);
-    evaluate<0, damped, breakage>(laws[0], *row, *row, &tile.bond_x[(j + 1) * tile.stride], tile.stride, along);
-    evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[(j + 1) * tile.stride], tile.stride, *above);
+    const Ahead ahead(next_tile, j);
+    evaluate<0, damped, breakage>(laws[0], *row, *row, &tile.bond_x[(j + 1) * tile.stride], tile.stride, along, ahead);
+    evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[(j + 1) * tile.stride], tile.stride, *above, ahead);
     gather(along, *above, *below, j, tile);
     std::swap(above, below);
   }
@@ -169,14 +193,14 @@ void sweep(const BondLaws& laws, Tile& tile) {
 
 BondLaws bond_laws(const Rag& rag) { return {bond_law(rag, 0), bond_law(rag, 1)}; }
 
-int set_bond_forces(const BondLaws& laws, bool breakage, Tile& tile) {
+int set_bond_forces(const BondLaws& laws, bool breakage, Tile& tile, const Tile& next) {
   const bool damped = laws[0].damped() || laws[1].damped();
   if (!breakage) {
-    damped ? sweep<true, false>(laws, tile) : sweep<false, false>(laws, tile);
+    damped ? sweep<true, false>(laws, tile, next) : sweep<false, false>(laws, tile, next);
     return 0;
   }
   const double before = n_whole(tile), from_ring = n_whole_from_ring(tile);
-  damped ? sweep<true, true>(laws, tile) : sweep<false, true>(laws, tile);
+  damped ? sweep<true, true>(laws, tile, next) : sweep<false, true>(laws, tile, next);
   const int broken = static_cast<int>(before - n_whole(tile));
   tile.n_breaks += broken + static_cast<int>(from_ring - n_whole_from_ring(tile));
   return broken;

@@ -67,37 +67,48 @@ void ContactParticles::mark_positions() {
     }
   }
   for (Piece& piece : pieces_) piece.n_breaks = piece.tile->n_breaks;
-  largest_offset_ = 0;
+  largest_offset_ = 0, owned_offsets_ = offsets(true);
 }
 
-/// Bounds of the offsets; lower > upper if there is no particle.
-ContactParticles::Offsets ContactParticles::offsets() const {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  double lower[3] = {far, far, far}, upper[3] = {-far, -far, -far};
+Box ContactParticles::offsets(bool of_owned) const {
+  Box all;
   const std::vector<double>* marked[3] = {&marked_x_, &marked_y_, &marked_z_};
   for (const ParticleRow& row : rows) {
+    if ((row.owned != nullptr) != of_owned) continue;
     const double* exists = row.tile->exists.data() + row.place;
     for (int c = 0; c < 3; ++c) {
       const double *x = row.tile->field(Tile::x + c) + row.place, *x0 = marked[c]->data() + row.first;
-      double low = lower[c], high = upper[c];
+      double low = all.lower[c], high = all.upper[c];
 #pragma omp simd reduction(min : low) reduction(max : high)
       for (int i = 0; i < row.count; ++i) {
         const double d = x[i] - x0[i];
         low = exists[i] > 0 && d < low ? d : low, high = exists[i] > 0 && d > high ? d : high;
       }
-      lower[c] = low, upper[c] = high;
+      all.lower[c] = low, all.upper[c] = high;
     }
   }
-  return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+  return all;
 }
 
-bool ContactParticles::keeps_distances(double distance) {
+/// A common shift is a rigid motion too.
+bool ContactParticles::are_within(double distance, const Box& offsets) {
+  if (offsets.empty()) return true;
+  const auto& [lower, upper] = offsets;
+  largest_offset_ = norm({std::max(-lower.x, upper.x), std::max(-lower.y, upper.y), std::max(-lower.z, upper.z)});
+  return 0.5 * norm(upper - lower) <= distance;
+}
+
+bool ContactParticles::keeps_distances(double distance, const Box* moved) {
+  if (moved && !moved->empty()) {
+    owned_offsets_.lower += moved->lower, owned_offsets_.upper += moved->upper;
+    Box all = offsets(false);
+    all.include(owned_offsets_);
+    if (are_within(distance, all)) return true;
+  }
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const auto [lower, upper] = offsets();
-    if (!(lower.x <= upper.x)) return true;
-    largest_offset_ = norm({std::max(-lower.x, upper.x), std::max(-lower.y, upper.y), std::max(-lower.z, upper.z)});
-    // A common shift is a rigid motion too.
-    if (0.5 * norm(upper - lower) <= distance) return true;
+    Box all = owned_offsets_ = offsets(true);
+    all.include(offsets(false));
+    if (are_within(distance, all)) return true;
     if (attempt > 0 || !follow_marks()) return false;
   }
   return false;

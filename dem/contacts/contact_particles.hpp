@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "dem/integrator.hpp"
 #include "dem/rag.hpp"
 #include "dem/tile.hpp"
 
@@ -47,7 +48,9 @@ class ContactParticles {
   void mark_positions();
   /// True if no two particles have come nearer to each other than by 2 `distance` (m) since mark_positions; false if that is not sure. What
   /// counts is the motion beside a common rigid one, which the marks are made to follow: a rag that is carried along keeps its list.
-  bool keeps_distances(double distance);
+  /// `moved`: how far the particles of the owned tiles have moved since the last call, m; null if that is not known. It saves a look at all
+  /// of them while even the sum of such bounds is small.
+  bool keeps_distances(double distance, const Box* moved);
   /// Upper bound of how far a particle is from where it was at the last reset_path, m; as the last keeps_distances saw it.
   double path() const { return path_ + largest_offset_; }
   void reset_path() { path_ = largest_offset_; }
@@ -84,10 +87,9 @@ class ContactParticles {
     bool owned;
     int n_breaks;  // at mark_positions
   };
-  struct Offsets {  // from the marks to the present positions, m
-    Vec3 lower, upper;
-  };
-  Offsets offsets() const;
+  /// From the marks to the present positions, m, of the particles of owned or of ghost tiles.
+  Box offsets(bool of_owned) const;
+  bool are_within(double distance, const Box& offsets);
   bool follow_marks();
 
   const std::vector<Rag>* rags_;
@@ -95,6 +97,7 @@ class ContactParticles {
   std::vector<std::vector<int>> rows_of_;               // [owned tiles] of `rows`
   std::vector<double> marked_x_, marked_y_, marked_z_;  // [n] m
   double path_ = 0, largest_offset_ = 0;                // m
+  Box owned_offsets_;                                   // bounds, at the last keeps_distances
 };
 
 }  // namespace snag

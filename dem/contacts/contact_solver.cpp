@@ -51,7 +51,7 @@ struct ContactSolver::State {
     measures.beyond_walls.assign(r.size(), 0);
   }
 
-  void update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts);
+  void update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, const Box* moved);
   void add_wall_forces(double step);
   void sort_slips();
 
@@ -83,9 +83,9 @@ ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 void ContactSolver::renew_lists() { state_->outdated = true; }
 void ContactSolver::set_time(double time) { state_->time = time; }
 
-void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) {
+void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, const Box* moved) {
   const bool same_tiles = particles.holds(owned, ghosts);
-  if (same_tiles && !unpacked && !outdated && !particles.bonds_changed() && particles.keeps_distances(0.5 * skin)) {
+  if (same_tiles && !unpacked && !outdated && !particles.bonds_changed() && particles.keeps_distances(0.5 * skin, moved)) {
     if (walls && walls->due(time, particles.path())) walls->list(particles, time), particles.reset_path();
     return;
   }
@@ -108,9 +108,9 @@ void ContactSolver::add_forces(std::span<Tile* const> owned, std::span<const Til
 
 void ContactSolver::add_to_tile(std::size_t i) const { state_->particles.add_loads(i); }
 
-void ContactSolver::evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step) {
+void ContactSolver::evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved) {
   State& s = *state_;
-  s.update_lists(owned, ghosts);
+  s.update_lists(owned, ghosts, moved);
   s.slips_sorted = false;
   s.measures.n_contacts = 0;
   s.particles.clear_loads();

@@ -16,6 +16,7 @@
 
 #include "base/vec3.hpp"
 #include "dem/contacts/contact_settings.hpp"
+#include "dem/integrator.hpp"
 #include "dem/rag.hpp"
 #include "dem/tile.hpp"
 
@@ -68,8 +69,9 @@ class ContactSolver {
   /// owned or ghosts. Not collective; does not throw.
   void add_forces(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step);
   /// The same in two parts, for a caller that takes the tiles one by one while they are in the cache: evaluate all, then add what the
-  /// particles of the owned tile number i feel.
-  void evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step);
+  /// particles of the owned tile number i feel. `moved`: bounds of how far the particles of the owned tiles have moved since the last call,
+  /// m, if the caller knows.
+  void evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved = nullptr);
   void add_to_tile(std::size_t i) const;
 
   /// Other rows of the ghosts exist now: the lists are made anew at the next add_forces.

@@ -141,8 +141,8 @@ TEST(BondDynamics, BondForcesTurnWithABentSheet) {
   const TileGrid grid = tile_grid(20, 10);
   Tile a = make_tile(piece, 0, grid, 0), b = make_tile(turned, 0, grid, 0);
   const BondLaws laws = bond_laws(piece.rag);
-  set_bond_forces(laws, false, a);
-  set_bond_forces(laws, false, b);
+  set_bond_forces(laws, false, a, b);
+  set_bond_forces(laws, false, b, a);
   double largest = 0, force = 0, torque = 0;
   for (int j = 0; j < 10; ++j)
     for (int i = 0; i < 20; ++i) {
@@ -251,7 +251,7 @@ double growth(const FastestWave& wave, double step) {
   const BondLaws laws = bond_laws(rag);
   drift(tile, step / 2);
   for (int n = 0; n < 3000 && energy() < 1e6 * before; ++n) {
-    set_bond_forces(laws, false, tile);
+    set_bond_forces(laws, false, tile, tile);
     for_each([&](int k) { add_to(tile, Tile::fx, k, -wave.drag * rag.mass * tile.vector(Tile::vx, k)); });
     kick_and_drift(tile, {rag.mass, rag.inertia, {}}, step, step);
   }
@@ -292,7 +292,7 @@ struct BondOnEnds {
     add_to(tile, Tile::x, place[1], elongation * along);
     const Motion given = motion(along, across);
     for (const int end : {0, 1}) tile.set_vector(Tile::vx, place[end], given.v[end]), tile.set_vector(Tile::wx, place[end], given.w[end]);
-    set_bond_forces(bond_laws(rag), false, tile);
+    set_bond_forces(bond_laws(rag), false, tile, tile);
     for (const int end : {0, 1}) force[end] = tile.vector(Tile::fx, place[end]), torque[end] = tile.vector(Tile::tx, place[end]);
   }
 };

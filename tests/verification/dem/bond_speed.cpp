@@ -36,7 +36,7 @@ TEST(BondSpeed, TilesAreFasterThanBondByBond) {
   const double n_bonds = static_cast<double>(count_bonds(piece));
   const int n = 600;
   const double kernel = least_time([&] {
-    for (int repetition = 0; repetition < n; ++repetition) set_bond_forces(laws, false, tile);
+    for (int repetition = 0; repetition < n; ++repetition) set_bond_forces(laws, false, tile, tile);
   });
   Vec3 sum;
   const double plain = least_time([&] {
