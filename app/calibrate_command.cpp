@@ -94,16 +94,19 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
     calibrations.push_back(calibrate(MPI_COMM_WORLD, tests, settings));
     tell_result(tests, calibrations.back());
   }
-  std::optional<IndependencePart> part;
+  const auto write = [&](const std::optional<IndependencePart>& part) {
+    together(MPI_COMM_WORLD, [&] {
+      if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, part, options.tests_file);
+    });
+  };
+  write({});
   if (options.independence) {
     const Calibration& calibration = calibrations[calibrations.size() / 2];
     log::info("independence of particle radius, step, dashpots and friction about " + words(1e3 * calibration.settings.radius) + " mm");
-    part = IndependencePart{calibration.settings.radius, independence(MPI_COMM_WORLD, tests, calibration), {}};
-    part->drawings = independence_drawings(tests, part->found);
+    IndependencePart part{calibration.settings.radius, independence(MPI_COMM_WORLD, tests, calibration), {}};
+    part.drawings = independence_drawings(tests, part.found);
+    write(part);
   }
-  together(MPI_COMM_WORLD, [&] {
-    if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, part, options.tests_file);
-  });
   log::info("passport: " + (out / "passport.toml").string() + ", report: " + (out / "calibration.html").string());
   return ExitCode::ok;
 }
@@ -120,7 +123,7 @@ Action add_calibrate(CLI::App& app) {
                     "Count the clamps of the elongation test twice, as Jensen (2018) did: half of the measured force");
   command->add_flag(
       "--independence", options->independence,
-      "Show what ought not to matter, about the middle radius: particle radius, time step, dashpots and friction; some 15 minutes more");
+      "Show what ought not to matter, about the middle radius: particle radius, time step, dashpots and friction; some minutes more");
   command->add_option("--seeds", options->n_seeds, "Drapes at the tangential stiffness that is chosen (default 4)")
       ->check(CLI::Range(2, 100));
   command->add_option("--out", options->out, "Output folder (default results/calibrate-NAME of the tests' file)");

@@ -35,11 +35,11 @@ inline double sine_ratio(double u) {
 struct Rows {
   explicit Rows(Tile& tile) : n(tile.ny * tile.stride / 8 * 8) {
     for (int f = 0; f < Tile::n_fields; ++f) field[f] = tile.field(f) + tile.stride;
-    free = tile.free.data() + tile.stride;
+    free = tile.free.data() + tile.stride, exists = tile.exists.data() + tile.stride;
   }
   int n;
   double* field[Tile::n_fields];
-  const double* free;
+  const double *free, *exists;
 };
 
 [[gnu::always_inline]] inline void drift_one(double* const* f, int k, double dt) {
@@ -71,7 +71,7 @@ Box kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drif
   const Rows rows(tile);
   double* f[Tile::n_fields];
   std::copy_n(rows.field, Tile::n_fields, f);
-  const double* free = rows.free;
+  const double *free = rows.free, *exists = rows.exists;
   const double per_mass = dt / inertia.mass, per_moment = dt / inertia.moment;
   const Vec3 fall = dt * inertia.gravity;
   Box all;
@@ -85,7 +85,7 @@ Box kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drif
     f[Tile::wx][k] += moves * per_moment * f[Tile::tx][k];
     f[Tile::wy][k] += moves * per_moment * f[Tile::ty][k];
     f[Tile::wz][k] += moves * per_moment * f[Tile::tz][k];
-    const bool counts = moves > 0.5;
+    const bool counts = exists[k] > 0.5;  // also held ones; the columns of the ring have velocities that particles had
     const Vec3 v{f[Tile::vx][k], f[Tile::vy][k], f[Tile::vz][k]};
     low_x = std::min(low_x, counts ? v.x : low_x), high_x = std::max(high_x, counts ? v.x : high_x);
     low_y = std::min(low_y, counts ? v.y : low_y), high_y = std::max(high_y, counts ? v.y : high_y);

@@ -59,13 +59,12 @@ int RagSystem::neighbour_number(int number, int column_step, int row_step) const
 
 void RagSystem::set_pointers() {
   owned_pointers_.clear();
-  n_owned_particles_ = 0, has_clamped_ = false;
+  n_owned_particles_ = 0;
   for (Tile& tile : tiles_) {
     owned_pointers_.push_back(&tile);
     int n = 0;
     centre_of(tile, n);
     n_owned_particles_ += n;
-    for_particles(tile, [&](int k, int, int) { has_clamped_ = has_clamped_ || tile.free[k] < 0.5; });
   }
 }
 

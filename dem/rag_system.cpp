@@ -130,7 +130,7 @@ void RagSystem::advance(double dt, TileForce* force) {
   for (int k = 0; k < n; ++k) {
     exchange_ghosts(moved);
     evaluate_and_move(step, k + 1 < n ? step : step / 2, force, moved);
-    moved = has_clamped_ ? nullptr : &moved_;
+    moved = &moved_;
   }
   time_ += dt, n_sub_steps_ += n, n_particle_steps_ += n * n_owned_particles_;
   halo_->exchange();
@@ -180,7 +180,6 @@ void RagSystem::clamp(const std::function<bool(std::int64_t)>& held) {
         const int k = tile.index(i, j);
         tile.free[k] = tile.exists[k] > 0.5 && !held(particle_id(rags_[tile.rag], tile, i, j)) ? 1 : 0;
       }
-  set_pointers();
 }
 
 void RagSystem::set_clamp_velocity(const std::function<Vec3(std::int64_t)>& velocity) {

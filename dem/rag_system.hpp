@@ -172,10 +172,9 @@ class RagSystem {
   std::vector<Tile> ghosts_;
   std::vector<Tile*> owned_pointers_;
   std::vector<const Tile*> ghost_pointers_;
-  std::vector<Box> boxes_;    // of the rows of the owned tiles when ghosts were chosen
-  Box grown_;                 // bounds of how far the corners of all of these have moved since, m
-  Box moved_;                 // bounds of the last drift of the particles that are free, m
-  bool has_clamped_ = false;  // some particles of this rank are not free, so moved_ does not hold
+  std::vector<Box> boxes_;  // of the rows of the owned tiles when ghosts were chosen
+  Box grown_;               // bounds of how far the corners of all of these have moved since, m
+  Box moved_;               // bounds of the last drift, m
   std::int64_t n_owned_particles_ = 0;
   std::unique_ptr<TileHalo> halo_;
   std::unique_ptr<ContactSolver> contacts_;

@@ -16,7 +16,8 @@ NamedDrawing strips(const TextileTests& tests, const Independence& found, int d)
     radii += (i ? ", " : "") + millimetres(found.radii[i].radius);
   }
   return {"independence_strip_" + std::string(direction_key[d]) + ".svg",
-          std::string("Strips ") + direction_name[d] + " of particles of " + radii, drawing.svg()};
+          std::string("Strips ") + direction_name[d] + " of particles of " + radii + " (blue, green, pink, orange, pale blue)",
+          drawing.svg()};
 }
 
 template <class Name>
@@ -47,10 +48,11 @@ std::string radius_tables(const TextileTests& tests, const Independence& found) 
                          "strain there", "tip above the plane, mm"},
                         rows);
   }
-  return text + "<p>Over these radii the strain at the largest force differs by " + percent(found.strain_spread(0)) + " lengthwise and " +
-         percent(found.strain_spread(1)) + " crosswise, the force by " + percent(found.force_spread(0)) + " and " +
-         percent(found.force_spread(1)) + " (measured: " + html::number(tests.elongation[0].max_force) + " N and " +
-         html::number(tests.elongation[1].max_force) + " N; whole particles do not make up clamps and gauge exactly).</p>\n";
+  return text + "<p>Over these radii the strain at the largest force differs by " + html::number(100 * found.strain_spread(0)) + " %" +
+         " lengthwise and " + html::number(100 * found.strain_spread(1)) + " %" + " crosswise, the force by " +
+         html::number(100 * found.force_spread(0)) + " %" + " and " + html::number(100 * found.force_spread(1)) + " %" +
+         " (measured: " + html::number(tests.elongation[0].max_force) + " N and " + html::number(tests.elongation[1].max_force) +
+         " N; whole particles do not make up clamps and gauge exactly; the force is looked at 400 times before it is due).</p>\n";
 }
 
 std::string step_table(const TextileTests& tests, const Independence& found) {
@@ -103,7 +105,7 @@ std::string independence_section(const TextileTests& tests, const IndependencePa
   return "<p>Particle radius: bonds calibrated anew for each, the tangential stiffness kept times the radius squared.</p>\n" +
          side_by_side(plots) + side_by_side(drawings[0]) + radius_tables(tests, found) + "<p>Time step, at " + millimetres(part.radius) +
          ".</p>\n" + step_table(tests, found) + "<p>Dashpots and rotation friction of the bonds, at " + millimetres(part.radius) +
-         ": the cloth falls for 2.5 s from the same laying.</p>\n" + side_by_side(drawings[1]) +
+         ": the cloth falls for " + words(drape_duration) + " s from the same laying.</p>\n" + side_by_side(drawings[1]) +
          drape_table(tests, found.dampings, "Damping ratio", damping_of) +
          drape_table(tests, found.frictions, "Rotation friction", friction_of);
 }

@@ -63,20 +63,22 @@ template <int direction>
 }
 
 /// What the next tile to be swept needs from memory, a row at a time, while this one computes: hardware guesses it too late, for each of so
-/// many streams ends at every page.
+/// many streams ends at every page. The rows of the ring are left to it.
 struct Ahead {
-  static constexpr int n_lists = Tile::n_fields + 3, line = 8;  // doubles
+  static constexpr int n_lists = Tile::n_fields + 4, line = 8;  // doubles
   const double* row[n_lists];
+  int end;  // of the row
 
-  Ahead(const Tile& tile, int j) {
-    const std::size_t first = static_cast<std::size_t>(std::min(j, tile.ny - 1) + 1) * tile.stride;
+  Ahead(const Tile& tile, int j) : end(j < tile.ny ? tile.stride : 0) {
+    const std::size_t first = static_cast<std::size_t>(std::min(j, tile.ny) + 1) * tile.stride;
     for (int f = 0; f < Tile::n_fields; ++f) row[f] = tile.field(f) + first;
-    row[Tile::n_fields] = tile.bond_x.data() + first, row[Tile::n_fields + 1] = tile.bond_y.data() + first;
-    row[Tile::n_fields + 2] = tile.free.data() + first;
+    const AlignedDoubles* marks[] = {&tile.bond_x, &tile.bond_y, &tile.free, &tile.exists};
+    for (int m = 0; m < 4; ++m) row[Tile::n_fields + m] = marks[m]->data() + first;
   }
   /// Places i .. i + 7 of the lists of even number (0) or odd number (1).
   template <int half>
   [[gnu::always_inline]] void fetch(int i) const {
+    if (i >= end) return;
 #pragma GCC unroll 16
     for (int f = half; f < n_lists; f += 2) __builtin_prefetch(row[f] + i, 0, 2);
   }
@@ -164,7 +166,9 @@ void sweep_chain(const BondLaws& laws, Tile& tile, const Tile& next_tile) {
   static const RowForces none;
   Workspace& w = workspace();
   load(tile, 0, w.rows[0]);
-  evaluate<0, damped, breakage>(laws[0], w.rows[0], w.rows[0], &tile.bond_x[tile.stride], tile.stride, w.along, {next_tile, 0});
+  const Ahead ahead(next_tile, 0);
+  for (int i = 0; i < tile.stride; i += Ahead::line) ahead.fetch<1>(i);
+  evaluate<0, damped, breakage>(laws[0], w.rows[0], w.rows[0], &tile.bond_x[tile.stride], tile.stride, w.along, ahead);
   gather(w.along, none, none, 0, tile);
 }
 
@@ -177,7 +181,7 @@ void sweep(const BondLaws& laws, Tile& tile, const Tile& next_tile) {
   RowForces *below = &w.between[0], *above = &w.between[1];
   load(tile, -1, *row);
   load(tile, 0, *next);
-  evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[0], tile.stride, *below, {next_tile, -1});
+  evaluate<1, damped, breakage>(laws[1], *row, *next, &tile.bond_y[0], tile.stride, *below, {next_tile, next_tile.ny});
   for (int j = 0; j < tile.ny; ++j) {
     std::swap(row, next);
     load(tile, j + 1, *next);

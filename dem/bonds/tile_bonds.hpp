@@ -29,6 +29,7 @@ BondEnd bond_end(const Tile& tile, int k) {
 /// Sets fx .. tz (N, N m) of the tile's particles to what their bonds give; the ring must be up to date. Bonds across the tile's edge are
 /// evaluated too, from the same numbers as the neighbour does. With `breakage` bonds that do not hold get the mark 0 and no force from this
 /// call on; returns how many broke of those that the tile owns (end 1 in the tile), else 0. Particles of the ring get arbitrary values.
+/// `next` is fetched from memory meanwhile: the tile that is due after this one, or the same.
 int set_bond_forces(const BondLaws& laws, bool breakage, Tile& tile, const Tile& next);
 
 }  // namespace snag

@@ -12,7 +12,7 @@ constexpr double radius_ratios[] = {1.0 / 3, 2.0 / 3, 1, 4.0 / 3, 5.0 / 3};  // 
 constexpr double step_shares[] = {0.02, 0.05, 0.1, 0.2, 0.4, 0.8};
 constexpr double dampings[] = {0, 0.25, 0.5, 1}, frictions[] = {0, 0.001, 0.01, 0.05};  // Figs. 1.12, 1.13
 constexpr double strip_duration = 1.5, strip_air = 30;                                  // s, 1/s: at rest to 0.02 mm
-constexpr double drape_duration = 2.5, drape_air = 3;  // s, as published; 1/s: air takes out the swing, never the folds
+constexpr double drape_air = 3;                                                         // 1/s: takes out the swing, never the folds
 
 RadiusPoint at_radius(const TextileTests& tests, const Calibration& c, double radius) {
   CalibrationSettings settings = c.settings;

@@ -29,14 +29,17 @@ struct DampingPoint {
   Outline outline;
 };
 
+inline constexpr double drape_duration = 2.5;  // s, as published
+
 struct Independence {
   std::vector<RadiusPoint> radii;                 // 1/3, 2/3, 1, 4/3, 5/3 of the calibrated one
   std::vector<StepPoint> steps;                   // rising
   std::vector<DampingPoint> dampings, frictions;  // one of the two varied
 
-  double strain_spread(int direction) const;  // of the strains at the largest force over the radii: largest over smallest - 1
-  double force_spread(int direction) const;   // of the largest forces
-  double tip_spread() const;                  // greatest distance between two tips over the steps, over the overhang
+  double strain_spread(
+      int direction) const;  // of the strains at the largest force over the radii: largest over smallest - 1, to the 0.25 % of a look
+  double force_spread(int direction) const;  // of the largest forces
+  double tip_spread() const;                 // greatest distance between two tips over the steps, over that from the edge
 };
 
 /// Some minutes at 1.5 mm, most of it for the drapes, which are shared out over the ranks. Collective. Throws Error(usage, diverged).

@@ -70,7 +70,10 @@ class Calibrate(harness.CaseTest):
     def test_passport_of_coarse_particles(self):
         """The dust cloth at 5 mm drapes as measured; then a case takes the passport."""
         text = self.calibrate("5mm", 1, "one")
-        self.assertEqual(text, self.calibrate("5mm", 2, "two"), "the number of ranks must not matter")
+        self.assertEqual(text, self.calibrate("5mm", 2, "two", "--independence"), "the number of ranks must not matter")
+        self.assertIn("What ought not to matter", (self.work / "two/calibration.html").read_text())
+        for name in ("strip_LW", "strip_CW", "damping", "friction"):
+            self.assertTrue((self.work / f"two/pictures/independence_{name}.svg").read_text().startswith("<svg"))
         passport = tomllib.loads(text)
         self.assertEqual([bond["direction"] for bond in passport["bond"]], ["LW", "CW"])
         for picture in passport["textile"]["pictures"]:

@@ -8,6 +8,8 @@
 #include <functional>
 #include <numbers>
 
+#include "tests/verification/dem/pieces.hpp"
+
 namespace snag {
 namespace {
 
@@ -81,8 +83,19 @@ TEST(CalibrationBending, RelaxedStripIsWhereTheMotionEnds) {
   const int n = 11;
   const double r = 1.5e-3;
   Strip strip{r, (n + 0.5) * 2 * r, 0.42, bonds_at(tests, {.radius = r}, 2e5)[0]};
-  const StripShape relaxed = hanging_strip(strip), moved = moved_strip(strip, 0.5, 1.5, 30, 0.8);
-  for (int k = 0; k <= n; ++k) EXPECT_LT(norm(moved.centres[k] - relaxed.centres[k]), 2e-5) << k;
+  const StripShape relaxed = hanging_strip(strip);
+  RagPiece piece = testing_pieces::cloth(n + 1, 1);
+  Rag& rag = piece.rag;
+  rag.radius = r, rag.mass = 0.42 * 4 * r * r, rag.inertia = 0.4 * rag.mass * r * r, rag.bond[0] = strip.bond, rag.bond_damping = 0.5;
+  piece.centre = {n * r, 0, 0};
+  RagSystem rags(MPI_COMM_SELF, {}, {piece});
+  rags.clamp([](std::int64_t id) { return id == 0; });
+  rags.set_gravity({0, 0, -standard_gravity});
+  constexpr double rate = 30;
+  rags.set_damping_rate(rate);
+  testing_pieces::EachParticle air(rags, [&](Tile& tile, int k, std::int64_t) { testing_pieces::add_drag(rags, tile, k, rate); });
+  rags.advance(1.5, &air);
+  for (int k = 0; k <= n; ++k) EXPECT_LT(norm(testing_pieces::position(rags, k) - relaxed.centres[k]), 2e-5) << k;
 }
 
 TEST(CalibrationBending, TipComesToThePlane) {
@@ -106,7 +119,8 @@ TEST(CalibrationIndependence, ParticleSizeAndStepDoNotMatter) {
   // Requirement: with the bonds calibrated for each of five radii about 6 mm the cloth tears within 1 % of the same strain and 10 % of the
   // same force (whole particles do not make up the clamps' width exactly), and the tip comes to the plane to 0.1 mm; with steps from a
   // fiftieth of the stable one to four fifths of it the grab test gives the same force and strain to 0.5 %, and the moving strip ends at
-  // the same place to 0.1 % of its length.
+  // the same place to 0.1 % of its length; dashpots and rotation friction change the drape's area by less than 5 %, the same ones not at
+  // all.
   const TextileTests tests = aro();
   Calibration calibration;
   calibration.settings.radius = 6e-3;
@@ -123,7 +137,9 @@ TEST(CalibrationIndependence, ParticleSizeAndStepDoNotMatter) {
     EXPECT_NEAR(point.grab.strain_at_max / found.steps.front().grab.strain_at_max, 1, 5e-3) << point.share;
   }
   EXPECT_LT(found.tip_spread(), 1e-3);
-  for (const DampingPoint& point : found.dampings) EXPECT_NEAR(point.outline.area / found.dampings.front().outline.area, 1, 0.1);
+  for (const auto& points : {found.dampings, found.frictions})
+    for (const DampingPoint& point : points) EXPECT_NEAR(point.outline.area / found.dampings[2].outline.area, 1, 0.05);
+  EXPECT_EQ(found.dampings[2].outline.area, found.frictions[1].outline.area);
 }
 
 TEST(CalibrationElongation, GrabTestTearsAtTheMeasuredForce) {
@@ -190,7 +206,7 @@ TEST(CalibrationDrape, RelaxationAndMotionDrapeAlikeInTheMean) {
               1e4 * area[1].value(), 1e3 * size[0].value(), 1e3 * size[1].value(), waves[0].value(), waves[1].value());
   for (const auto& pair : {area, size}) {
     const double difference = std::abs(pair[0].value() - pair[1].value());
-    EXPECT_LT(difference, 3 * std::sqrt(pair[0].variance() + pair[1].variance()) + 1e-4 * pair[0].value());
+    EXPECT_LT(difference, 3 * std::sqrt(pair[0].variance() + pair[1].variance()));
     EXPECT_LT(difference, 0.03 * pair[0].value());
   }
   EXPECT_LT(std::abs(waves[0].value() - waves[1].value()), 0.5);

@@ -41,27 +41,29 @@ TEST(RagImpact, CrumplingOnlyLosesEnergy) {
 }
 
 TEST(RagImpact, BoundsOfTheMotionMissNoContact) {
-  // Requirement: a sheet that crumples against a wall moves to the bit as it does where its lists of contacts do not rest on bounds of the
-  // motion: a particle that is held, far away, switches these off.
+  // Requirement: a sheet that crumples against a wall moves to the bit as it does where the lists of contacts are made anew in each
+  // sub-step: a particle that flies by far away, faster than the lists allow, sees to that.
   RagSettings settings;
   settings.length = 0.08, settings.width = 0.06;
   settings.position = {0, 0, 0.07}, settings.velocity = {0, 0, -15}, settings.spin = {10, 30, 50};
   settings.lengthwise = {0.15, 0.5, 1}, settings.crosswise = {0, 1, -0.5};
-  RagPiece far = testing_pieces::cloth(1, 1);
-  far.centre = {0, 0, 1};
   WallSet walls;
   walls.add_plane("wall", {}, {0, 0, 1});
+  std::vector<std::int64_t> n_lists;
   std::vector<RagSheet> sheets;
-  for (const bool held : {false, true}) {
+  for (const double speed : {0.0, 1000.0}) {
+    RagPiece far = testing_pieces::cloth(1, 1);
+    far.centre = {0, 0, 1}, far.velocity = {0, speed, 0};
     RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test"), far});
     rags.set_contacts(std::make_unique<ContactSolver>(ContactSettings{}, rags.rags(), &walls));
-    if (held) rags.clamp([&](std::int64_t id) { return id == rags.rags()[1].first_particle; });
     rags.advance(8e-3);
     EXPECT_GT(rags.contacts()->measures().n_contacts, 100);
+    n_lists.push_back(rags.contacts()->measures().n_lists);
     sheets.push_back(gather_sheet(rags));
   }
+  EXPECT_GT(n_lists[1], 2 * n_lists[0]);
   ASSERT_EQ(sheets[0].position.size(), sheets[1].position.size());
-  for (std::size_t p = 0; p < sheets[0].position.size(); ++p) EXPECT_EQ(norm(sheets[0].position[p] - sheets[1].position[p]), 0) << p;
+  for (std::size_t p = 0; p + 1 < sheets[0].position.size(); ++p) EXPECT_EQ(norm(sheets[0].position[p] - sheets[1].position[p]), 0) << p;
 }
 
 TEST(RagImpact, SheetSlidesToRest) {

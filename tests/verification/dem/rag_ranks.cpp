@@ -103,6 +103,19 @@ TEST(RagRanks, ThousandStepsAreTheSameOnAnyNumberOfRanks) {
   EXPECT_GT(sum(MPI_COMM_WORLD, spread.rags.contacts()->measures().n_contacts), 5);
 }
 
+TEST(RagRanks, LongAdvanceIsTheSameOnAnyNumberOfRanks) {
+  // Requirement: the same where the rags move on by several times what their ghosts were chosen for (2 m/s against a skin of 5 mm) before
+  // all their places are looked at again.
+  ThrownCloth alone(MPI_COMM_SELF), spread(MPI_COMM_WORLD);
+  spread.migrate();
+  alone.rags.advance(1300 * 8e-6), spread.rags.advance(1300 * 8e-6);
+  const RagSheet a = gather_sheet(alone.rags), b = gather_sheet(spread.rags);
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    EXPECT_LT(largest_difference(a, b), 1e-12);
+  }
+  EXPECT_GT(sum(MPI_COMM_WORLD, spread.rags.contacts()->measures().n_contacts), 5);
+}
+
 TEST(RagRanks, BondsBreakAlikeOnAnyNumberOfRanks) {
   // Requirement: with breakage the same bonds break, both tiles of a bond agree, and whole plus broken stays the number at birth.
   ThrownCloth alone(MPI_COMM_SELF, true), spread(MPI_COMM_WORLD, true);
