@@ -104,8 +104,8 @@ TEST(RagRanks, ThousandStepsAreTheSameOnAnyNumberOfRanks) {
 }
 
 TEST(RagRanks, LongAdvanceIsTheSameOnAnyNumberOfRanks) {
-  // Requirement: the same where the rags move on by several times what their ghosts were chosen for (2 m/s against a skin of 5 mm) before
-  // all their places are looked at again.
+  // Requirement: the same in one call of advance, in which particles move by centimetres (10 ms at 2 to 6 m/s), many times the skin of half
+  // a radius, 0.5 mm, that the ghosts were chosen for, so that bounds of the motion must tell when to look at all their places again.
   ThrownCloth alone(MPI_COMM_SELF), spread(MPI_COMM_WORLD);
   spread.migrate();
   alone.rags.advance(1300 * 8e-6), spread.rags.advance(1300 * 8e-6);
