@@ -12,10 +12,10 @@ namespace snag {
 
 namespace {
 
-/// Shares of the prior. None is twice as likely as all single effects together: uncertainties of inputs are seldom stated too large. A
-/// second effect is as likely beside the first as it is alone; a tenth is for what nobody listed. To be named, a second effect has to
-/// bring 6 nats (a surplus second effect mops up what the first leaves): a rule of the verdict, of which the probabilities know nothing.
-constexpr double prior_none = 0.6, prior_effects = 0.3, prior_outside = 0.1, nats_of_second = 6;
+/// Shares of the prior: how many effects of the library a model lacks is a Poisson number of mean one, each effect as likely as the others;
+/// a tenth is for what nobody listed. To be named, a second effect has to bring 6 nats (a surplus second effect mops up what the first
+/// leaves): a rule of the verdict, of which the probabilities know nothing.
+constexpr double prior_none = 0.36, prior_effects = 0.36, prior_outside = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
 constexpr double screening_width = 10, share_not_linear = 0.05;
@@ -28,26 +28,25 @@ class Attributor {
       : model_(model), fitter_(fitter), progress_(progress) {}
 
   Attribution attribute() {
-    const std::vector<int> live = live_candidates(model_, result_.identifiability.blind);
+    std::vector<int> live = live_candidates(model_, result_.identifiability.blind);
     n_singles_ = std::max<int>(1, static_cast<int>(live.size()));
     for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
     report("signatures", 0.05);
     const Screening screening(model_, fitter_, candidates_, fitter_.base());
     identify(screening);
-    // What changes no run needs none to be judged.
-    const auto unseen = std::stable_partition(candidates_.begin(), candidates_.end(), [&](int k) { return screening.changes_runs(k); });
-    const std::vector<int> not_seen(unseen, candidates_.end());
-    candidates_.erase(unseen, candidates_.end());
+    // What changes no run is the base model under another name: friction of what touches nothing is no hypothesis.
+    const auto changes_none = [&](int k) { return !model_.effects()[k].random && !screening.changes_runs(k); };
+    std::erase_if(live, changes_none), std::erase_if(candidates_, changes_none);
     result_.sham_rate = screening.sham_rate(model_.experiment().seed);
     const std::vector<Screened> singles = screened_singles(screening);
     report("fits", 0.15);
     add(fitter_.fit({}, Eigen::VectorXd()));
-    for (const int k : not_seen) result_.not_fitted[model_.effects()[k].name] = {result_.fits.front().log_evidence, log_prior({{k}})};
     fit_singles(singles);
+    credit_other_singles(live);
     for (const int k : random_) {
       if (affordable(6 * model_.n_seeds({{{k, 1}}, fitter_.base().state.nuisances}))) add(fit_random_effect(model_, fitter_, k));
     }
-    if (model_.experiment().pairs) fit_pairs(screening);
+    if (model_.experiment().pairs) fit_pairs(screening), credit_other_pairs(live);
     result_.outside = fit_outside(model_, fitter_);
     result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
     for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
@@ -205,6 +204,41 @@ class Attributor {
     }
   }
 
+  // An effect that was screened only is behind the best fit by what it was behind in the screening; a random one, until it is fitted,
+  // brings nothing.
+  void credit_other_singles(const std::vector<int>& live) {
+    const double none = result_.fits.front().log_evidence;
+    double best_fit = none, best_screened = 0;
+    for (std::size_t i = 0; i < result_.fits.size(); ++i) best_fit = std::max(best_fit, result_.fits[i].log_evidence);
+    for (const auto& [name, gain] : result_.screening) best_screened = std::max(best_screened, gain);
+    for (const int k : live) {
+      const std::string& name = model_.effects()[k].name;
+      if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+      const auto screened = result_.screening.find(name);
+      const double gain = screened == result_.screening.end() ? 0 : screened->second;
+      result_.not_fitted[name] = {std::min(none + gain, best_fit - (best_screened - gain)), log_prior({{k}})};
+    }
+  }
+
+  // Pairs that nobody looked at bring what the better of their effects brings.
+  void credit_other_pairs(const std::vector<int>& live) {
+    std::map<int, double> alone;
+    for (const int k : live) {
+      const auto other = result_.not_fitted.find(model_.effects()[k].name);
+      if (other != result_.not_fitted.end()) alone[k] = other->second.log_evidence;
+    }
+    for (const Fit& fit : result_.fits)
+      if (fit.hypothesis.effects.size() == 1) alone[fit.hypothesis.effects[0]] = fit.log_evidence;
+    for (auto a = alone.begin(); a != alone.end(); ++a) {
+      for (auto b = std::next(a); b != alone.end(); ++b) {
+        const Hypothesis pair = pair_of(a->first, b->first);
+        const std::string name = name_of(pair, model_.effects());
+        if (std::count(result_.names.begin(), result_.names.end(), name) == 0)
+          result_.not_fitted.emplace(name, NotFitted{std::max(a->second, b->second), log_prior(pair)});
+      }
+    }
+  }
+
   // What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model reaches:
   // its screened evidence is too low.
   double price_of_inputs(const Fit& fit) const {
@@ -277,6 +311,17 @@ void set_probabilities(Attribution& attribution) {
   const double total = log_sum_exp(logarithms);
   attribution.probability.clear();
   for (const auto& [name, weight] : weights) attribution.probability[name] = std::exp(weight - total);
+}
+
+double probability_of(const Attribution& attribution, const std::vector<std::string>& effects) {
+  double sum = 0;
+  for (const auto& [name, p] : attribution.probability) {
+    const std::vector<std::string> acting = split(name, '+');
+    const bool all = std::all_of(effects.begin(), effects.end(),
+                                 [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; });
+    if (all) sum += p;
+  }
+  return sum;
 }
 
 }  // namespace snag

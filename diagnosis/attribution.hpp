@@ -12,8 +12,7 @@
 
 namespace snag {
 
-/// A hypothesis without a fit of its own: a pair that was screened beside the fit of one of its effects and promised too little, or an
-/// effect that changes no run, of which these data tell as much as of none.
+/// A hypothesis without a fit of its own: what promised too little in a screening, and pairs of it.
 struct NotFitted {
   double log_evidence = 0, log_prior = 0;
 };
@@ -45,6 +44,9 @@ Attribution attribute(Responses& model, Fitter& fitter, const std::function<void
 
 /// Probabilities of all hypotheses from evidence, tempered by the calibration, and prior.
 void set_probabilities(Attribution& attribution);
+
+/// Probability that all of these effects act, alone or beside others.
+double probability_of(const Attribution& attribution, const std::vector<std::string>& effects);
 
 /// Log predictive density of each training point given the others, summed.
 double leave_one_out(const Fit& fit);

@@ -92,6 +92,9 @@ class Judge {
       none();
     else
       effects(first);
+    for (const auto& [name, p] : v_.probability)
+      for (const std::string& effect : split(name, '+'))
+        if (effect != "none" && effect != "outside") v_.acts[effect] += p;
     const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.first_effect();
     for (const int i : std::set<int>{reported, a_.first_effect()}) note_parameters(i);
     note_inputs(a_.fits[first]);
@@ -122,9 +125,14 @@ class Judge {
     v_.notes.push_back(a_.names[best] + " describes the gap best among the effects of the library, but only in part; it is not the cause.");
   }
 
+  // Effects that cannot be seen are as likely as ever, but they are no gap. A tie is where data that speak against none weigh as much.
   void none() {
-    const double p = v_.probability.at("none");
-    if (p < suspected) {
+    constexpr double speaks = 1;  // nats
+    const double none = a_.fits.front().log_evidence;
+    double against = a_.outside.log_evidence > none + speaks ? v_.probability.at("outside") : 0;
+    for (std::size_t i = 1; i < a_.fits.size(); ++i)
+      if (a_.fits[i].log_evidence - a_.not_believed[i] > none + speaks) against += v_.probability.at(a_.names[i]);
+    if (against > v_.probability.at("none")) {
       tie(shared_verdict(a_));
       return;
     }
@@ -139,9 +147,10 @@ class Judge {
   }
 
   void effects(int first) {
-    const double p = v_.probability.at(a_.names[first]);
     const int rival = best_predictor(first);
     v_.effects = effect_names(model_, a_.fits[first]);
+    // Whether a further effect acts that is too weak to be named does not make the named ones less certain.
+    const double p = v_.p_effects = probability_of(a_, v_.effects);
     const bool several_points = model_.training().size() > 1;
     if (p < suspected) {
       tie(shared_verdict(a_));

@@ -56,7 +56,10 @@ double deviance_residual(const Row& row, double model, int n_runs, double scatte
     const double best = std::isfinite(row.u) ? row.value : std::numeric_limits<double>::infinity();
     return signed_deviance(best, model, best, log_likelihood) / std::sqrt(variance_ratio(row, model, n_runs, scatter));
   }
-  return (row.value - std::log(row.noise_u * row.noise_u + model)) / std::sqrt(2 / row.sigma * variance_ratio(row, model, n_runs, scatter));
+  // A variance over its expectation is chi2 over its degrees of freedom, far from normal where these are few.
+  const double log_ratio = row.value - std::log(row.noise_u * row.noise_u + model);
+  const double degrees = row.sigma / variance_ratio(row, model, n_runs, scatter);
+  return (log_ratio >= 0 ? 1 : -1) * std::sqrt(degrees * std::max(0.0, std::expm1(log_ratio) - log_ratio));
 }
 
 double variance_ratio(const Row& row, double model, int n_runs, double scatter) {

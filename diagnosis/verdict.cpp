@@ -79,6 +79,7 @@ Json how_far(const Verdict& v) {
 std::string verdict_json(const Verdict& v) {
   Json json{{"name", v.name}, {"verdict", v.verdict}, {"effects", v.effects}, {"wording", v.wording}, {"tie", v.tie}};
   json["probability"] = numbers(v.probability);
+  json["acts"] = numbers(v.acts);
   json["parameters"] = Json::object();
   for (const auto& [name, e] : v.parameters) json["parameters"][name] = parameter(e);
   json["where"] = Json::array();

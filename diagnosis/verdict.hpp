@@ -76,9 +76,11 @@ struct Verdict {
   std::string name;                    // of the experiment
   std::string verdict;                 // effects | none | outside | tie | blind
   std::vector<std::string> effects{};  // of the first hypothesis that names effects; for outside: the best effect, partial and no cause
+  double p_effects = 0;                // that all of them act, alone or beside others
   std::string wording;                 // attributed | suspected | undecided | outside | blind | no gap beyond u_val
   std::vector<std::string> tie{};      // hypotheses that share the verdict of a tie
-  std::map<std::string, double> probability{};
+  std::map<std::string, double> probability{};    // of each hypothesis
+  std::map<std::string, double> acts{};           // of each effect: that it acts, alone or beside another
   std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, nats, relative to none
   std::map<std::string, double> screening{};      // the same by signatures only
   std::map<std::string, double> leave_one_out{};  // log predictive density, one operating point left out at a time, relative to none

@@ -10,7 +10,6 @@
 #include "base/error.hpp"
 #include "base/parameter_text.hpp"
 #include "coupling/fluid_force.hpp"
-#include "diagnosis/screening.hpp"
 
 namespace snag {
 
@@ -32,17 +31,6 @@ std::map<std::string, std::string> other_forms(const Truth& truth, NormalNumbers
     }
   }
   return forms;
-}
-
-/// Whether any sample of a training point is another one when an effect acts at its expected strength: friction of what touches nothing is
-/// the base model under another name.
-bool shows(const TwinSet& set, const std::vector<Asked>& asked, const std::vector<std::vector<double>>& base, const Effect& effect) {
-  for (std::size_t p = 0; p < base.size(); ++p) {
-    const auto with = set.values(p, asked, {{effect.name, probe_strength(effect)}}, false, {});
-    for (std::size_t i = 0; i < asked.size(); ++i)
-      if (set.difference(asked[i].observable, with[i], base[p][i]) != 0) return true;
-  }
-  return false;
 }
 
 void draw_strengths(Truth& truth, const std::vector<Effect>& effects, NormalNumbers& random) {
@@ -97,22 +85,6 @@ void place_exits(TwinExperiment& experiment) {
 
 }  // namespace
 
-std::vector<Effect> showable(const TwinSet& set) {
-  const std::vector<PointCase>& cases = set.cases;
-  BaseCase facts = cases.front().facts();
-  for (const PointCase& one : cases) {
-    facts.wall |= one.facts().wall, facts.gradient |= one.facts().gradient, facts.varies |= one.facts().varies;
-    facts.uniform |= one.facts().uniform;
-  }
-  std::vector<Effect> effects = library_effects(facts, cases.front().forces());
-  std::erase_if(effects, [](const Effect& e) { return !e.blind.empty() || e.random; });
-  const std::vector<Asked> asked = set.asked("all");
-  std::vector<std::vector<double>> base;
-  for (std::size_t p = 0; p < set.n_training(); ++p) base.push_back(set.base_values(p, asked, {}));
-  std::erase_if(effects, [&](const Effect& e) { return !shows(set, asked, base, e); });
-  return effects;
-}
-
 Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& folder) {
   if (plan.level != "L1" && plan.level != "L2")
     throw Error(ExitCode::usage, "--bench " + plan.level + ": there is no such level; there are L1, L2");
@@ -122,6 +94,7 @@ Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& f
   TwinSet set{.twin = plan.twin, .run_seed = plan.seed, .experiment = twin_experiment(plan.twin, random), .truth = {}};
   place_exits(set.experiment);
   set.cases = write_cases(set, folder, other_physics && random.uniform() < 0.5 ? "haider_levenspiel" : "schiller_naumann");
+  set.deviations.resize(set.cases.size());
   const std::vector<Effect> effects = showable(set);
   std::vector<std::string> names;
   for (const Effect& effect : effects) names.push_back(effect.name);

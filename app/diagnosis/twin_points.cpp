@@ -89,16 +89,17 @@ TwinExperiment fibre(NormalNumbers& random) {
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   TwinExperiment twin;
   const double length = between(0.02, 0.03), modulus = between(3e4, 1.5e5), density = between(1100, 1400), viscosity = between(1e-5, 4e-5);
-  const double end = 0.4, speed = 0.1;
+  const double end = 0.4, speed = 0.3;
+  constexpr int n_points = 12;
   for (const int kind : {1, 2, 3, 0, 3, 1, 2}) {
     const Flow flow = flow_of(kind, random, speed * between(0.7, 1.5));
-    const double angle = between(-0.6, 0.6);
+    const double angle = between(-0.6, 0.6), from_wall = between(0.8, 1.6) * length / n_points;  // of the fibre's axis
     std::string text = time_text(end, 1e-3) + fall + flow_text(flow, viscosity) + drag;
-    text += "[[fibre]]\nlength_m = " + toml_text(length) + "\nn_points = 12\nyoungs_modulus_Pa = " + toml_text(modulus) +
-            "\ndensity_kg_m3 = " + toml_text(density) +
-            "\nshear_modulus_Pa = 1e4\ncentre_m = [0.0, 0.05, 0.0]\nlengthwise = " + toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) +
-            "\n";
-    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, -0.06]\nnormal = [0, 0, 1]\n" + exit_text('z', open_exit);
+    text += "[[fibre]]\nlength_m = " + toml_text(length) + "\nn_points = " + std::to_string(n_points) +
+            "\nyoungs_modulus_Pa = " + toml_text(modulus) + "\ndensity_kg_m3 = " + toml_text(density) +
+            "\nshear_modulus_Pa = 1e4\ncentre_m = [0.0, " + toml_text(kind == 0 || kind == 2 ? from_wall : 0.05) +
+            ", 0.0]\nlengthwise = " + toml_text(Vec3{std::cos(angle), 0, std::sin(angle)}) + "\n";
+    text += "[[wall]]\nkind = \"plane\"\npoint_m = [0, 0, 0]\nnormal = [0, 1, 0]\n" + exit_text('z', open_exit);
     twin.cases.push_back(text);
   }
   add_camera(twin, between(1e-4, 3e-4), 1e-6, 0.02);

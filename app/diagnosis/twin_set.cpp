@@ -6,6 +6,7 @@
 
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
+#include "diagnosis/summary.hpp"
 
 namespace snag {
 
@@ -65,7 +66,10 @@ std::vector<double> TwinSet::values(std::size_t point, const std::vector<Asked>&
 }
 
 double TwinSet::difference(const std::string& observable, double with, double without) const {
-  const double change = instrument(observable).kind == "lognormal" ? std::log(with / without) : with - without;
+  const std::string& kind = instrument(observable).kind;
+  const double change = kind == "lognormal" ? std::log(with / without)
+                        : kind == "angle"   ? wrapped(with - without, std::numbers::pi)  // an axis has no head
+                                            : with - without;
   return std::isfinite(change) ? change : 0;
 }
 

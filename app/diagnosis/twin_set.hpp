@@ -51,12 +51,14 @@ struct TwinSet {
                                   const std::map<std::string, double>& deviation) const {
     return values(point, asked, {}, false, deviation);
   }
-  /// Difference of two runs in the terms in which noise is stated: of logarithms if lognormal; 0 where one has no value.
+  /// Difference of two runs in the terms in which noise is stated: of logarithms if lognormal, the short way if an axis; 0 where one has no
+  /// value.
   double difference(const std::string& observable, double with, double without) const;
 };
 
-/// Effects of the library that the base cases can show at all, but for random ones: those are compared by their spread, which replicates of
-/// this twin lack.
+/// Effects of the library that the experiment can show: at their expected strength, by all observables and ten replicates, 3 standard
+/// uncertainties clear of the inputs. What moves the samples less tells nothing of a diagnosis. Random ones are compared by their spread,
+/// which replicates of this twin lack. To be asked while the set has no truth yet.
 std::vector<Effect> showable(const TwinSet& set);
 /// Fills in how clearly what acts stands out of noise and uncertain inputs, over the training points.
 void measure_gap(TwinSet& set);

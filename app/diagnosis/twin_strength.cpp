@@ -5,6 +5,7 @@
 #include "app/diagnosis/input_nuisances.hpp"
 #include "app/diagnosis/twin_set.hpp"
 #include "diagnosis/bench/detectability.hpp"
+#include "diagnosis/screening.hpp"
 
 namespace snag {
 
@@ -80,19 +81,51 @@ std::vector<std::vector<double>> input_columns(const TwinSet& set, const std::ve
   return columns;
 }
 
+/// Of the mean of the replicates, all samples of the training points.
+std::vector<double> noise_variance(const TwinSet& set, const std::vector<Asked>& asked, int replicates) {
+  std::vector<double> variance;
+  for (std::size_t p = 0; p < set.n_training(); ++p)
+    for (const Asked& one : asked) variance.push_back(std::pow(set.instrument(one.observable).noise_u, 2) / replicates);
+  return variance;
+}
+
 }  // namespace
+
+std::vector<Effect> showable(const TwinSet& set) {
+  const std::vector<PointCase>& cases = set.cases;
+  BaseCase facts = cases.front().facts();
+  for (const PointCase& one : cases) {
+    facts.wall |= one.facts().wall, facts.gradient |= one.facts().gradient, facts.varies |= one.facts().varies;
+    facts.uniform |= one.facts().uniform;
+  }
+  std::vector<Effect> effects = library_effects(facts, cases.front().forces());
+  std::erase_if(effects, [](const Effect& e) { return !e.blind.empty() || e.random; });
+  const std::vector<Asked> asked = set.asked("all");
+  constexpr int replicates = 10;
+  const auto variance = noise_variance(set, asked, replicates);
+  const auto columns = input_columns(set, asked);
+  std::vector<std::vector<double>> base;
+  for (std::size_t p = 0; p < set.n_training(); ++p) base.push_back(set.base_values(p, asked, {}));
+  std::erase_if(effects, [&](const Effect& effect) {
+    std::vector<double> signal;
+    for (std::size_t p = 0; p < set.n_training(); ++p) {
+      const auto with = set.values(p, asked, {{effect.name, probe_strength(effect)}}, false, {});
+      for (std::size_t i = 0; i < asked.size(); ++i) signal.push_back(set.difference(asked[i].observable, with[i], base[p][i]));
+    }
+    constexpr double seen = 3;  // standard uncertainties
+    return signal_size(signal, variance, columns).detectability < seen;
+  });
+  return effects;
+}
 
 void measure_gap(TwinSet& set) {
   const std::vector<Asked> asked = set.asked();
-  std::vector<double> signal, variance;
+  std::vector<double> signal;
   for (std::size_t p = 0; p < set.n_training(); ++p) {
     const auto with = set.true_values(p, asked), without = set.base_values(p, asked, set.deviations[p]);
-    for (std::size_t i = 0; i < asked.size(); ++i) {
-      const double noise = set.instrument(asked[i].observable).noise_u;
-      signal.push_back(set.difference(asked[i].observable, with[i], without[i]));
-      variance.push_back(noise * noise / set.truth.replicates);
-    }
+    for (std::size_t i = 0; i < asked.size(); ++i) signal.push_back(set.difference(asked[i].observable, with[i], without[i]));
   }
+  const auto variance = noise_variance(set, asked, set.truth.replicates);
   const auto columns = input_columns(set, asked);
   const SignalSize size = signal_size(signal, variance, columns);
   set.truth.detectability = set.truth.theta.size() > 1 ? weaker_of_pair(set, asked, variance, columns) : size.detectability;

@@ -49,12 +49,15 @@ std::string bars(const std::vector<Bar>& all) {
 
 std::string which(const Verdict& v) {
   std::vector<std::pair<double, std::string>> sorted;
-  for (const auto& [name, p] : v.probability) sorted.emplace_back(p, name);
+  for (const auto& [name, p] : v.acts) sorted.emplace_back(p, name);
+  for (const char* name : {"none", "outside"}) sorted.emplace_back(v.probability.at(name), name);
   std::sort(sorted.rbegin(), sorted.rend());
   std::vector<Bar> all;
   for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 10); ++i)
     all.push_back({sorted[i].second, percent(sorted[i].first), sorted[i].first, i == 0});
-  return bars(all);
+  return bars(all) +
+         "<p>Of an effect: how probable it is that it acts, alone or beside another; what these data cannot show is as probable as it was "
+         "before them. None: nothing is missing. Outside: what is missing is not in the library.</p>\n";
 }
 
 std::string strengths(const Verdict& v) {
@@ -210,9 +213,11 @@ std::string evidence(const Verdict& v) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, nats] : v.log_evidence) {
     const auto left_out = v.leave_one_out.find(name);
-    rows.push_back({escaped(name), html::number(nats), left_out == v.leave_one_out.end() ? "" : html::number(left_out->second)});
+    const auto p = v.probability.find(name);
+    rows.push_back({escaped(name), html::number(nats), left_out == v.leave_one_out.end() ? "" : html::number(left_out->second),
+                    p == v.probability.end() ? "" : percent(p->second)});
   }
-  std::string text = html::table({"Hypothesis", "evidence over none, nats", "points left out one by one, nats"}, rows);
+  std::string text = html::table({"Hypothesis", "evidence over none, nats", "points left out one by one, nats", "probability"}, rows);
   rows.clear();
   for (const PredictiveCheck& check : v.checks) rows.push_back({escaped(check.name), html::number(check.value), html::number(check.p)});
   if (!rows.empty()) text += html::table({"Does the first hypothesis explain the data?", "value", "p"}, rows);
@@ -238,13 +243,7 @@ std::string verdict_sentence(const Verdict& v) {
            (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
   if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
   if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
-  const auto p = v.probability.find([&] {
-    std::string name;
-    for (const std::string& effect : v.effects) name += (name.empty() ? "" : "+") + effect;
-    return name;
-  }());
-  return "The gap comes from " + joined(v.effects) + ": " + v.wording +
-         (p == v.probability.end() ? "" : ", probability " + percent(p->second)) + ".";
+  return "The gap comes from " + joined(v.effects) + ": " + v.wording + ", probability " + percent(v.p_effects) + ".";
 }
 
 std::string verdict_page(const Verdict& v) {

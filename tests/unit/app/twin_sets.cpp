@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "app/diagnosis/twin.hpp"
@@ -65,6 +66,14 @@ TEST(TwinSets, FibreSetsAreReproducibleAndPassTheirExit) {
   EXPECT_NE(text_of(folder / "a" / "data.csv").find("retention_time"), std::string::npos);
   EXPECT_EQ(text_of(folder / "a" / "data.csv").find(",1\n"), std::string::npos) << "pieces that do not reach the exit";
   std::filesystem::remove_all(folder);
+}
+
+/// Requirement: an axis that turned past the edge of its range has turned a little, not by half a circle.
+TEST(TwinSets, AxesDifferTheShortWay) {
+  NormalNumbers random(7);
+  const TwinSet set{.twin = "fibre", .experiment = twin_experiment("fibre", random), .truth = {}};
+  EXPECT_NEAR(set.difference("orientation", 1.56, -1.55), 3.11 - std::numbers::pi, 1e-12);
+  EXPECT_NEAR(set.difference("x", 1.56, -1.55), 3.11, 1e-12);
 }
 
 /// A sphere set without deviations whose truth is this; noise of many replicates.

@@ -51,5 +51,14 @@ TEST(Probabilities, WeighEvidence) {
   EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
 }
 
+/// Requirement: an effect acts in every hypothesis that holds it; one whose name is part of another's does not.
+TEST(Probabilities, ThatAnEffectActs) {
+  Attribution attribution;
+  attribution.probability = {{"none", 0.1}, {"a", 0.4}, {"a+b", 0.2}, {"ab", 0.25}, {"outside", 0.05}};
+  EXPECT_NEAR(probability_of(attribution, {"a"}), 0.6, 1e-12);
+  EXPECT_NEAR(probability_of(attribution, {"b"}), 0.2, 1e-12);
+  EXPECT_NEAR(probability_of(attribution, {"a", "b"}), 0.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace snag

@@ -177,5 +177,25 @@ TEST(Rows, VarianceOfScatteredRuns) {
   EXPECT_NEAR(deviance_residual(row, 0.1, 3, 0.09), -0.1 / 0.2, 1e-9);
 }
 
+/// Requirement: the scatter of few replicates that does come from the noise is rarely far off: of 2000 variances with 8 degrees of freedom
+/// as many are beyond 2 and 3 standard normal deviations as of a normal variable, on either side.
+TEST(Rows, ScatterOfFewReplicates) {
+  constexpr int degrees = 8, n = 2000;
+  Row row;
+  row.kind = Row::Kind::spread, row.n_replicates = 3, row.sigma = degrees, row.noise_u = 0.7;
+  NormalNumbers random(3);
+  int low = 0, high = 0, far = 0;
+  for (int k = 0; k < n; ++k) {
+    double square = 0;
+    for (int i = 0; i < degrees; ++i) square += std::pow(row.noise_u * random(), 2);
+    row.value = std::log(square / degrees);
+    const double z = deviance_residual(row, 0, 1, 0);
+    low += z<-2, high += z> 2, far += std::abs(z) > 3.5;
+  }
+  EXPECT_NEAR(low, 0.0228 * n, 22);  // 3 standard deviations of that number are 20
+  EXPECT_NEAR(high, 0.0228 * n, 22);
+  EXPECT_LE(far, 4);
+}
+
 }  // namespace
 }  // namespace snag
