@@ -5,7 +5,7 @@
 
 #include "base/words.hpp"
 #include "diagnosis/calibration.hpp"
-#include "diagnosis/random_effects.hpp"
+#include "diagnosis/emulated_fit.hpp"
 #include "diagnosis/statistics.hpp"
 
 namespace snag {
@@ -44,7 +44,7 @@ class Attributor {
     fit_singles(singles);
     credit_other_singles(live);
     for (const int k : random_) {
-      if (affordable(6 * model_.n_seeds({{{k, 1}}, fitter_.base().state.nuisances}))) add(fit_random_effect(model_, fitter_, k));
+      if (affordable(runs_of_emulator(k))) add(fit_by_emulator(model_, fitter_, k));
     }
     if (model_.experiment().pairs) fit_pairs(screening), credit_other_pairs(live);
     result_.outside = fit_outside(model_, fitter_);
@@ -70,6 +70,11 @@ class Attributor {
   int runs_of_fit(int n_effects) const {
     const int nuisances = static_cast<int>(model_.nuisances().size()) / std::max(1, static_cast<int>(model_.training().size())) + 1;
     return (10 + 8 * n_effects + nuisances) * model_.n_seeds(fitter_.base().state);
+  }
+
+  int runs_of_emulator(int effect) const {
+    return static_cast<int>(emulated_strengths(model_.effects()[effect]).size()) *
+           model_.n_seeds({{{effect, 1}}, fitter_.base().state.nuisances});
   }
 
   // Each effect is there or not whatever the others are.
@@ -133,9 +138,12 @@ class Attributor {
         std::max(screening_width, share_not_linear * (singles.empty() ? 0 : singles.front().log_evidence - none_screened_));
     for (std::size_t i = 0; i < singles.size() && i < most_kept; ++i) {
       if (i >= least_kept && singles[i].log_evidence < singles.front().log_evidence - width) break;
-      if (!affordable(runs_of_fit(1))) break;
+      const int effect = singles[i].hypothesis.effects[0];
+      // Differences of runs that chance has a part in are no derivatives.
+      const bool emulated = model_.base_is_random() && !model_.effects()[effect].fixed;
+      if (!affordable(emulated ? runs_of_emulator(effect) : runs_of_fit(1))) break;
       report("fit of " + name_of(singles[i].hypothesis, model_.effects()), 0.15 + 0.4 * static_cast<double>(i) / most_kept);
-      add(fitter_.fit(singles[i].hypothesis, start(singles[i]), singles[i].forms));
+      add(emulated ? fit_by_emulator(model_, fitter_, effect) : fitter_.fit(singles[i].hypothesis, start(singles[i]), singles[i].forms));
     }
   }
 

@@ -14,6 +14,8 @@ namespace {
 /// Standard deviation of the law that holds from the form next to it, over the difference to another form.
 constexpr double between_forms = 1.0 / 3;
 
+constexpr int most_seeds = 8;
+
 bool random_effects_may_show(const Simulator& simulator) {
   const auto& effects = simulator.effects();
   return std::any_of(effects.begin(), effects.end(), [](const Effect& e) { return e.random && e.blind.empty(); });
@@ -91,7 +93,8 @@ int Responses::n_seeds(const State& state) const {
   if (base_is_random_) return seeds_of_random_;
   const bool random =
       std::any_of(state.effects.begin(), state.effects.end(), [&](const auto& e) { return e.second != 0 && effects()[e.first].random; });
-  return random ? seeds_of_random_ : 1;
+  // Where chance comes with one effect alone, few states need their seeds.
+  return random ? std::min(most_seeds, 2 * seeds_of_random_) : 1;
 }
 
 std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>& effects) {
@@ -247,7 +250,7 @@ void Responses::find_randomness() {
       base_is_random_ = base_is_random_ || (a.values[k] != b.values[k] && !(std::isnan(a.values[k]) && std::isnan(b.values[k])));
   }
   // Enough seeds for a spread, few enough that some hundred states fit the budget.
-  seeds_of_random_ = std::clamp(experiment_.max_runs / (60 * static_cast<int>(points_.size())), 2, 8);
+  seeds_of_random_ = std::clamp(experiment_.max_runs / (60 * static_cast<int>(points_.size())), 2, most_seeds);
 }
 
 // Rows that the base model has no number for (it left before, it was not retained) cannot be compared.

@@ -96,9 +96,14 @@ Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& f
   set.cases = write_cases(set, folder, other_physics && random.uniform() < 0.5 ? "haider_levenspiel" : "schiller_naumann");
   set.deviations.resize(set.cases.size());
   const std::vector<Effect> effects = showable(set);
-  std::vector<std::string> names;
-  for (const Effect& effect : effects) names.push_back(effect.name);
-  set.truth = planned_set(number, plan.seed, names, outside_truths(plan.twin), set.experiment.subsets);
+  std::vector<std::string> names, of_pairs;
+  for (const Effect& effect : effects) {
+    names.push_back(effect.name);
+    if (!effect.random) of_pairs.push_back(effect.name);  // a diagnosis looks for random ones alone
+  }
+  set.truth = planned_set(number, plan.seed, names, of_pairs, outside_truths(plan.twin), set.experiment.subsets);
+  for (const Effect& effect : effects)
+    if (effect.random && set.truth.theta.contains(effect.name)) set.random.insert(effect.name);
   draw_strengths(set.truth, effects, random);
   if (other_physics) {
     set.forms = other_forms(set.truth, random);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/parameter_text.hpp"
+#include "base/random_numbers.hpp"
 #include "base/words.hpp"
 #include "diagnosis/summary.hpp"
 
@@ -54,8 +55,8 @@ const TwinInstrument& TwinSet::instrument(const std::string& id) const {
 }
 
 std::vector<double> TwinSet::values(std::size_t point, const std::vector<Asked>& asked, const std::map<std::string, double>& theta,
-                                    bool outside_acts, const std::map<std::string, double>& input_deviations) const {
-  CaseChange change = cases[point].change(theta, input_deviations, run_seed);
+                                    bool outside_acts, const std::map<std::string, double>& input_deviations, int replicate) const {
+  CaseChange change = cases[point].change(theta, input_deviations, mixed(mixed(run_seed) + static_cast<std::uint64_t>(replicate)));
   for (const auto& [name, form] : forms)
     if (theta.contains(name)) change.overrides.push_back(form);
   std::vector<double> values = run_for(cases[point].with(change.overrides), asked, 0.5, outside_acts ? outside.force : OutsideForce{});
@@ -96,8 +97,10 @@ std::string twin_data(const TwinSet& set, NormalNumbers& random) {
   for (const TwinInstrument& instrument : set.experiment.instruments)
     if (instrument.bias_u > 0 && !bias.contains(instrument.group)) bias[instrument.group] = random();
   for (std::size_t p = 0; p < set.cases.size(); ++p) {
-    const auto exact = set.true_values(p, asked);
-    for (int replicate = 1; replicate <= set.truth.replicates; ++replicate)
+    auto exact = set.true_values(p, asked);
+    for (int replicate = 1; replicate <= set.truth.replicates; ++replicate) {
+      // Another one at every point, too.
+      if (!set.random.empty()) exact = set.true_values(p, asked, static_cast<int>(p) * set.truth.replicates + replicate);
       for (std::size_t i = 0; i < asked.size(); ++i) {
         const TwinInstrument& instrument = set.instrument(asked[i].observable);
         double value = exact[i];
@@ -113,6 +116,7 @@ std::string twin_data(const TwinSet& set, NormalNumbers& random) {
                 (std::isnan(asked[i].time) ? "" : toml_text(asked[i].time)) + "," + asked[i].observable + "," + toml_text(value) + "," +
                 (censored ? "1" : "0") + "\n";
       }
+    }
   }
   return text;
 }

@@ -2,6 +2,7 @@
 // A set of the blind benchmark in the making: its truth, and runs of it. More than a diagnosis will know.
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct TwinSet {
   TwinExperiment experiment;
   Truth truth;
   std::vector<PointCase> cases{};                           // of the truth: with its own drag law
+  std::set<std::string> random{};                           // effects of the truth that are other ones in each replicate
   std::map<std::string, std::string> forms{};               // by effect: the value of a key that chooses the other functional form
   std::vector<std::map<std::string, double>> deviations{};  // relative, of the inputs, by point
   Vec3 picture_centre{};                                    // about which the camera's scale is wrong
@@ -42,10 +44,10 @@ struct TwinSet {
   const TwinInstrument& instrument(const std::string& id) const;
   /// Values without noise at a point with these effects in the form of the truth, and what is outside the library if `outside_acts`.
   std::vector<double> values(std::size_t point, const std::vector<Asked>& asked, const std::map<std::string, double>& theta,
-                             bool outside_acts, const std::map<std::string, double>& input_deviations) const;
+                             bool outside_acts, const std::map<std::string, double>& input_deviations, int replicate = 0) const;
   /// With all that is true, or without what the truth adds.
-  std::vector<double> true_values(std::size_t point, const std::vector<Asked>& asked) const {
-    return values(point, asked, truth.theta, true, deviations[point]);
+  std::vector<double> true_values(std::size_t point, const std::vector<Asked>& asked, int replicate = 0) const {
+    return values(point, asked, truth.theta, true, deviations[point], replicate);
   }
   std::vector<double> base_values(std::size_t point, const std::vector<Asked>& asked,
                                   const std::map<std::string, double>& deviation) const {
@@ -57,8 +59,7 @@ struct TwinSet {
 };
 
 /// Effects of the library that the experiment can show: at their expected strength, by all observables and ten replicates, 3 standard
-/// uncertainties clear of the inputs. What moves the samples less tells nothing of a diagnosis. Random ones are compared by their spread,
-/// which replicates of this twin lack. To be asked while the set has no truth yet.
+/// uncertainties clear of the inputs. What moves the samples less tells nothing of a diagnosis. To be asked while the set has no truth yet.
 std::vector<Effect> showable(const TwinSet& set);
 /// Fills in how clearly what acts stands out of noise and uncertain inputs, over the training points.
 void measure_gap(TwinSet& set);

@@ -11,34 +11,6 @@ namespace snag {
 
 namespace {
 
-/// What is left of the weaker of two effects when the other one may have any strength: a set whose second effect cannot be seen cannot be
-/// told.
-double weaker_of_pair(const TwinSet& set, const std::vector<Asked>& asked, const std::vector<double>& variance,
-                      const std::vector<std::vector<double>>& columns) {
-  std::vector<std::vector<double>> alone;  // what each adds to the other
-  for (const auto& [name, theta] : set.truth.theta) {
-    auto without = set.truth.theta;
-    without.erase(name);
-    alone.emplace_back();
-    for (std::size_t p = 0; p < set.n_training(); ++p) {
-      const auto both = set.true_values(p, asked), other = set.values(p, asked, without, true, set.deviations[p]);
-      for (std::size_t i = 0; i < asked.size(); ++i) alone.back().push_back(set.difference(asked[i].observable, both[i], other[i]));
-    }
-  }
-  double weaker = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < alone.size(); ++e) {
-    auto free = columns;
-    constexpr double any_strength = 100;
-    for (std::size_t other = 0; other < alone.size(); ++other) {
-      if (other == e) continue;
-      free.push_back(alone[other]);
-      for (double& value : free.back()) value *= any_strength;
-    }
-    weaker = std::min(weaker, signal_size(alone[e], variance, free).detectability);
-  }
-  return weaker;
-}
-
 /// What one standard uncertainty of an input does to the samples of a point, with what acts or without it.
 std::vector<double> change_by_input(const TwinSet& set, std::size_t point, const std::vector<Asked>& asked, const Nuisance& input,
                                     bool with_truth) {
@@ -89,6 +61,51 @@ std::vector<double> noise_variance(const TwinSet& set, const std::vector<Asked>&
   return variance;
 }
 
+/// What is left of the weaker of two effects when the other one may have any strength: a set whose second effect cannot be seen cannot be
+/// told.
+double weaker_of_pair(const TwinSet& set, const std::vector<Asked>& asked, const std::vector<double>& variance,
+                      const std::vector<std::vector<double>>& columns) {
+  std::vector<std::vector<double>> alone;  // what each adds to the other
+  for (const auto& [name, theta] : set.truth.theta) {
+    auto without = set.truth.theta;
+    without.erase(name);
+    alone.emplace_back();
+    for (std::size_t p = 0; p < set.n_training(); ++p) {
+      const auto both = set.true_values(p, asked), other = set.values(p, asked, without, true, set.deviations[p]);
+      for (std::size_t i = 0; i < asked.size(); ++i) alone.back().push_back(set.difference(asked[i].observable, both[i], other[i]));
+    }
+  }
+  double weaker = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < alone.size(); ++e) {
+    auto free = columns;
+    constexpr double any_strength = 100;
+    for (std::size_t other = 0; other < alone.size(); ++other) {
+      if (other == e) continue;
+      free.push_back(alone[other]);
+      for (double& value : free.back()) value *= any_strength;
+    }
+    weaker = std::min(weaker, signal_size(alone[e], variance, free).detectability);
+  }
+  return weaker;
+}
+
+/// An effect that is another one in each replicate. With rho the mean square of what it does to one replicate at one point, in standard
+/// uncertainties clear of the inputs, the likelihood of n replicates at all points gains n (rho - ln(1 + rho))/2 a point by it: this stands
+/// for half the square of its detectability.
+template <class Signal>
+SignalSize size_of_random(const Signal& signal, int replicates, std::size_t n_points, std::vector<double> variance,
+                          const std::vector<std::vector<double>>& columns) {
+  for (double& one : variance) one *= replicates;  // of one replicate
+  constexpr int draws = 8;
+  double square = 0, gap = 0;
+  for (int k = 1; k <= draws; ++k) {
+    const SignalSize size = signal_size(signal(k), variance, columns);
+    square += size.detectability * size.detectability / draws, gap += size.gap_over_floor * size.gap_over_floor / draws;
+  }
+  const double points = static_cast<double>(n_points), rho = square / points;
+  return {std::sqrt(replicates * points * (rho - std::log1p(rho))), std::sqrt(gap)};
+}
+
 }  // namespace
 
 std::vector<Effect> showable(const TwinSet& set) {
@@ -99,7 +116,7 @@ std::vector<Effect> showable(const TwinSet& set) {
     facts.uniform |= one.facts().uniform;
   }
   std::vector<Effect> effects = library_effects(facts, cases.front().forces());
-  std::erase_if(effects, [](const Effect& e) { return !e.blind.empty() || e.random; });
+  std::erase_if(effects, [](const Effect& e) { return !e.blind.empty(); });
   const std::vector<Asked> asked = set.asked("all");
   constexpr int replicates = 10;
   const auto variance = noise_variance(set, asked, replicates);
@@ -107,27 +124,36 @@ std::vector<Effect> showable(const TwinSet& set) {
   std::vector<std::vector<double>> base;
   for (std::size_t p = 0; p < set.n_training(); ++p) base.push_back(set.base_values(p, asked, {}));
   std::erase_if(effects, [&](const Effect& effect) {
-    std::vector<double> signal;
-    for (std::size_t p = 0; p < set.n_training(); ++p) {
-      const auto with = set.values(p, asked, {{effect.name, probe_strength(effect)}}, false, {});
-      for (std::size_t i = 0; i < asked.size(); ++i) signal.push_back(set.difference(asked[i].observable, with[i], base[p][i]));
-    }
+    const auto signal = [&](int replicate) {
+      std::vector<double> all;
+      for (std::size_t p = 0; p < set.n_training(); ++p) {
+        const auto with = set.values(p, asked, {{effect.name, probe_strength(effect)}}, false, {}, replicate);
+        for (std::size_t i = 0; i < asked.size(); ++i) all.push_back(set.difference(asked[i].observable, with[i], base[p][i]));
+      }
+      return all;
+    };
     constexpr double seen = 3;  // standard uncertainties
-    return signal_size(signal, variance, columns).detectability < seen;
+    const SignalSize size =
+        effect.random ? size_of_random(signal, replicates, set.n_training(), variance, columns) : signal_size(signal(0), variance, columns);
+    return size.detectability < seen;
   });
   return effects;
 }
 
 void measure_gap(TwinSet& set) {
   const std::vector<Asked> asked = set.asked();
-  std::vector<double> signal;
-  for (std::size_t p = 0; p < set.n_training(); ++p) {
-    const auto with = set.true_values(p, asked), without = set.base_values(p, asked, set.deviations[p]);
-    for (std::size_t i = 0; i < asked.size(); ++i) signal.push_back(set.difference(asked[i].observable, with[i], without[i]));
-  }
+  const auto signal = [&](int replicate) {
+    std::vector<double> all;
+    for (std::size_t p = 0; p < set.n_training(); ++p) {
+      const auto with = set.true_values(p, asked, replicate), without = set.base_values(p, asked, set.deviations[p]);
+      for (std::size_t i = 0; i < asked.size(); ++i) all.push_back(set.difference(asked[i].observable, with[i], without[i]));
+    }
+    return all;
+  };
   const auto variance = noise_variance(set, asked, set.truth.replicates);
   const auto columns = input_columns(set, asked);
-  const SignalSize size = signal_size(signal, variance, columns);
+  const SignalSize size = set.random.empty() ? signal_size(signal(0), variance, columns)
+                                             : size_of_random(signal, set.truth.replicates, set.n_training(), variance, columns);
   set.truth.detectability = set.truth.theta.size() > 1 ? weaker_of_pair(set, asked, variance, columns) : size.detectability;
   set.truth.gap_over_floor = size.gap_over_floor;
 }

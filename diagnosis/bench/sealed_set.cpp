@@ -41,8 +41,8 @@ std::string Truth::name() const {
   return all.empty() ? "none" : all;
 }
 
-Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>& effects, const std::vector<std::string>& outside_forces,
-                  const std::vector<std::string>& subsets) {
+Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>& effects, const std::vector<std::string>& of_pairs,
+                  const std::vector<std::string>& outside_forces, const std::vector<std::string>& subsets) {
   NormalNumbers random(seed * 1000003 + static_cast<std::uint64_t>(number));
   const auto one_of = [&](const auto& list) { return list[static_cast<std::size_t>(random.index(static_cast<int>(std::size(list))))]; };
   Truth truth;
@@ -51,12 +51,14 @@ Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>
   if (truth.kind == "outside" && outside_forces.empty()) truth.kind = "null";
   truth.subset = random.uniform() < 0.6 ? subsets.front() : one_of(subsets);
   truth.replicates = one_of(replicates);
-  const auto add = [&](double strength) {
+  if (truth.kind == "single") {
     const std::string effect = one_of(effects);
-    if (!truth.theta.contains(effect)) truth.theta[effect] = strength;
-  };
-  if (truth.kind == "single") add(truth.strength = one_of(strengths));
-  while (truth.kind == "pair" && truth.theta.size() < 2 && effects.size() > 1) add(truth.strength = random.uniform() < 0.5 ? 0.5 : 1);
+    truth.theta[effect] = truth.strength = one_of(strengths);
+  }
+  while (truth.kind == "pair" && truth.theta.size() < 2 && of_pairs.size() > 1) {
+    const std::string effect = one_of(of_pairs);
+    truth.theta.try_emplace(effect, truth.strength = random.uniform() < 0.5 ? 0.5 : 1);
+  }
   if (truth.kind == "outside") truth.outside = one_of(outside_forces), truth.strength = random.uniform() < 0.5 ? 0.5 : 1;
   return truth;
 }

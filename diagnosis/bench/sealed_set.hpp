@@ -32,9 +32,10 @@ struct Truth {
   std::string name() const;
 };
 
-/// Kind, effects, strengths, subset and replicates of set `number`, of effects that the twin can show. The same for the same seed.
-Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>& effects, const std::vector<std::string>& outside_forces,
-                  const std::vector<std::string>& subsets);
+/// Kind, effects, strengths, subset and replicates of set `number`, of effects that the twin can show, and of those that may be one of a
+/// pair. The same for the same seed.
+Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>& effects, const std::vector<std::string>& of_pairs,
+                  const std::vector<std::string>& outside_forces, const std::vector<std::string>& subsets);
 
 /// Writes the truth; returns the fingerprint of the file. Throws Error(io).
 std::string seal(const Truth& truth, const std::filesystem::path& file);

@@ -1,18 +1,15 @@
 // Initial pose: pieces start turned by theta times a standard normal deviate about the line of sight, another one in each replicate.
-#include <cmath>
-#include <numbers>
-
-#include "base/random_numbers.hpp"
 #include "diagnosis/effects/effect_model.hpp"
+#include "diagnosis/statistics.hpp"
 
 namespace snag {
 namespace {
 
-/// Box and Muller.
+/// Standard normal deviates that fill the distribution evenly where seeds follow each other, so that the few runs of a diagnosis have its
+/// spread: quantiles of a Weyl sequence with the golden ratio.
 double normal_deviate(std::uint64_t seed) {
-  const auto uniform = [](std::uint64_t bits) { return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53; };
-  const double u = uniform(mixed(seed)), v = uniform(mixed(seed ^ 0xa5a5a5a5a5a5a5a5));
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;  // 2^64 (sqrt(5) - 1)/2
+  return normal_quantile((static_cast<double>((seed * golden) >> 11) + 0.5) * 0x1p-53);
 }
 
 struct InitialPose final : EffectModel {

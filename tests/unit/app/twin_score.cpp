@@ -34,9 +34,10 @@ TEST(TwinPlan, IsDeterministicAndComplete) {
   std::set<double> strengths;
   bool differs = false;
   for (int number = 0; number < 300; ++number) {
-    const Truth a = planned_set(number, 1, effects, outside, subsets), b = planned_set(number, 1, effects, outside, subsets);
+    const Truth a = planned_set(number, 1, effects, effects, outside, subsets),
+                b = planned_set(number, 1, effects, effects, outside, subsets);
     EXPECT_EQ(a.theta, b.theta);
-    differs = differs || a.theta != planned_set(number, 2, effects, outside, subsets).theta;
+    differs = differs || a.theta != planned_set(number, 2, effects, effects, outside, subsets).theta;
     ++kinds[a.kind];
     if (a.kind == "single") strengths.insert(a.strength);
     EXPECT_EQ(a.theta.size(), a.kind == "single" ? 1u : a.kind == "pair" ? 2u : 0u) << a.kind;

@@ -91,6 +91,15 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheFile) {
   EXPECT_TOLD(message(head + x_mm + A + B, copied), "withheld data must not be trained on");
 }
 
+/// Requirement: tests that ended at the same time before the event are no copy of a withheld point.
+TEST_F(ReadExperiment, PointsThatAreAllCensoredAreNoCopies) {
+  const std::string time = "[[observable]]\nid = \"retention_time\"\nunit = \"s\"\nkind = \"lognormal\"\nnoise_u = 0.03\n";
+  std::string ended = "point,replicate,t_s,observable,value,censored\n";
+  for (int i = 0; i < 10; ++i)
+    for (const char point : {'A', 'B'}) ended += std::string(1, point) + "," + std::to_string(i) + ",,retention_time,60,1\n";
+  EXPECT_EQ(message(head + time + A + B, ended), "accepted");
+}
+
 TEST_F(ReadExperiment, ExplainsMistakesOfTheData) {
   const std::string bare = "[[observable]]\nid = \"x\"\nunit = \"mm\"\n";
   EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x,nan\n"), "data.csv:2");

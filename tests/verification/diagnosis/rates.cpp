@@ -1,4 +1,5 @@
-// Requirement: counts, events and censored times of a random model are judged by their own likelihoods.
+// Requirement: counts, events and censored times of a random model are judged by their own likelihoods, and strengths are fitted to runs
+// that chance has a part in.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -79,7 +80,7 @@ Experiment measured(double sticking, double slip, std::uint64_t seed) {
 }  // namespace
 
 TEST(Rates, NamesTheEffectOfARandomModel) {
-  int none = 0, sticking = 0, slip = 0;
+  int none = 0, sticking = 0, slip = 0, covered = 0;
   for (int i = 0; i < 4; ++i) {
     const auto judged = [&](double a, double b) {
       const Experiment e = measured(a, b, 50 + i);
@@ -91,8 +92,11 @@ TEST(Rates, NamesTheEffectOfARandomModel) {
     sticking += s.verdict == "effects" && s.effects == std::vector<std::string>{"sticking"};
     slip += l.verdict == "effects" && l.effects == std::vector<std::string>{"slip"};
     for (const GapCell& cell : s.where) EXPECT_NE(cell.test, "z");
+    const EffectEstimate a = s.parameters.at("sticking"), b = l.parameters.at("slip");
+    covered += (std::abs(a.mean - 1) < 1.96 * a.sd) + (std::abs(b.mean - 1.5) < 1.96 * b.sd);
   }
-  std::printf("rates: none %d, sticking %d, slip %d of 4 each\n", none, sticking, slip);
+  std::printf("rates: none %d, sticking %d, slip %d of 4 each; strength in its 95 %% interval %d of 8\n", none, sticking, slip, covered);
+  EXPECT_GE(covered, 6);
   EXPECT_GE(none, 3);
   EXPECT_GE(sticking, 3);
   EXPECT_GE(slip, 3);
