@@ -18,7 +18,7 @@ namespace {
 constexpr double prior_none = 0.36, prior_effects = 0.36, prior_outside = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
-constexpr double screening_width = 10, share_not_linear = 0.05;
+constexpr double screening_width = 10, share_not_linear = 0.05, speaks_for_it = 3;
 constexpr int least_kept = 3, most_kept = 8, most_pairs = 5, most_pairs_around_base = 2, n_screened_again = 3;
 constexpr double blind_detectability = 3;
 
@@ -127,22 +127,38 @@ class Attributor {
     for (const int k : candidates_) {
       singles.push_back(screening.screen({{k}}));
       result_.screening[model_.effects()[k].name] = singles.back().log_evidence - none;
+      result_.weak_form[model_.effects()[k].name] = screening.weak_gain(k);
     }
     const auto better = [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; };
     std::stable_sort(singles.begin(), singles.end(), better);
     return singles;
   }
 
-  void fit_singles(const std::vector<Screened>& singles) {
-    const double width =
-        std::max(screening_width, share_not_linear * (singles.empty() ? 0 : singles.front().log_evidence - none_screened_));
-    for (std::size_t i = 0; i < singles.size() && i < most_kept; ++i) {
-      if (i >= least_kept && singles[i].log_evidence < singles.front().log_evidence - width) break;
+  // What the paths keep, and what their accelerations speak for most: an offset or a drift may hide it from the paths.
+  std::vector<Screened> kept(const std::vector<Screened>& singles) const {
+    if (singles.empty()) return {};
+    const double width = std::max(screening_width, share_not_linear * (singles.front().log_evidence - none_screened_));
+    std::vector<Screened> kept;
+    const auto weak_gain = [&](const Screened& s) { return result_.weak_form.at(model_.effects()[s.hypothesis.effects[0]].name); };
+    const auto first =
+        std::max_element(singles.begin(), singles.end(), [&](const Screened& a, const Screened& b) { return weak_gain(a) < weak_gain(b); });
+    for (auto s = singles.begin(); s != singles.end(); ++s) {
+      const bool by_paths =
+          std::ssize(kept) < most_kept && (std::ssize(kept) < least_kept || s->log_evidence >= singles.front().log_evidence - width);
+      if (by_paths || (s == first && weak_gain(*s) > speaks_for_it)) kept.push_back(*s);
+    }
+    return kept;
+  }
+
+  void fit_singles(const std::vector<Screened>& screened) {
+    const std::vector<Screened> singles = kept(screened);
+    for (std::size_t i = 0; i < singles.size(); ++i) {
       const int effect = singles[i].hypothesis.effects[0];
       // Differences of runs that chance has a part in are no derivatives.
       const bool emulated = model_.base_is_random() && !model_.effects()[effect].fixed;
       if (!affordable(emulated ? runs_of_emulator(effect) : runs_of_fit(1))) break;
-      report("fit of " + name_of(singles[i].hypothesis, model_.effects()), 0.15 + 0.4 * static_cast<double>(i) / most_kept);
+      report("fit of " + name_of(singles[i].hypothesis, model_.effects()),
+             0.15 + 0.4 * static_cast<double>(i) / static_cast<double>(singles.size()));
       add(emulated ? fit_by_emulator(model_, fitter_, effect) : fitter_.fit(singles[i].hypothesis, start(singles[i]), singles[i].forms));
     }
   }

@@ -27,7 +27,7 @@ struct Attribution {
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Outside outside;
   double outside_weight = 0;
-  std::map<std::string, double> screening{};
+  std::map<std::string, double> screening{}, weak_form{};  // gains over none
   std::map<std::string, double> probability{};
   Identifiability identifiability;
   double sham_rate = 0;

@@ -207,8 +207,11 @@ Experiment read_experiment(const std::filesystem::path& path) {
   root.table("model").read(
       {setting("candidates", &experiment.candidates, "\"all\" or names."), setting("pairs", &experiment.pairs, "Pairs of effects.")});
   int seed = 1;
+  std::string runs;
   root.table("budget").read({{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Most runs of the model."},
-                             {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Of random numbers."}});
+                             {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Of random numbers."},
+                             file_setting("runs", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv.")});
+  if (!runs.empty()) experiment.runs = file.path(runs);
   experiment.seed = static_cast<std::uint64_t>(seed);
   file.reject_unread();
   if (experiment.name.empty()) experiment.name = path.stem().string();

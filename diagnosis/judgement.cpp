@@ -76,7 +76,8 @@ class Judge {
   int judge() {
     drop_surplus_effects(model_, a_);
     set_probabilities(a_);
-    v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.sham_rate = a_.sham_rate;
+    v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.weak_form = a_.weak_form,
+    v_.sham_rate = a_.sham_rate;
     v_.temperature = calibration().temperature;
     for (std::size_t i = 0; i < a_.fits.size(); ++i) {
       v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence - a_.fits[0].log_evidence;

@@ -42,6 +42,7 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
   }
   const auto responses = model.run(requests);
   whitening_ = fitter.whiten(around_);
+  weak_form_.emplace(model, whitening_);
   rho_ = fitter.residual(around_.responses, whitening_);
   nuisances_ = fitter.nuisance_columns(around_, whitening_);
   const Eigen::Index m = nuisances_.cols();
@@ -162,6 +163,26 @@ Screened Screening::screen(const Hypothesis& hypothesis) const {
     for (std::size_t i = 0; i < around_.state.effects.size(); ++i)
       if (around_.state.effects[i].first == hypothesis.effects[e]) result.forms[e] = around_.state.form(i);
   return result;
+}
+
+double Screening::weak_gain(int k) const {
+  const auto& weak = *weak_form_;
+  if (weak.size() == 0) return 0;
+  const auto m = nuisances_.cols();
+  LinearModel none{weak(rho_), Eigen::MatrixXd(weak.size(), m), -around_.state.nuisances, {}, {}};
+  for (Eigen::Index j = 0; j < m; ++j) none.J.col(j) = weak(nuisances_.col(j));
+  const double without = solve(none).log_evidence;
+  const Effect& effect = model_.effects()[k];
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& own : columns_.at(k)) {
+    LinearModel with{none.rho, Eigen::MatrixXd(weak.size(), 1 + m), Eigen::VectorXd(1 + m), {}, {}};
+    with.J << weak(own), none.J;
+    with.prior << effect.mean / effect.sd, none.prior;
+    with.lower = Eigen::VectorXd::Constant(1, effect.minimum / effect.sd);
+    with.upper = Eigen::VectorXd::Constant(1, effect.maximum / effect.sd);
+    best = std::max(best, solve(with).log_evidence - without);
+  }
+  return best;
 }
 
 double Screening::projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {

@@ -2,10 +2,12 @@
 // Screening by signatures: what each effect adds to the base model at its probe strength, with the same seeds. Linear in the strength, so
 // good to choose what is worth re-simulating and to tell before any data what could be seen; never the verdict.
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnosis/fit.hpp"
+#include "diagnosis/weak_form.hpp"
 
 namespace snag {
 
@@ -23,6 +25,8 @@ class Screening {
 
   /// Evidence of a hypothesis: the effects around which was screened are free too.
   Screened screen(const Hypothesis& hypothesis) const;
+  /// Gain of one effect alone over none by the accelerations of the paths only (weak_form.hpp), nats; 0 where no path is long enough.
+  double weak_gain(int candidate) const;
   /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out.
   double detectability(int candidate) const;
   /// Whether any run with a candidate, in any of its forms, differs from that without it.
@@ -48,6 +52,7 @@ class Screening {
   std::vector<int> candidates_;
   const Linearization around_;
   Whitening whitening_;
+  std::optional<WeakForm> weak_form_;
   Eigen::VectorXd rho_;
   Eigen::MatrixXd nuisances_, nuisance_precision_inverse_;
   // By candidate and form; an effect around which was screened has the form that leads there only.

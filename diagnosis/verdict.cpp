@@ -96,6 +96,7 @@ std::string verdict_json(const Verdict& v) {
   json["evidence"] = {{"log_evidence", numbers(v.log_evidence)},
                       {"leave_one_point_out", numbers(v.leave_one_out)},
                       {"screening", numbers(v.screening)},
+                      {"weak_form", numbers(v.weak_form)},
                       {"sham_rate", v.sham_rate},
                       {"temperature", v.temperature}};
   json["nuisances"] = numbers(v.nuisances);

@@ -83,6 +83,7 @@ struct Verdict {
   std::map<std::string, double> acts{};           // of each effect: that it acts, alone or beside another
   std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, nats, relative to none
   std::map<std::string, double> screening{};      // the same by signatures only
+  std::map<std::string, double> weak_form{};      // of single effects by the accelerations of the paths only, relative to none
   std::map<std::string, double> leave_one_out{};  // log predictive density, one operating point left out at a time, relative to none
   std::map<std::string, EffectEstimate> parameters{};
   std::map<std::string, double> nuisances{};  // fitted deviations under the first hypothesis, in standard uncertainties; name@points

@@ -92,11 +92,45 @@ std::string text_of(const Restart& restart) {
   return text;
 }
 
+struct KeptRun {
+  std::string program, key;
+  RunResult result;
+};
+
+/// Lines of a table of runs; one that was cut off is none.
+std::vector<KeptRun> kept_runs(const std::string& text) {
+  std::vector<KeptRun> runs;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    const std::vector<std::string> parts = split(std::string_view(text).substr(begin, end - begin), '\t');
+    if (parts.size() != 4) continue;
+    RunResult result{.values = {}, .failure = parts[3]};
+    const char *at = parts[2].data(), *last = at + parts[2].size();
+    for (double value = 0; at < last;) {
+      at = std::from_chars(at, last, value).ptr + 1;
+      result.values.push_back(value);
+    }
+    runs.push_back({parts[0], parts[1], std::move(result)});
+  }
+  return runs;
+}
+
+/// Empty where there is no such file.
+std::string shared_text(MPI_Comm comm, const std::filesystem::path& file) {
+  std::string text;
+  if (rank_of(comm) == 0) text = file_text(file).value_or("");
+  long length = static_cast<long>(text.size());
+  MPI_Bcast(&length, 1, MPI_LONG, 0, comm);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, comm);
+  return text;
+}
+
 }  // namespace
 
 CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder)
     : comm_(comm), folder_(folder), observables_(experiment.observables), picture_size_(picture_size_of(experiment)) {
-  const std::string program = folder_.empty() ? "" : program_fingerprint(comm_);
+  if (!folder_.empty()) program_ = program_fingerprint(comm_);
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
     PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
     if (base.is_whole_run() && folder_.empty())
@@ -104,8 +138,8 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
     std::vector<Asked> asked;
-    const std::string of_case = base.sha256() + program;
-    std::string fingerprint = of_case;
+    const std::string of_case = base.sha256() + program_;
+    std::string fingerprint = base.sha256();
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
       if (!base.is_whole_run() && !is_observable_of_particles(id))
@@ -128,7 +162,8 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
   effects_ = library_effects(facts, {held.begin(), held.end()});
   set_alternatives(effects_, experiment.alternatives);
   find_nuisances(experiment);
-  if (!folder_.empty()) read_cache(folder_ / "runs.tsv");
+  if (!folder_.empty()) open_cache(folder_ / "runs.tsv");
+  if (!experiment.runs.empty()) take_runs(experiment.runs);
 }
 
 void CaseSimulator::find_nuisances(const Experiment& experiment) {
@@ -256,10 +291,10 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   return results;
 }
 
-/// A line a run: key, tab, values with all their digits, tab, failure.
+/// A line a run: program, tab, key, tab, values with all their digits, tab, failure.
 void CaseSimulator::keep(const std::string& key, const RunResult& result) {
   if (!cache_.is_open()) return;
-  std::string line = key + "\t";
+  std::string line = program_.substr(0, 16) + "\t" + key + "\t";
   char digits[32];
   for (const double value : result.values) line.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr).append(",");
   std::string failure = result.failure;
@@ -267,33 +302,25 @@ void CaseSimulator::keep(const std::string& key, const RunResult& result) {
   cache_ << line << "\t" << failure << "\n";
 }
 
-void CaseSimulator::read_cache(const std::filesystem::path& file) {
-  std::string text;
-  if (rank_of(comm_) == 0) text = file_text(file).value_or("");
-  long length = static_cast<long>(text.size());
-  MPI_Bcast(&length, 1, MPI_LONG, 0, comm_);
-  text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, comm_);
-  std::size_t whole = 0;
-  for (std::size_t end = 0; (end = text.find('\n', whole)) != std::string::npos; whole = end + 1) {
-    const std::vector<std::string> parts = split(std::string_view(text).substr(whole, end - whole), '\t');
-    if (parts.size() != 3) continue;
-    RunResult result{.values = {}, .failure = parts[2]};
-    const char *at = parts[1].data(), *last = at + parts[1].size();
-    for (double value = 0; at < last;) {
-      at = std::from_chars(at, last, value).ptr + 1;
-      result.values.push_back(value);
-    }
-    kept_.emplace(parts[0], std::move(result));
-  }
+void CaseSimulator::open_cache(const std::filesystem::path& file) {
+  const std::string text = shared_text(comm_, file);
+  for (KeptRun& run : kept_runs(text))
+    if (run.program == program_.substr(0, 16)) kept_.emplace(run.key, std::move(run.result));
   together(comm_, [&] {
     if (rank_of(comm_) != 0) return;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     // A line that a crash cut off is cut off for good.
+    const std::size_t whole = text.rfind('\n') + 1;
     if (whole < text.size()) write_atomically(file, std::string_view(text).substr(0, whole));
     cache_.open(file, std::ios::app);
     if (!cache_) throw Error(ExitCode::io, file.string() + ": cannot be written; choose another --out");
   });
+}
+
+void CaseSimulator::take_runs(const std::filesystem::path& file) {
+  const std::string text = shared_text(comm_, file);
+  if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs");
+  for (KeptRun& run : kept_runs(text)) kept_.emplace(run.key, std::move(run.result));
 }
 
 }  // namespace snag

@@ -20,8 +20,9 @@ namespace snag {
 
 class CaseSimulator final : public Simulator {
  public:
-  /// `folder`: holds the runs that were done before, in runs.tsv and runs/, and takes those to come; empty: nothing is kept on disk, and
-  /// cases with a mesh are refused. Collective over all ranks of the program; throws Error(usage, io) that names the case.
+  /// `folder`: holds the runs that were done before by the same program, in runs.tsv and runs/, and takes those to come; empty: nothing is
+  /// kept on disk, and cases with a mesh are refused. Runs of the table that the experiment names count whatever program made them.
+  /// Collective over all ranks of the program; throws Error(usage, io) that names the case.
   CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder = {});
 
   const std::vector<Effect>& effects() const override { return effects_; }
@@ -38,7 +39,7 @@ class CaseSimulator final : public Simulator {
     PointCase base;
     std::vector<Slot> slots;
     std::vector<Asked> asked;
-    std::string of_case, fingerprint;  // of base case and program; of these and the slots
+    std::string of_case, fingerprint;  // of base case and program; of the base case and the slots
   };
   struct Job {
     std::string key;
@@ -53,7 +54,8 @@ class CaseSimulator final : public Simulator {
   RunResult done_together(const Job& job) const;
   bool is_whole_run(const Job& job) const { return points_[static_cast<std::size_t>(job.request->point)].base.is_whole_run(); }
   RunResult as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const;
-  void read_cache(const std::filesystem::path& file);
+  void open_cache(const std::filesystem::path& file);
+  void take_runs(const std::filesystem::path& file);
   void keep(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
@@ -64,6 +66,7 @@ class CaseSimulator final : public Simulator {
   std::vector<Point> points_;
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;
+  std::string program_;  // its fingerprint; empty: nothing is kept on disk
   std::unordered_map<std::string, RunResult> kept_;
   std::unordered_set<std::string> used_;  // keys of the runs that were asked for
   std::ofstream cache_;                   // open on rank 0

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "app/diagnosis/case_simulator.hpp"
+#include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "parallel/session.hpp"
 
@@ -176,6 +177,30 @@ TEST_F(CaseSimulatorTest, KeepsRuns) {
   for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
   EXPECT_EQ(again.n_runs(), 0);
   EXPECT_EQ(again.n_used(), 4);
+}
+
+/// Requirement: runs of a table that the experiment names are not made again, whatever program made them; without a table of that name the
+/// diagnosis does not begin.
+TEST_F(CaseSimulatorTest, TakesRunsThatWereMadeElsewhere) {
+  const std::vector<RunRequest> requests{with("added_mass", 0.1), with("added_mass", 0.2)};
+  std::vector<std::vector<double>> first;
+  {
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, folder_ / "here");
+    for (const RunResult& result : simulator.run(requests)) first.push_back(result.values);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  experiment_.runs = folder_ / "elsewhere.tsv";
+  EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    std::string text = file_text(folder_ / "here" / "runs.tsv").value();
+    for (std::size_t line = 0; line < text.size(); line = text.find('\n', line) + 1) text.replace(line, 16, "another program!");
+    write_atomically(experiment_.runs, text + "a line that was cut o");
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto results = simulator.run(requests);
+  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
+  EXPECT_EQ(simulator.n_runs(), 0);
 }
 
 /// Requirement: two changes of one number multiply, whichever effect and input they come from.
