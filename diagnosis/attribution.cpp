@@ -46,7 +46,9 @@ class Attributor {
     for (const int k : random_) {
       if (affordable(runs_of_emulator(k))) add(fit_by_emulator(model_, fitter_, k));
     }
-    if (model_.experiment().pairs) fit_pairs(screening), credit_other_pairs(live);
+    if (model_.experiment().pairs) fit_pairs(screening);
+    fit_rivals_of_leader();
+    if (model_.experiment().pairs) credit_other_pairs(live);
     result_.outside = fit_outside(model_, fitter_);
     result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
     for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
@@ -75,6 +77,19 @@ class Attributor {
   int runs_of_emulator(int effect) const {
     return static_cast<int>(emulated_strengths(model_.effects()[effect]).size()) *
            model_.n_seeds({{{effect, 1}}, fitter_.base().state.nuisances});
+  }
+
+  // Differences of runs that chance has a part in are no derivatives.
+  bool by_emulator(const Hypothesis& hypothesis) const {
+    return model_.base_is_random() && hypothesis.effects.size() == 1 && !model_.effects()[hypothesis.effects[0]].fixed;
+  }
+  int runs_of(const Screened& screened) const {
+    const auto& effects = screened.hypothesis.effects;
+    return by_emulator(screened.hypothesis) ? runs_of_emulator(effects[0]) : runs_of_fit(static_cast<int>(effects.size()));
+  }
+  Fit fit_of(const Screened& screened) {
+    return by_emulator(screened.hypothesis) ? fit_by_emulator(model_, fitter_, screened.hypothesis.effects[0])
+                                            : fitter_.fit(screened.hypothesis, start(screened), screened.forms);
   }
 
   // Each effect is there or not whatever the others are.
@@ -153,13 +168,10 @@ class Attributor {
   void fit_singles(const std::vector<Screened>& screened) {
     const std::vector<Screened> singles = kept(screened);
     for (std::size_t i = 0; i < singles.size(); ++i) {
-      const int effect = singles[i].hypothesis.effects[0];
-      // Differences of runs that chance has a part in are no derivatives.
-      const bool emulated = model_.base_is_random() && !model_.effects()[effect].fixed;
-      if (!affordable(emulated ? runs_of_emulator(effect) : runs_of_fit(1))) break;
+      if (!affordable(runs_of(singles[i]))) break;
       report("fit of " + name_of(singles[i].hypothesis, model_.effects()),
              0.15 + 0.4 * static_cast<double>(i) / static_cast<double>(singles.size()));
-      add(emulated ? fit_by_emulator(model_, fitter_, effect) : fitter_.fit(singles[i].hypothesis, start(singles[i]), singles[i].forms));
+      add(fit_of(singles[i]));
     }
   }
 
@@ -224,7 +236,7 @@ class Attributor {
     order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
     for (std::size_t i = 0; i < order.size() && affordable(runs_of_fit(2)); ++i) {
       report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
-      add(fitter_.fit(order[i].hypothesis, start(order[i]), order[i].forms));
+      add(fit_of(order[i]));
     }
   }
 
@@ -261,6 +273,50 @@ class Attributor {
           result_.not_fitted.emplace(name, NotFitted{std::max(a->second, b->second), log_prior(pair)});
       }
     }
+  }
+
+  // What looks like an effect of the leading hypothesis in this experiment may stand in its place: it is fitted, too, or the leader would
+  // seem surer than it can be.
+  void fit_rivals_of_leader() {
+    const Fit& first = result_.fits[static_cast<std::size_t>(result_.first())];
+    const Hypothesis leader = first.hypothesis;
+    const Eigen::VectorXd theta = first.theta;
+    for (std::size_t e = 0; e < leader.effects.size(); ++e) {
+      for (const int k : candidates_) {
+        if (!look_alike(leader.effects[e], k) || std::count(leader.effects.begin(), leader.effects.end(), k) > 0) continue;
+        const Screened rival = with_instead(leader, theta, e, k);
+        const std::string name = name_of(rival.hypothesis, model_.effects());
+        if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+        if (!affordable(runs_of(rival))) return;
+        report("fit of " + name, 0.85);
+        add(fit_of(rival));
+      }
+    }
+  }
+
+  bool look_alike(int a, int b) const {
+    const auto& ties = result_.identifiability.ties;
+    return std::any_of(ties.begin(), ties.end(), [&](const std::vector<std::string>& group) {
+      return std::count(group.begin(), group.end(), model_.effects()[a].name) > 0 &&
+             std::count(group.begin(), group.end(), model_.effects()[b].name) > 0;
+    });
+  }
+
+  // A hypothesis with effect k at place e, as strong by its own measure as what was there.
+  Screened with_instead(const Hypothesis& hypothesis, const Eigen::VectorXd& theta, std::size_t e, int k) const {
+    std::vector<std::pair<int, double>> effects;
+    for (std::size_t i = 0; i < hypothesis.effects.size(); ++i)
+      effects.emplace_back(hypothesis.effects[i], theta[static_cast<Eigen::Index>(i)]);
+    const Effect &own = model_.effects()[effects[e].first], &other = model_.effects()[k];
+    effects[e] = {k, effects[e].second / probe_strength(own) * probe_strength(other)};
+    std::sort(effects.begin(), effects.end(),
+              [&](const auto& a, const auto& b) { return model_.effects()[a.first].name < model_.effects()[b.first].name; });
+    Screened swapped{.hypothesis = {}, .theta = Eigen::VectorXd(static_cast<Eigen::Index>(effects.size()))};
+    for (const auto& [index, strength] : effects) {
+      swapped.theta[static_cast<Eigen::Index>(swapped.hypothesis.effects.size())] = strength;
+      swapped.hypothesis.effects.push_back(index);
+    }
+    return swapped;
   }
 
   // What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model reaches:
