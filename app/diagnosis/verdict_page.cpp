@@ -1,6 +1,7 @@
 #include "app/diagnosis/verdict_page.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -138,6 +139,67 @@ std::string map_of_gap(const Verdict& v) {
          "\" role=\"img\">\n" + labels + cells + "</svg>\n";
 }
 
+/// A place on the measured way of a point: the means of its coordinates over a part of the time, and the largest |z| of them there.
+struct Place {
+  std::map<std::string, double> at;  // by observable, m
+  double z = 0;
+};
+
+/// Ways in the plane of the two coordinates that change most, each place coloured by |z|.
+std::string map_of_ways(const Verdict& v) {
+  std::map<std::string, std::map<double, Place>> ways;  // by point and begin of the part
+  std::map<std::string, std::array<double, 2>> ranges;  // by coordinate
+  for (const GapCell& c : v.where) {
+    if (std::isnan(c.window[0]) || (c.observable != "x" && c.observable != "y" && c.observable != "z")) continue;
+    Place& place = ways[c.point][c.window[0]];
+    place.at[c.observable] = c.measured, place.z = std::max(place.z, std::abs(c.z));
+    auto& [low, high] = ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;
+    low = std::min(low, c.measured), high = std::max(high, c.measured);
+  }
+  std::vector<std::string> axes;
+  for (const auto& [axis, range] : ranges) axes.push_back(axis);
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](const std::string& a, const std::string& b) { return ranges[a][1] - ranges[a][0] > ranges[b][1] - ranges[b][0]; });
+  if (axes.size() < 2) return "";
+  axes.resize(2), std::sort(axes.begin(), axes.end());  // x across, z or y up
+  constexpr double width = 760, height = 330, left = 90, right = 40, top = 14, bottom = 44;
+  const auto across = [&](double value) {
+    return left + (width - left - right) * (value - ranges[axes[0]][0]) / std::max(ranges[axes[0]][1] - ranges[axes[0]][0], 1e-300);
+  };
+  const auto up = [&](double value) {
+    return height - bottom -
+           (height - top - bottom) * (value - ranges[axes[1]][0]) / std::max(ranges[axes[1]][1] - ranges[axes[1]][0], 1e-300);
+  };
+  std::string lines, dots;
+  for (const auto& [point, way] : ways) {
+    std::string line;
+    for (const auto& [begin, place] : way) {
+      if (!place.at.contains(axes[0]) || !place.at.contains(axes[1])) continue;
+      const std::string x = words(across(place.at.at(axes[0]))), y = words(up(place.at.at(axes[1])));
+      line += x + "," + y + " ";
+      dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"8\" fill=\"" + heat(place.z) + "\" stroke=\"#596575\"/>";
+      if (begin == way.rbegin()->first)
+        dots += "<text x=\"" + words(across(place.at.at(axes[0])) + 12) + "\" y=\"" + y + "\">" + escaped(point) + "</text>\n";
+    }
+    lines += "<polyline points=\"" + line + "\" fill=\"none\" stroke=\"#a9b7c6\"/>\n";
+  }
+  const auto ends = [&](const std::string& axis, double low_x, double low_y, double high_x, double high_y, const char* anchor) {
+    return "<text x=\"" + words(low_x) + "\" y=\"" + words(low_y) + "\" text-anchor=\"" + anchor + "\">" + html::number(ranges[axis][0]) +
+           "</text><text x=\"" + words(high_x) + "\" y=\"" + words(high_y) + "\" text-anchor=\"" + anchor + "\">" +
+           html::number(ranges[axis][1]) + "</text>\n";
+  };
+  return "<svg viewBox=\"0 0 " + words(width) + " " + words(height) + "\" role=\"img\" aria-label=\"Ways\">\n<rect x=\"" +
+         words(left - 16) + "\" y=\"" + words(top - 12) + "\" width=\"" + words(width - left - right + 50) + "\" height=\"" +
+         words(height - top - bottom + 24) + "\" fill=\"none\" stroke=\"#dde3ea\"/>\n" + lines + dots +
+         ends(axes[0], left, height - 14, width - right, height - 14, "middle") +
+         ends(axes[1], left - 22, height - bottom, left - 22, top + 8, "end") + "<text x=\"" + words(0.5 * (left + width - right)) +
+         "\" y=\"" + words(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
+         words(0.5 * height) + "\" transform=\"rotate(-90 14 " + words(0.5 * height) + ")\" text-anchor=\"middle\">measured " + axes[1] +
+         " [m]</text>\n</svg>\n<p>The measured ways, part by part of their time, in the same colours: the largest difference of a "
+         "coordinate over its "
+         "uncertainty there.</p>\n";
+}
+
 /// What a cell is to the others.
 std::string remark_on(const GapCell& cell) {
   std::string remark;
@@ -205,7 +267,7 @@ std::string where(const Verdict& v) {
          " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
          "standard uncertainty; points beside each other. Where a run that goes on from the measured state at the begin of a part differs "
          "again, that part makes a gap of its own (framed: born here); where it agrees, the gap is inherited from before.</p>\n" +
-         map_of_gap(v) + curves(v) + html::table(header, rows) +
+         map_of_gap(v) + map_of_ways(v) + curves(v) + html::table(header, rows) +
          (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
 }
 

@@ -24,6 +24,10 @@ class Published(harness.CaseTest):
                 self.assertEqual(run.code, 0, run.tail())
                 verdict = json.loads((run.folder / "verdict.json").read_text())
                 print(folder.name, verdict["verdict"], verdict["effects"], verdict["wording"], verdict["parameters"])
+                # Where two coordinates were measured over time the page shows the ways.
+                data = [line.split(",") for line in (folder / "data.csv").read_text().splitlines() if not line.startswith("#")][1:]
+                coordinates = {row[3] for row in data if row[2]} & {"x", "y", "z"}
+                self.assertEqual('aria-label="Ways"' in (run.folder / "report.html").read_text(), len(coordinates) > 1)
                 for entry in tomllib.loads((folder / "expected_verdict.toml").read_text())["expect"]:
                     problem = expected.out_of_tolerance(entry, expected.looked_up(verdict, entry["key"]))
                     self.assertFalse(problem, f"{entry['key']} {problem}: {entry['why']}")
