@@ -25,18 +25,25 @@ constexpr const char* kinds[] = {"gaussian", "lognormal", "count", "event", "ang
 Observable read_observable(const Table& table) {
   Observable observable;
   std::string kind = "gaussian";
-  table.read({{.key = "id", .target = &observable.id, .unit = "", .meaning = "name of the measured quantity", .required = true},
-              {.key = "unit", .target = &observable.unit, .unit = "", .meaning = "unit of the values and of noise_u", .required = true},
-              setting("kind", &kind, "How it scatters.", {std::begin(kinds), std::end(kinds)}),
-              {.key = "noise_u", .target = &observable.noise_u, .minimum = 0, .meaning = "Standard uncertainty of one sample."},
-              {.key = "bias_u", .target = &observable.bias_u, .minimum = 0, .meaning = "Uncertainty shared by the calibration group."},
-              setting("calibration_group", &observable.calibration_group, "Samples that share one bias.")});
+  table.read(
+      {{.key = "id", .target = &observable.id, .unit = "", .meaning = "name of the measured quantity", .required = true},
+       {.key = "unit", .target = &observable.unit, .unit = "", .meaning = "unit of the values and of noise_u", .required = true},
+       setting("kind", &kind, "How it scatters.", {std::begin(kinds), std::end(kinds)}),
+       {.key = "noise_u", .target = &observable.noise_u, .minimum = 0, .meaning = "Standard uncertainty of one sample."},
+       {.key = "bias_u", .target = &observable.bias_u, .minimum = 0, .meaning = "Uncertainty shared by the calibration group."},
+       {.key = "numerics_u",
+        .target = &observable.numerics_u,
+        .minimum = 0,
+        .meaning =
+            "Of the runs, by grid and step, from a study of your own; where all observables have it no run is made with another step."},
+       setting("calibration_group", &observable.calibration_group, "Samples that share one bias.")});
   observable.kind = static_cast<Observable::Kind>(std::find(std::begin(kinds), std::end(kinds), kind) - std::begin(kinds));
   const auto unit = parse_unit(observable.unit);
   if (!unit || observable.unit.empty())
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": unknown unit \"" + observable.unit +
                                      "\"; write one such as \"m\", \"mm/s\", \"deg\", or \"1\" for a pure number");
-  if (observable.kind != Observable::Kind::lognormal) observable.noise_u *= unit->factor, observable.bias_u *= unit->factor;
+  if (observable.kind != Observable::Kind::lognormal)
+    for (double* u : {&observable.noise_u, &observable.bias_u, &observable.numerics_u}) *u *= unit->factor;
   return observable;
 }
 

@@ -18,9 +18,10 @@ struct Observable {
   std::string id;    // x, vx, area, retention_time, ...
   std::string unit;  // as written; data are converted to SI when they are read
   Kind kind = Kind::gaussian;
-  double noise_u = 0;             // standard uncertainty of one sample, SI (lognormal: of the logarithm)
-  double bias_u = 0;              // shared by all samples of the calibration group
-  std::string calibration_group;  // empty: of its own
+  double noise_u = 0;                                            // standard uncertainty of one sample, SI (lognormal: of the logarithm)
+  double bias_u = 0;                                             // shared by all samples of the calibration group
+  std::string calibration_group;                                 // empty: of its own
+  double numerics_u = std::numeric_limits<double>::quiet_NaN();  // of the runs by grid and step, as noise_u; NaN: found by runs
 };
 
 /// Name of the deviation that an observable's bias shares with its calibration group, or has of its own.

@@ -29,7 +29,7 @@ struct Whitening {
 struct Linearization {
   State state;
   std::vector<Response> responses;                  // by training point
-  std::vector<Eigen::VectorXd> numerical_error;     // f(2 dt) - f(dt), by training point
+  std::vector<Eigen::VectorXd> numerical_error;     // f(2 dt) - f(dt) less chance, or as stated, by training point
   std::vector<std::vector<Response>> by_nuisance;   // [nuisance][training point] after half a standard uncertainty; empty: not there
   std::vector<std::vector<Response>> by_share;      // [other form][training point] with half more of it
   std::vector<Response> origin;                     // responses that these two depart from
@@ -89,6 +89,7 @@ class Fitter {
   State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
   Linearization start_from_base(const State& state);
   void add_shares(Linearization& at);
+  std::vector<Eigen::VectorXd> stated_numerical_error() const;
   std::vector<Eigen::VectorXd> numerical_error(const State& state, const std::vector<Response>& responses);
   Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
                                  const Whitening& whitening);

@@ -22,7 +22,21 @@ std::vector<int> Fitter::first_rows() const {
   return first;
 }
 
+// What the experiment states of each row, NaN where it does not.
+std::vector<Eigen::VectorXd> Fitter::stated_numerical_error() const {
+  std::vector<Eigen::VectorXd> errors;
+  for (const int p : model_.training()) {
+    const auto& rows = model_.points()[p].rows;
+    errors.emplace_back(static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      errors.back()[static_cast<Eigen::Index>(i)] = model_.experiment().observables[rows[i].observable].numerics_u;
+  }
+  return errors;
+}
+
 std::vector<Eigen::VectorXd> Fitter::numerical_error(const State& state, const std::vector<Response>& responses) {
+  const std::vector<Eigen::VectorXd> stated = stated_numerical_error();
+  if (std::all_of(stated.begin(), stated.end(), [](const Eigen::VectorXd& e) { return e.allFinite(); })) return stated;
   const auto coarse = model_.run(state, model_.training(), 2);
   std::vector<Eigen::VectorXd> errors;
   std::vector<Responses::Request> again;
@@ -36,6 +50,12 @@ std::vector<Eigen::VectorXd> Fitter::numerical_error(const State& state, const s
     Eigen::VectorXd error = coarse[p].failed ? Eigen::VectorXd(2 * (responses[p].value - fine[next].value))
                                              : Eigen::VectorXd(coarse[p].value - responses[p].value);
     if (coarse[p].failed) ++next;
+    // The difference of means of chance runs holds chance.
+    for (Eigen::Index i = 0; i < error.size(); ++i) {
+      const double chance = (responses[p].scatter[i] + coarse[p].scatter[i]) / responses[p].n_runs;
+      if (responses[p].n_runs > 1) error[i] = std::copysign(std::sqrt(std::max(0.0, error[i] * error[i] - chance)), error[i]);
+      if (std::isfinite(stated[p][i])) error[i] = stated[p][i];
+    }
     errors.push_back(finite(error));
   }
   return errors;

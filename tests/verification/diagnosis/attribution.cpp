@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "diagnosis/where.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
@@ -139,6 +140,23 @@ TEST(Attribution, RandomEffectByItsSpread) {
   std::printf("dispersion: %d of 4 found, %d of 4 nulls blamed on it\n", hits, false_alarms);
   EXPECT_GE(hits, 3);
   EXPECT_EQ(false_alarms, 0);
+}
+
+// Numerics that are stated for all observables are taken as they are, and no run is made with another step.
+TEST(Attribution, StatedNumericsNeedNoRuns) {
+  Experiment experiment = formula::experiment({}, 2, 0, 3, noise, 12);
+  const auto judged_cells = [&](int& runs) {
+    formula::Sphere sphere(experiment);
+    Responses model(experiment, sphere);
+    const Fitter fitter(model);
+    runs = sphere.n_runs();
+    return gap_cells(model, fitter);
+  };
+  int found = 0, stated = 0;
+  judged_cells(found);
+  for (Observable& observable : experiment.observables) observable.numerics_u = 3e-4;
+  for (const GapCell& cell : judged_cells(stated)) EXPECT_DOUBLE_EQ(cell.u_num, 3e-4);
+  EXPECT_EQ(found - stated, 2);  // one a point
 }
 
 // The same seed gives the same verdict to the last digit; verdict.json holds what the contract names.
