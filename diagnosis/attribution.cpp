@@ -43,11 +43,10 @@ class Attributor {
     add(fitter_.fit({}, Eigen::VectorXd()));
     fit_singles(singles);
     credit_other_singles(live);
-    for (const int k : random_) {
-      if (affordable(runs_of_emulator(k))) add(fit_by_emulator(model_, fitter_, k));
-    }
+    fit_random_effects();
     if (model_.experiment().pairs) fit_pairs(screening);
     fit_rivals_of_leader();
+    refine_random_leader();
     if (model_.experiment().pairs) credit_other_pairs(live);
     result_.outside = fit_outside(model_, fitter_);
     result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
@@ -88,8 +87,24 @@ class Attributor {
     return by_emulator(screened.hypothesis) ? runs_of_emulator(effects[0]) : runs_of_fit(static_cast<int>(effects.size()));
   }
   Fit fit_of(const Screened& screened) {
-    return by_emulator(screened.hypothesis) ? fit_by_emulator(model_, fitter_, screened.hypothesis.effects[0])
+    return by_emulator(screened.hypothesis) ? emulated(screened.hypothesis.effects[0])
                                             : fitter_.fit(screened.hypothesis, start(screened), screened.forms);
+  }
+  Fit emulated(int effect, const Refinement& refinement = {}) {
+    return fit_by_emulator(model_, fitter_, effect, emulated_strengths(model_.effects()[effect]), refinement);
+  }
+
+  // Few strengths first: what is far behind there need not be known better.
+  void fit_random_effects() {
+    constexpr double far_behind = 20;  // nats
+    double best = -std::numeric_limits<double>::infinity();
+    for (const Fit& fit : result_.fits) best = std::max(best, fit.log_evidence);
+    for (const int k : random_) {
+      if (!affordable(runs_of_emulator(k))) break;
+      report("fit of " + model_.effects()[k].name, 0.55);
+      Fit look = fit_by_emulator(model_, fitter_, k, first_strengths(model_.effects()[k]));
+      add(look.log_evidence < best - far_behind ? std::move(look) : emulated(k));
+    }
   }
 
   // Each effect is there or not whatever the others are.
@@ -205,16 +220,20 @@ class Attributor {
   void fit_pairs(const Screening& first_screening) {
     if (candidates_.size() < 2) return;
     constexpr double gain_wanted = nats_of_second - 3;  // the linear model may be off by some nats
+    constexpr double least_of_second = 1;               // standard uncertainties that a second effect is expected to show beside the first
     std::map<std::string, Screened> pairs;              // by name, each where it looks best
     const std::vector<int> singles = best_singles();
     for (std::size_t i = 0; i < singles.size() && i < n_screened_again; ++i) {
       const Fit& single = result_.fits[singles[i]];
       const int own = single.hypothesis.effects[0];
+      // What brings less than half of what the best one does is half of a pair whose other half is better.
+      const double none = result_.fits.front().log_evidence, best = result_.fits[singles.front()].log_evidence;
+      if (i > 0 && single.log_evidence - none < 0.5 * (best - none)) continue;
       if (!affordable(static_cast<int>(candidates_.size()) + runs_of_fit(2))) break;
       report("second effects beside " + result_.names[singles[i]], 0.6);
       const Screening second(model_, fitter_, candidates_, single.at);
       for (const int k : candidates_) {
-        if (k == own) continue;
+        if (k == own || second.detectability(k) < least_of_second) continue;
         Screened screened = second.screen(pair_of(own, k));
         const std::string name = name_of(screened.hypothesis, model_.effects());
         if (screened.log_evidence + price_of_inputs(single) < result_.fits[singles.front()].log_evidence + gain_wanted) {
@@ -256,8 +275,9 @@ class Attributor {
     }
   }
 
-  // Pairs that nobody looked at bring what the better of their effects brings.
+  // Pairs that nobody looked at bring what the better of their effects brings, less what the other costs alone.
   void credit_other_pairs(const std::vector<int>& live) {
+    const double none = result_.fits.front().log_evidence;
     std::map<int, double> alone;
     for (const int k : live) {
       const auto other = result_.not_fitted.find(model_.effects()[k].name);
@@ -269,8 +289,9 @@ class Attributor {
       for (auto b = std::next(a); b != alone.end(); ++b) {
         const Hypothesis pair = pair_of(a->first, b->first);
         const std::string name = name_of(pair, model_.effects());
+        const auto [other, better] = std::minmax(a->second, b->second);
         if (std::count(result_.names.begin(), result_.names.end(), name) == 0)
-          result_.not_fitted.emplace(name, NotFitted{std::max(a->second, b->second), log_prior(pair)});
+          result_.not_fitted.emplace(name, NotFitted{better + std::min(0.0, other - none), log_prior(pair)});
       }
     }
   }
@@ -292,6 +313,19 @@ class Attributor {
         add(fit_of(rival));
       }
     }
+  }
+
+  // The runs of an emulator do not fill in a distribution; the likeliest hypothesis must not be refused for what they lack.
+  void refine_random_leader() {
+    const auto i = static_cast<std::size_t>(result_.first());
+    Fit& leader = result_.fits[i];
+    if (leader.hypothesis.effects.size() != 1 || !model_.effects()[leader.hypothesis.effects[0]].random) return;
+    const Refinement refinement{leader.theta[0], model_.n_seeds_of_distribution(leader.at.state)};
+    if (model_.base_is_random() || !affordable(refinement.n_seeds)) return;
+    report("more runs of " + result_.names[i], 0.87);
+    result_.weight[i] -= leader.log_evidence;
+    leader = emulated(leader.hypothesis.effects[0], refinement);
+    result_.weight[i] += leader.log_evidence;
   }
 
   bool look_alike(int a, int b) const {

@@ -14,13 +14,13 @@ namespace {
 
 class EmulatedFit {
  public:
-  EmulatedFit(Responses& model, Fitter& fitter, int index)
+  EmulatedFit(Responses& model, Fitter& fitter, int index, const std::vector<double>& strengths, const Refinement& refinement)
       : model_(model),
         fitter_(fitter),
         index_(index),
         effect_(model.effects()[index]),
-        strengths_(with_base(emulated_strengths(effect_))),
-        emulator_(strengths_, runs()) {}
+        strengths_(with_base(strengths, refinement)),
+        emulator_(strengths_, runs(refinement)) {}
 
   Fit fit() const {
     constexpr int n = 61;
@@ -49,8 +49,10 @@ class EmulatedFit {
   }
 
  private:
-  static std::vector<double> with_base(std::vector<double> strengths) {
+  static std::vector<double> with_base(std::vector<double> strengths, const Refinement& refinement) {
     strengths.push_back(0);
+    if (refinement.n_seeds > 0 && std::count(strengths.begin(), strengths.end(), refinement.strength) == 0)
+      strengths.push_back(refinement.strength);
     std::sort(strengths.begin(), strengths.end());
     return strengths;
   }
@@ -61,10 +63,11 @@ class EmulatedFit {
     return state;
   }
 
-  std::vector<std::vector<Response>> runs() {
+  std::vector<std::vector<Response>> runs(const Refinement& refinement) {
     std::vector<Responses::Request> requests;
     for (const double strength : strengths_)
-      for (const int p : model_.training()) requests.push_back({state(strength), p});
+      for (const int p : model_.training())
+        requests.push_back({state(strength), p, 1, strength == refinement.strength ? refinement.n_seeds : 0});
     const auto responses = model_.run(requests);
     const auto n = static_cast<std::ptrdiff_t>(model_.training().size());
     std::vector<std::vector<Response>> by_strength;
@@ -88,8 +91,7 @@ class EmulatedFit {
     if (!effect_.random) {
       fit.at.parts.emplace_back();
       for (std::size_t p = 0; p < fit.at.responses.size(); ++p)
-        fit.at.parts.back().push_back(
-            (fit.at.responses[p].value - base.responses[p].value).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
+        fit.at.parts.back().push_back(finite(fit.at.responses[p].value - base.responses[p].value));
     }
     fit.whitening = fitter_.whiten(fit.at, form_error);
     fit.linear.rho = fitter_.residual(fit.at.responses, fit.whitening);
@@ -139,12 +141,7 @@ class EmulatedFit {
   Emulator emulator_;
 };
 
-}  // namespace
-
-std::vector<double> emulated_strengths(const Effect& effect) {
-  const bool both_signs = effect.minimum < 0 && effect.maximum > 0;
-  const std::vector<double> shares =
-      both_signs ? std::vector<double>{-2.2, -1.1, -0.4, 0.4, 1.1, 2.2} : std::vector<double>{0.1, 0.3, 0.6, 1.0, 1.5, 2.2};
+std::vector<double> shares_of_probe(const Effect& effect, const std::vector<double>& shares) {
   std::vector<double> strengths;
   for (const double share : shares) {
     const double strength = std::clamp(share * probe_strength(effect), effect.minimum, effect.maximum);
@@ -153,6 +150,21 @@ std::vector<double> emulated_strengths(const Effect& effect) {
   return strengths;
 }
 
-Fit fit_by_emulator(Responses& model, Fitter& fitter, int effect) { return EmulatedFit(model, fitter, effect).fit(); }
+}  // namespace
+
+std::vector<double> emulated_strengths(const Effect& effect) {
+  const bool both_signs = effect.minimum < 0 && effect.maximum > 0;
+  return shares_of_probe(
+      effect, both_signs ? std::vector<double>{-2.2, -1.1, -0.4, 0.4, 1.1, 2.2} : std::vector<double>{0.1, 0.3, 0.6, 1.0, 1.5, 2.2});
+}
+
+std::vector<double> first_strengths(const Effect& effect) {
+  const bool both_signs = effect.minimum < 0 && effect.maximum > 0;
+  return shares_of_probe(effect, both_signs ? std::vector<double>{-1.1, 1.1} : std::vector<double>{0.3, 1.0});
+}
+
+Fit fit_by_emulator(Responses& model, Fitter& fitter, int effect, const std::vector<double>& strengths, const Refinement& refinement) {
+  return EmulatedFit(model, fitter, effect, strengths, refinement).fit();
+}
 
 }  // namespace snag

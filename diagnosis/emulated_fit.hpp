@@ -9,10 +9,17 @@
 
 namespace snag {
 
-/// Strengths at which fit_by_emulator runs an effect beside the base model.
+/// Strengths at which an effect is run beside the base model: over what is expected of it, and few for a first look.
 std::vector<double> emulated_strengths(const Effect& effect);
+std::vector<double> first_strengths(const Effect& effect);
+
+/// Where an emulated fit is run again: with how many seeds at which strength.
+struct Refinement {
+  double strength = 0;
+  int n_seeds = 0;
+};
 
 /// Fit of one effect alone, in its leading form.
-Fit fit_by_emulator(Responses& model, Fitter& fitter, int effect);
+Fit fit_by_emulator(Responses& model, Fitter& fitter, int effect, const std::vector<double>& strengths, const Refinement& refinement = {});
 
 }  // namespace snag

@@ -89,8 +89,6 @@ class Fitter {
   State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
   Linearization start_from_base(const State& state);
   void add_shares(Linearization& at);
-  std::vector<Eigen::VectorXd> stated_numerical_error() const;
-  std::vector<Eigen::VectorXd> numerical_error(const State& state, const std::vector<Response>& responses);
   Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
                                  const Whitening& whitening);
   void descend(Fit& fit, Eigen::VectorXd& x, int iterations);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/excess_gap.hpp"
+#include "diagnosis/numerical_error.hpp"
 
 namespace snag {
 
@@ -22,7 +23,8 @@ class HowFar {
     const auto& withheld = model_.withheld();
     const State state = withheld_state(fit);
     const State leading = lead_of(state);
-    const auto responses = model_.run(state, withheld), lead = model_.run(leading, withheld), coarse = model_.run(leading, withheld, 2);
+    const auto responses = model_.run(state, withheld), lead = model_.run(leading, withheld);
+    const auto step_error = numerical_error(model_, leading, withheld, lead);
     std::vector<std::vector<Response>> moved_strength, moved_input;
     const int k = static_cast<int>(fit.linear.lower.size()), m = static_cast<int>(model_.nuisances().size());
     // What the fit leaves open of the effects: their strengths and the shares of their forms, by index in its linear model.
@@ -52,23 +54,19 @@ class HowFar {
       const PointSummary& point = model_.points()[withheld[p]];
       const int g = point.n_gaussian;
       const Eigen::VectorXd u = data_uncertainty(point);
-      const auto scaled = [&](const Response& a, const Response& b) {
-        return Eigen::VectorXd((a.value - b.value).head(g).cwiseQuotient(u).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
-      };
+      const auto scaled = [&](const Response& a, const Response& b) { return finite((a.value - b.value).head(g).cwiseQuotient(u)); };
       Eigen::VectorXd data(g);
       for (int i = 0; i < g; ++i) data[i] = point.rows[i].value;
       const Eigen::VectorXd error = (responses[p].value.head(g) - data).cwiseQuotient(u);
       Eigen::MatrixXd strength(g, n_open), input(g, m);
       for (Eigen::Index e = 0; e < n_open; ++e) strength.col(e) = scaled(moved_strength[static_cast<std::size_t>(e)][p], responses[p]);
       for (int j = 0; j < m; ++j) input.col(j) = scaled(moved_input[j][p], lead[p]) * posterior[j];
-      const Eigen::VectorXd scatter = responses[p].scatter.head(g).cwiseQuotient(u.cwiseAbs2()) / responses[p].n_runs;
       const Eigen::MatrixXd scale = u.cwiseInverse().asDiagonal();
-      Eigen::MatrixXd V = scale * point.covariance * scale;
-      V.diagonal() += scaled(coarse[p], lead[p]).cwiseAbs2() + scatter + Eigen::VectorXd::Constant(g, 1e-9);
+      const Eigen::MatrixXd V = scale * model_covariance(point, responses[p], step_error[p], {}) * scale;
       // The best inputs turn an error e into V (V + B B^T)^-1 e.
       const Eigen::MatrixXd projection = (V + input * input.transpose()).llt().solve(V).transpose();
       const Eigen::MatrixXd covariance = projection * V;
-      prediction.error.push_back(projection * error.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
+      prediction.error.push_back(projection * finite(error));
       prediction.noise.push_back(
           Eigen::LLT<Eigen::MatrixXd>(0.5 * (covariance + covariance.transpose()) + 1e-9 * Eigen::MatrixXd::Identity(g, g)).matrixL());
       prediction.covariance.push_back(covariance), prediction.projection.push_back(projection);

@@ -3,16 +3,9 @@
 #include <numbers>
 
 #include "diagnosis/fit.hpp"
+#include "diagnosis/numerical_error.hpp"
 
 namespace snag {
-
-namespace {
-
-Eigen::VectorXd finite(const Eigen::VectorXd& values) {
-  return values.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; });
-}
-
-}  // namespace
 
 Fitter::Fitter(Responses& model) : model_(model) { base_ = linearize(model.base(), {}); }
 
@@ -20,45 +13,6 @@ std::vector<int> Fitter::first_rows() const {
   std::vector<int> first{0};
   for (const int p : model_.training()) first.push_back(first.back() + static_cast<int>(model_.points()[p].rows.size()));
   return first;
-}
-
-// What the experiment states of each row, NaN where it does not.
-std::vector<Eigen::VectorXd> Fitter::stated_numerical_error() const {
-  std::vector<Eigen::VectorXd> errors;
-  for (const int p : model_.training()) {
-    const auto& rows = model_.points()[p].rows;
-    errors.emplace_back(static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      errors.back()[static_cast<Eigen::Index>(i)] = model_.experiment().observables[rows[i].observable].numerics_u;
-  }
-  return errors;
-}
-
-std::vector<Eigen::VectorXd> Fitter::numerical_error(const State& state, const std::vector<Response>& responses) {
-  const std::vector<Eigen::VectorXd> stated = stated_numerical_error();
-  if (std::all_of(stated.begin(), stated.end(), [](const Eigen::VectorXd& e) { return e.allFinite(); })) return stated;
-  const auto coarse = model_.run(state, model_.training(), 2);
-  std::vector<Eigen::VectorXd> errors;
-  std::vector<Responses::Request> again;
-  for (std::size_t p = 0; p < coarse.size(); ++p) {
-    if (coarse[p].failed) again.push_back({state, model_.training()[p], 0.5});
-  }
-  // A step that is too coarse to run at all: then from half the step.
-  const auto fine = again.empty() ? std::vector<Response>{} : model_.run(again);
-  std::size_t next = 0;
-  for (std::size_t p = 0; p < coarse.size(); ++p) {
-    Eigen::VectorXd error = coarse[p].failed ? Eigen::VectorXd(2 * (responses[p].value - fine[next].value))
-                                             : Eigen::VectorXd(coarse[p].value - responses[p].value);
-    if (coarse[p].failed) ++next;
-    // The difference of means of chance runs holds chance.
-    for (Eigen::Index i = 0; i < error.size(); ++i) {
-      const double chance = (responses[p].scatter[i] + coarse[p].scatter[i]) / responses[p].n_runs;
-      if (responses[p].n_runs > 1) error[i] = std::copysign(std::sqrt(std::max(0.0, error[i] * error[i] - chance)), error[i]);
-      if (std::isfinite(stated[p][i])) error[i] = stated[p][i];
-    }
-    errors.push_back(finite(error));
-  }
-  return errors;
 }
 
 Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis) {
@@ -92,7 +46,7 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
     for (std::size_t p = 0; p < training.size(); ++p) at.parts[e].push_back(finite(lead[p].value - responses[next++].value));
   }
   add_shares(at);
-  at.numerical_error = numerical_error(leading, lead);
+  at.numerical_error = numerical_error(model_, leading, training, lead);
   return at;
 }
 

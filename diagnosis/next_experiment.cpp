@@ -22,7 +22,7 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   const int n = end - begin;
   const Row& first = point.rows[begin];
   Eigen::VectorXd difference = (a.at.responses[p].value - b.at.responses[p].value).segment(begin, n);
-  difference = difference.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; });
+  difference = finite(difference);
   Eigen::MatrixXd C = point.covariance.block(begin, begin, n, n) * std::max(1, first.n_replicates);
   const Eigen::VectorXd numerical = a.at.numerical_error[p].segment(begin, n);
   C += numerical * numerical.transpose();

@@ -97,6 +97,12 @@ int Responses::n_seeds(const State& state) const {
   return random ? std::min(most_seeds, 2 * seeds_of_random_) : 1;
 }
 
+int Responses::n_seeds_of_distribution(const State& state) const {
+  constexpr int more = 8;
+  const int n = n_seeds(state);
+  return n > 1 && !base_is_random_ ? more * n : n;
+}
+
 std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>& effects) {
   std::vector<OtherForm> others;
   for (std::size_t e = 0; e < state.effects.size(); ++e) {
@@ -105,6 +111,10 @@ std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>
       if (form != state.form(e)) others.push_back({e, form, form < effect.n_forms ? between_forms : 1});
   }
   return others;
+}
+
+Eigen::VectorXd finite(const Eigen::VectorXd& values) {
+  return values.unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; });
 }
 
 State lead_of(State state) {
@@ -133,7 +143,7 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
     if (deviation != 0 && nuisances_[j].bias_observable < 0 && acts_at(static_cast<int>(j), request.point))
       run.nuisances[nuisances_[j].name] += deviation * nuisances_[j].u;
   }
-  std::vector<RunRequest> runs(n_seeds(request.state), run);
+  std::vector<RunRequest> runs(seeds_of(request), run);
   for (std::size_t s = 0; s < runs.size(); ++s) runs[s].seed = experiment_.seed + s;
   return runs;
 }
@@ -219,7 +229,7 @@ std::vector<Response> Responses::run(const std::vector<Request>& requests) {
   for (const std::vector<Part>& all : parts) {
     std::vector<Response> of_parts;
     for (const Part& part : all) {
-      const std::size_t n = static_cast<std::size_t>(n_seeds(part.request.state));
+      const std::size_t n = static_cast<std::size_t>(seeds_of(part.request));
       of_parts.push_back(response(part.request, std::span(results).subspan(begin, n)));
       begin += n;
     }

@@ -52,6 +52,8 @@ struct FreeNuisance {
 
 /// The state with the leading forms only.
 State lead_of(State state);
+/// Zero for what has no number.
+Eigen::VectorXd finite(const Eigen::VectorXd& values);
 /// What was run beside the lead, beside the mixture: changes of inputs and steps are taken from the leading forms, which saves a run a
 /// form.
 Response beside(const Response& mixture, const Response& lead, Response moved);
@@ -68,8 +70,10 @@ class Responses {
   const std::vector<int>& withheld() const { return withheld_; }
   /// The base model answers with another result for another seed.
   bool base_is_random() const { return base_is_random_; }
-  /// Seeds a state is run with.
+  /// Seeds a state is run with, and as many as fill in the distribution that a random effect makes (where the base model is random, every
+  /// run is dear, and these are the same).
   int n_seeds(const State& state) const;
+  int n_seeds_of_distribution(const State& state) const;
   int n_runs() const { return simulator_.n_runs(); }
   /// Runs that [budget] still allows.
   int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
@@ -81,6 +85,7 @@ class Responses {
     State state;
     int point = 0;
     double step_factor = 1;
+    int n_seeds = 0;  // 0: as many as the state needs
   };
   /// One batch of runs.
   std::vector<Response> run(const std::vector<Request>& requests);
@@ -88,6 +93,7 @@ class Responses {
   std::vector<Response> run(const State& state, const std::vector<int>& points, double step_factor = 1);
 
  private:
+  int seeds_of(const Request& request) const { return request.n_seeds > 0 ? request.n_seeds : n_seeds(request.state); }
   std::vector<RunRequest> requests_of(const Request& request) const;
   struct Part {
     Request request;

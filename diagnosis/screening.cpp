@@ -54,8 +54,7 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
       probed_[k].emplace_back(), signatures_[k].emplace_back();
       for (std::size_t p = 0; p < training.size(); ++p) {
         probed_[k].back().push_back(responses[next]);
-        signatures_[k].back().push_back(
-            (responses[next++].value - around_.responses[p].value).unaryExpr([](double v) { return std::isfinite(v) ? v : 0.0; }));
+        signatures_[k].back().push_back(finite(responses[next++].value - around_.responses[p].value));
       }
       columns_[k].push_back(column(k, form, whitening_, rho_));
     }
