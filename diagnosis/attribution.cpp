@@ -62,17 +62,12 @@ class Attributor {
 
   // Whether this many runs a training point are still in the budget.
   bool affordable(int runs_per_point) {
-    if (model_.runs_left() >= runs_per_point * static_cast<int>(model_.training().size())) return true;
+    if (fitter_.runs_left() >= runs_per_point * static_cast<int>(model_.training().size())) return true;
     const std::string note = "The budget of " + std::to_string(model_.experiment().max_runs) +
                              " runs ended before every hypothesis was fitted; raise [budget] max_runs.";
     if (result_.notes.empty() || result_.notes.back() != note) result_.notes.push_back(note);
     return false;
   }
-  int runs_of_fit(int n_effects) const {
-    const int nuisances = static_cast<int>(model_.nuisances().size()) / std::max(1, static_cast<int>(model_.training().size())) + 1;
-    return (10 + 8 * n_effects + nuisances) * model_.n_seeds(fitter_.base().state);
-  }
-
   int runs_of_emulator(int effect) const {
     return static_cast<int>(emulated_strengths(model_.effects()[effect]).size()) *
            model_.n_seeds({{{effect, 1}}, fitter_.base().state.nuisances});
@@ -84,7 +79,7 @@ class Attributor {
   }
   int runs_of(const Screened& screened) const {
     const auto& effects = screened.hypothesis.effects;
-    return by_emulator(screened.hypothesis) ? runs_of_emulator(effects[0]) : runs_of_fit(static_cast<int>(effects.size()));
+    return by_emulator(screened.hypothesis) ? runs_of_emulator(effects[0]) : fitter_.runs_of_fit(static_cast<int>(effects.size()));
   }
   Fit fit_of(const Screened& screened) {
     return by_emulator(screened.hypothesis) ? emulated(screened.hypothesis.effects[0])
@@ -229,7 +224,7 @@ class Attributor {
       // What brings less than half of what the best one does is half of a pair whose other half is better.
       const double none = result_.fits.front().log_evidence, best = result_.fits[singles.front()].log_evidence;
       if (i > 0 && single.log_evidence - none < 0.5 * (best - none)) continue;
-      if (!affordable(static_cast<int>(candidates_.size()) + runs_of_fit(2))) break;
+      if (!affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(2))) break;
       report("second effects beside " + result_.names[singles[i]], 0.6);
       const Screening second(model_, fitter_, candidates_, single.at);
       for (const int k : candidates_) {
@@ -253,7 +248,7 @@ class Attributor {
     });
     order.resize(std::min<std::size_t>(order.size(), most_pairs));
     order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
-    for (std::size_t i = 0; i < order.size() && affordable(runs_of_fit(2)); ++i) {
+    for (std::size_t i = 0; i < order.size() && affordable(fitter_.runs_of_fit(2)); ++i) {
       report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
       add(fit_of(order[i]));
     }

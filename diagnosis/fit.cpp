@@ -27,6 +27,13 @@ std::string name_of(const Hypothesis& hypothesis, const std::vector<Effect>& eff
   return name;
 }
 
+int Fitter::runs_of_fit(int n_effects) const {
+  const int nuisances = static_cast<int>(model_.nuisances().size() / std::max<std::size_t>(1, model_.training().size())) + 1;
+  return (10 + 8 * n_effects + nuisances) * model_.n_seeds(model_.base());
+}
+
+int Fitter::runs_left() const { return model_.runs_left() - 2 * static_cast<int>(model_.withheld().size()) * runs_of_fit(0); }
+
 // x: strengths in prior standard deviations, nuisances, shares of other forms.
 State Fitter::state_of(const Fit& fit, const Eigen::VectorXd& x) const {
   const auto k = static_cast<Eigen::Index>(fit.hypothesis.effects.size()), m = static_cast<Eigen::Index>(model_.nuisances().size());
@@ -139,6 +146,7 @@ Fit Fitter::fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& 
   constexpr int turns = 4, steps = 4;
   constexpr double gain = 0.1;  // nats
   for (int turn = 0; turn < turns; ++turn) {
+    if (turn > 1 && runs_left() < runs_of_fit(k) * static_cast<int>(model_.training().size())) break;
     double before = std::numeric_limits<double>::infinity();
     if (turn == 0) {
       fit.at = k == 0 ? base_ : start_from_base(state_of(fit, x));
@@ -180,7 +188,7 @@ Fit Fitter::fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, cons
   }
   std::vector<int> led = fit.at.state.forms;
   led.resize(leads.size(), 0);
-  if (leads == led) return fit;
+  if (leads == led || runs_left() < runs_of_fit(static_cast<int>(leads.size())) * static_cast<int>(model_.training().size())) return fit;
   Fit other = fit_with_leads(hypothesis, fit.theta, leads);
   return other.log_evidence > fit.log_evidence ? other : fit;
 }

@@ -79,8 +79,12 @@ class Fitter {
   }
   Eigen::MatrixXd share_columns(const Linearization& at, const Whitening& whitening) const { return columns(at, at.by_share, whitening); }
   std::vector<int> first_rows() const;
+  /// Runs a training point that a fit of so many effects takes, about; far from linear, or with many forms, it takes a multiple.
+  int runs_of_fit(int n_effects) const;
+  /// Runs that [budget] still allows, those for the gap before and after at the withheld points aside.
+  int runs_left() const;
   /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
-  /// share it takes the lead, and the better of the two fits is kept. Runs: about 10 a training point and effect.
+  /// share it takes the lead, and the better of the two fits is kept, as far as the budget goes.
   Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
 
  private:

@@ -24,6 +24,14 @@ std::vector<Nuisance> input_nuisances(const std::vector<const PointCase*>& bases
   std::vector<Nuisance> nuisances;
   for (const auto& [same, points] : shared) {
     const auto& [key, u] = record[same];
+    // The same thing again is not quite the same: a fluid has the temperature of its day, one particle of a kind is not the other. Half of
+    // the variance is each point's own, which costs no runs: both deviations move the same number by the same step.
+    if (points.size() > 1 && !key.starts_with("drag_form")) {
+      const double half = u / std::numbers::sqrt2;
+      nuisances.push_back({key, half, points});
+      for (const int p : points) nuisances.push_back({key, half, {p}});
+      continue;
+    }
     nuisances.push_back({key, u, points});
     // A law that is off by u is off by another u where Re is e times ten: its error is smooth over a decade.
     if (key == "drag_form") nuisances.push_back({"drag_form.slope", u / std::numbers::ln10, points});

@@ -3,8 +3,9 @@
 //   F = theta B int_0^t K(t - tau) d(u - v)/dtau dtau,   B = 3/2 d^2 (pi rho mu)^(1/2)
 //     form "basset"   K(t) = t^(-1/2)
 //     form "fading"   K(t) = t^(-1/2) exp(-t/t_w): at finite Re the memory fades faster, as the layer is carried away
+//     form "developed"  K of basset; the slip at the start has been there for long
 //
-// A slip at the start counts as set in motion then: B (u - v)_0 K(t). The kernel is a sum of exponentials: the trapezoidal rule for
+// Else a slip at the start counts as set in motion then: B (u - v)_0 K(t). The kernel is a sum of exponentials: the trapezoidal rule for
 //   t^(-1/2) = pi^(-1/2) int exp(y/2 - t exp(y)) dy = sum_i a_i exp(-s_i t),   s_i = s_max exp(-i D),  a_i = D (s_i/pi)^(1/2)
 // whose error with D = 1.2 is 5e-4 for t from 1e-6 s to 30 s; rates below the last are one constant. So a particle remembers 18 vectors
 // however long it has moved, and each sub-step costs the same. With the mean over the sub-step h of what was before,
@@ -72,9 +73,11 @@ struct History final : FluidForce {
                            .needs = {"acceleration"}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"coefficient", &coefficient, "1", 0, 10, Basis::literature, "theta; 1 by theory."},
-            {"window", &window, "s", 1e-6, 1e6, Basis::assumed, "t_w of the form fading."},
-            setting("form", &form, "basset: memory as t^(-1/2); fading: lost after t_w.", {"basset", "fading"})};
+    return {
+        {"coefficient", &coefficient, "1", 0, 10, Basis::literature, "theta; 1 by theory."},
+        {"window", &window, "s", 1e-6, 1e6, Basis::assumed, "t_w of the form fading."},
+        setting("form", &form, "basset: memory as t^(-1/2); fading: lost after t_w; developed: as basset, the slip at the start not new.",
+                {"basset", "fading", "developed"})};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (coefficient == 0) return;
@@ -129,9 +132,10 @@ struct History final : FluidForce {
     int first = particles.begin;
     while (first + 1 < particles.end && tile.exists[static_cast<std::size_t>(first)] < 0.5) ++first;
     const double h = number(particles, last_step)[first];  // the same for a whole tile; 0 at birth
+    const bool takes_change = h > 0 || form != "developed";
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum before = vector(particles, last_w);
-    for (int i = 0; i <= n_rates; ++i) {
+    for (int i = 0; i <= n_rates && takes_change; ++i) {
       const Decay past = decay(rate(i), h);
       const VectorSum H = vector(particles, sums + 3 * i);
 #pragma omp simd

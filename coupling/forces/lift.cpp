@@ -4,6 +4,7 @@
 //     form "saffman"  C = 1
 //     form "mei"      C = (1 - 0.3314 a^(1/2)) exp(-Re/10) + 0.3314 a^(1/2)   Re <= 40,    a = |omega| d/(2 |w|), at most 0.4
 //                         0.0524 (a Re)^(1/2)                                 Re > 40
+//     form "mei_free"  as mei, of a sphere that turns as freely as the water lets it, omega_p = omega/2
 //   spin:   F = theta pi/8 rho d^3 (omega_p - omega/2) x (v - u)
 //
 // The slope grows by |F|/|w|, so that a lift larger than the inertia of a sub-step cannot make it unstable.
@@ -42,12 +43,13 @@ struct Lift final : FluidForce {
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta."},
             {"rotation_coefficient", &rotation_coefficient, "1", 0, 10, Basis::literature, "Further factor on the lift by spin."},
-            setting("form", &form, "saffman: creeping flow; mei: with its decay at finite Re.", {"mei", "saffman"})};
+            setting("form", &form, "saffman: creeping flow; mei: with its decay at finite Re; mei_free: as mei, without lift by spin.",
+                    {"mei", "saffman", "mei_free"})};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
-    const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter, mei = form == "mei" ? 1 : 0;
+    const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter, mei = form == "saffman" ? 0 : 1;
     const double shear = coefficient * 1.615 * d * d * std::sqrt(rho * mu);
-    const double spin = coefficient * rotation_coefficient * std::numbers::pi / 8 * rho * d * d * d;
+    const double spin = form == "mei_free" ? 0 : coefficient * rotation_coefficient * std::numbers::pi / 8 * rho * d * d * d;
     const VectorArray u = fluid.velocity, v = particles.velocity, omega_p = particles.angular_velocity;
     const auto G = fluid.velocity_gradient;
     const VectorSum force = forces.force;

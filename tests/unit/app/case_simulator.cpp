@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -128,16 +129,24 @@ TEST_F(CaseSimulatorTest, OperatingPointScalesTheFlow) {
   EXPECT_EQ(values(simulator, with("operating_point", 0.1)), values(simulator, with_input("flow.amplitude", 0.1)));
 }
 
-/// Requirement: one set-point of the flow a point; what is one sphere and one drag law is shared.
+/// Requirement: one set-point of the flow a point; one drag law everywhere; what is the same kind of sphere is half common, half each
+/// point's own, and its whole variance is what was stated.
 TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
   const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
   std::map<std::string, int> count;
+  std::array<double, 2> variance_of_density{};
   for (const Nuisance& nuisance : simulator.nuisances()) {
-    ++count[nuisance.name];
-    EXPECT_EQ(nuisance.points.size(), nuisance.name == "flow.amplitude" ? 1u : 2u) << nuisance.name;
+    ++count[nuisance.name + (nuisance.points.size() == 1 ? " of a point" : "")];
+    if (nuisance.name == "particle.density_kg_m3")
+      for (const int p : nuisance.points) variance_of_density[static_cast<std::size_t>(p)] += nuisance.u * nuisance.u;
   }
-  EXPECT_EQ(count, (std::map<std::string, int>{
-                       {"flow.amplitude", 2}, {"particle.density_kg_m3", 1}, {"drag_form", 1}, {"drag_form.slope", 1}, {"camera", 1}}));
+  EXPECT_EQ(count, (std::map<std::string, int>{{"flow.amplitude of a point", 2},
+                                               {"particle.density_kg_m3", 1},
+                                               {"particle.density_kg_m3 of a point", 2},
+                                               {"drag_form", 1},
+                                               {"drag_form.slope", 1},
+                                               {"camera", 1}}));
+  for (const double variance : variance_of_density) EXPECT_NEAR(std::sqrt(variance), 0.01, 1e-15);
 }
 
 /// Requirement: an error of the drag law that is each point's own is not shared, and changes the drag as the shared one does.

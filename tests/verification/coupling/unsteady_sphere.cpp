@@ -71,6 +71,39 @@ TEST(UnsteadySphere, RisesWithHistory) {
   EXPECT_GT(std::abs(without.velocity().z - velocity_from_rest(s, 4 * viscous_time)), 0.1 * std::abs(s.terminal()));
 }
 
+// Requirement: a sphere that has long moved at v0 and is let go slows down by v0 less what one from rest under the force K v0 reaches; one
+// that is set in motion at the start is slowed much more, by B v0 t^(-1/2).
+TEST(UnsteadySphere, DevelopedSlipHasNoPast) {
+  const Sphere s{1e-3, 300, 1e-4};
+  const double v0 = 0.3 * s.nu / s.d, viscous_time = s.d * s.d / (4 * s.nu), end = 4 * viscous_time;
+  const auto velocity = [&](const std::string& form) {
+    PieceInFlow run(
+        sphere_piece(s.d, s.density, {}, {v0, 0, 0}),
+        "[coupling]\nforces = [\"free_stream_drag\", \"added_mass\", \"history\"]\n[coupling.history]\nform = \"" + form + "\"\n",
+        liquid(s.nu));
+    run.advance(end, 320);
+    return run.velocity().x;
+  };
+  const double reached = velocity_from_rest(s, end) / s.weight() * s.K();  // of v0
+  EXPECT_NEAR(velocity("developed") / v0, 1 - reached, 1e-3);
+  EXPECT_LT(velocity("basset") / v0, 0.7 * (1 - reached));
+}
+
+// Requirement: a sphere that spins freely has the lift of the shear only.
+TEST(UnsteadySphere, FreeSpinHasNoLift) {
+  PrescribedFlow flow = liquid(1e-5);
+  flow.gradient[0] = {0, 4, 0};
+  const auto end = [&](const std::string& lift) {
+    PieceInFlow run(sphere_piece(5e-3, 1150, {0, 0.01, 0}, {0.1, 0, 0}),
+                    "[coupling]\nforces = [\"schiller_naumann\", \"lift\"]\n[coupling.lift]\n" + lift, flow);
+    run.advance(0.1, 100);
+    return run.position();
+  };
+  const Vec3 free = end("form = \"mei_free\"\n"), held = end("form = \"mei\"\n");
+  EXPECT_EQ(free, end("form = \"mei\"\nrotation_coefficient = 0.0\n"));
+  EXPECT_GT(norm(free - held), 1e-5);
+}
+
 // Requirement: steps a hundred times the viscous time neither ring nor blow up, light as the sphere may be.
 TEST(UnsteadySphere, LongStepsAreStable) {
   for (const double density : {1.0, 300.0, 8000.0}) {
