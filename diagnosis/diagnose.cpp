@@ -1,6 +1,9 @@
 #include "diagnosis/diagnose.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include "base/error.hpp"
 
@@ -21,8 +24,11 @@ void check_budget(const Experiment& experiment, const Simulator& simulator) {
   const int points = static_cast<int>(experiment.points.size());
   int training = 0, needed = 2 * points;
   for (const OperatingPoint& point : experiment.points) training += !point.withheld;
+  std::set<std::tuple<std::string, double, int>> moved;  // what is common and what is a point's own of one input take the same runs
   for (const Nuisance& nuisance : simulator.nuisances())
-    for (const int p : nuisance.points) needed += !experiment.points[p].withheld;
+    for (const int p : nuisance.points)
+      if (!experiment.points[p].withheld) moved.emplace(nuisance.name, nuisance.u, p);
+  needed += static_cast<int>(moved.size());
   int live = 0;
   for (const Effect& effect : simulator.effects()) {
     const bool wanted =
@@ -56,6 +62,9 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   measure_shrinkage(model, attribution, chosen, verdict);
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
+  if (const int taken = simulator.n_taken(); taken > 0)
+    verdict.notes.push_back(std::to_string(taken) + " runs were not made for this verdict but taken from [budget] runs = \"" +
+                            experiment.runs.filename().string() + "\".");
   return verdict;
 }
 

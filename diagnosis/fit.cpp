@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "diagnosis/statistics.hpp"
 
@@ -28,8 +30,9 @@ std::string name_of(const Hypothesis& hypothesis, const std::vector<Effect>& eff
 }
 
 int Fitter::runs_of_fit(int n_effects) const {
-  const int nuisances = static_cast<int>(model_.nuisances().size() / std::max<std::size_t>(1, model_.training().size())) + 1;
-  return (10 + 8 * n_effects + nuisances) * model_.n_seeds(model_.base());
+  std::set<std::pair<std::string, double>> moved;  // what is common and what is a point's own of one input take the same runs
+  for (const FreeNuisance& nuisance : model_.nuisances()) moved.emplace(nuisance.name, nuisance.u);
+  return (10 + 8 * n_effects + static_cast<int>(moved.size())) * model_.n_seeds(model_.base());
 }
 
 int Fitter::runs_left() const { return model_.runs_left() - 2 * static_cast<int>(model_.withheld().size()) * runs_of_fit(0); }

@@ -320,7 +320,12 @@ void CaseSimulator::open_cache(const std::filesystem::path& file) {
 void CaseSimulator::take_runs(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
   if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs");
-  for (KeptRun& run : kept_runs(text)) kept_.emplace(run.key, std::move(run.result));
+  for (KeptRun& run : kept_runs(text))
+    if (kept_.emplace(run.key, std::move(run.result)).second) taken_.insert(run.key);
+}
+
+int CaseSimulator::n_taken() const {
+  return static_cast<int>(std::count_if(used_.begin(), used_.end(), [&](const std::string& key) { return taken_.contains(key); }));
 }
 
 }  // namespace snag

@@ -33,6 +33,7 @@ class CaseSimulator final : public Simulator {
   bool restarts(int point) const override { return points_[static_cast<std::size_t>(point)].base.restarts(); }
   int n_runs() const override { return n_runs_; }
   int n_used() const override { return static_cast<int>(used_.size()); }
+  int n_taken() const override;
 
  private:
   struct Point {
@@ -68,8 +69,9 @@ class CaseSimulator final : public Simulator {
   std::vector<Nuisance> nuisances_;
   std::string program_;  // its fingerprint; empty: nothing is kept on disk
   std::unordered_map<std::string, RunResult> kept_;
-  std::unordered_set<std::string> used_;  // keys of the runs that were asked for
-  std::ofstream cache_;                   // open on rank 0
+  std::unordered_set<std::string> used_;   // keys of the runs that were asked for
+  std::unordered_set<std::string> taken_;  // of those of the table that the experiment names
+  std::ofstream cache_;                    // open on rank 0
   int n_runs_ = 0;
 };
 

@@ -210,6 +210,7 @@ TEST_F(CaseSimulatorTest, TakesRunsThatWereMadeElsewhere) {
   const auto results = simulator.run(requests);
   for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
   EXPECT_EQ(simulator.n_runs(), 0);
+  EXPECT_EQ(simulator.n_taken(), 2);
 }
 
 /// Requirement: two changes of one number multiply, whichever effect and input they come from.
