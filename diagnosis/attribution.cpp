@@ -33,6 +33,13 @@ class Attributor {
     for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
     report("signatures", 0.05);
     const Screening screening(model_, fitter_, candidates_, fitter_.base());
+    // What does not run cannot be judged.
+    const auto fails = [&](int k) {
+      const std::string failure = model_.effects()[k].random ? "" : screening.failure(k);
+      if (!failure.empty()) result_.identifiability.blind[model_.effects()[k].name] = "its runs fail: " + failure;
+      return !failure.empty();
+    };
+    std::erase_if(live, fails), std::erase_if(candidates_, fails);
     identify(screening);
     // What changes no run is the base model under another name: friction of what touches nothing is no hypothesis.
     const auto changes_none = [&](int k) { return !model_.effects()[k].random && !screening.changes_runs(k); };

@@ -82,7 +82,7 @@ void Fitter::descend(Fit& fit, Eigen::VectorXd& x, int iterations) {
       auto responses = model_.run(state, model_.training());
       const double reached = objective(fit, moved, responses);
       // Where nothing runs there is no fit, however far off the state before was.
-      const bool runs = std::none_of(responses.begin(), responses.end(), [](const Response& r) { return r.failed; });
+      const bool runs = std::none_of(responses.begin(), responses.end(), [](const Response& r) { return !r.failure.empty(); });
       if (runs && reached < value) {
         if (value - reached > 0.5 * promised) damping *= 0.1;
         as_promised = value - reached > 0.8 * promised;

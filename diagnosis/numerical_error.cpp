@@ -29,15 +29,15 @@ std::vector<Eigen::VectorXd> numerical_error(Responses& model, const State& stat
   std::vector<Eigen::VectorXd> errors;
   std::vector<Responses::Request> again;
   for (std::size_t p = 0; p < coarse.size(); ++p) {
-    if (coarse[p].failed) again.push_back({state, points[p], 0.5});
+    if (!coarse[p].failure.empty()) again.push_back({state, points[p], 0.5});
   }
   // A step that is too coarse to run at all: then from half the step.
   const auto fine = again.empty() ? std::vector<Response>{} : model.run(again);
   std::size_t next = 0;
   for (std::size_t p = 0; p < coarse.size(); ++p) {
-    Eigen::VectorXd error = coarse[p].failed ? Eigen::VectorXd(2 * (responses[p].value - fine[next].value))
-                                             : Eigen::VectorXd(coarse[p].value - responses[p].value);
-    if (coarse[p].failed) ++next;
+    Eigen::VectorXd error = !coarse[p].failure.empty() ? Eigen::VectorXd(2 * (responses[p].value - fine[next].value))
+                                                       : Eigen::VectorXd(coarse[p].value - responses[p].value);
+    if (!coarse[p].failure.empty()) ++next;
     // The difference of means of chance runs holds chance.
     for (Eigen::Index i = 0; i < error.size(); ++i) {
       const double chance = (responses[p].scatter[i] + coarse[p].scatter[i]) / responses[p].n_runs;

@@ -151,7 +151,7 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
 Response Responses::response(const Request& request, std::span<const RunResult> results) const {
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
-  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}, n_seeds, false, std::vector<bool>(n, false)};
+  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}, n_seeds, "", std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
@@ -185,7 +185,8 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
       if (point.rows[i].observable == nuisances_[j].bias_observable && point.rows[i].kind != Row::Kind::spread) response.value[i] += bias;
   }
   if (n_seeds > 1) response.paths = values.topRows(point.n_gaussian).colwise() - values.topRows(point.n_gaussian).rowwise().mean();
-  response.failed = std::all_of(results.begin(), results.end(), [](const RunResult& r) { return !r.failure.empty(); });
+  if (std::all_of(results.begin(), results.end(), [](const RunResult& r) { return !r.failure.empty(); }))
+    response.failure = results.front().failure;
   return response;
 }
 

@@ -37,7 +37,7 @@ struct Response {
   Eigen::VectorXd scatter;  // by row: variance of one run
   Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
   int n_runs = 1;
-  bool failed = false;
+  std::string failure;      // why none of its runs came through; empty: one did
   std::vector<bool> later;  // by row: no run came to this time before it ended; `value` is the end
 };
 

@@ -200,6 +200,11 @@ bool Screening::changes_runs(int k) const {
   });
 }
 
+std::string Screening::failure(int k) const {
+  const auto& leading = probed_.at(k).front();
+  return std::all_of(leading.begin(), leading.end(), [](const Response& r) { return !r.failure.empty(); }) ? leading.front().failure : "";
+}
+
 double Screening::cosine(int a, int b) const {
   const double norm = std::sqrt(
       std::max(0.0, projected(columns_.at(a).front(), columns_.at(a).front()) * projected(columns_.at(b).front(), columns_.at(b).front())));

@@ -31,6 +31,8 @@ class Screening {
   double detectability(int candidate) const;
   /// Whether any run with a candidate, in any of its forms, differs from that without it.
   bool changes_runs(int candidate) const;
+  /// Why no run with a candidate in its leading form came through; empty: one did.
+  std::string failure(int candidate) const;
   /// Cosine between two signatures in that metric.
   double cosine(int a, int b) const;
   /// Share of sham effects (signatures that run backwards in time with random signs by point) that beat every candidate alone.

@@ -208,7 +208,7 @@ RunResult CaseSimulator::done_together(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   // Whatever is asked of it: monitors and summary answer later questions too.
   const std::string name = numbered("run", job.request->point) + "_" + sha256(point.of_case + job.settings).substr(0, 16);
-  std::vector<std::string> overrides = job.change.overrides;
+  std::vector<std::string> overrides = point.base.from_elsewhere(job.change.overrides);
   if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
   RunResult result;
   try {

@@ -50,6 +50,8 @@ class PointCase {
   /// Time at which a run ends, s.
   double end() const;
   const std::string& resolved() const { return resolved_; }
+  /// The same overrides for a copy of the case in another folder: files that they name lie beside the case.
+  std::vector<std::string> from_elsewhere(std::vector<std::string> overrides) const;
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all

@@ -24,12 +24,22 @@ id = "vx"
 unit = "m/s"
 noise_u = {vx}
 {points}
+[[alternative]]
+effect = "geometry"
+meaning = "a lower channel"
+{alternatives}
+[[alternative]]
+effect = "inlet"
+meaning = "a mesh that is not there"
+set = ["mesh.file=absent.msh"]
 [model]
-candidates = ["operating_point", "drag_magnitude"]
+candidates = ["operating_point", "drag_magnitude", "geometry", "inlet"]
 pairs = false
 [budget]
 max_runs = 200
 """
+
+LOWER = tuple(argument.replace("height_mm=100", "height_mm=80") for argument in MESH)
 
 
 class MeshedDiagnosis(harness.CaseTest):
@@ -38,7 +48,8 @@ class MeshedDiagnosis(harness.CaseTest):
         return self.case(text.replace("[0.5, 0, 0]", f"[{speed}, 0, 0]"), name)
 
     def prepare(self):
-        rows, points = ["point,replicate,t_s,observable,value"], ""
+        rows, points, alternatives = ["point,replicate,t_s,observable,value"], "", ""
+        shutil.copy(self.mesh(*LOWER), self.work / "lower.msh")
         for number, (name, speed) in enumerate(SPEEDS.items()):
             self.channel(name, speed)
             truth = self.run_case(self.channel(f"truth_{name}", TRUE_FACTOR * speed), 2, out=f"truth_{name}").monitor("rags")
@@ -47,10 +58,11 @@ class MeshedDiagnosis(harness.CaseTest):
                     error = noise * (1, -1, 0.5, -0.7)[(number + k) % 4]  # as noise would be, the same in each run of the test
                     rows.append(f"{name},1,{truth.column('time')[k]:.3f},{observable},{float(truth.column(observable)[k] + error)!r}")
             role = "withheld" if name == "faster" else "train"
+            alternatives += f'[[alternative.at]]\npoint = "{name}"\nset = ["mesh.file=lower.msh"]\n'
             points += f'[[point]]\nid = "{name}"\ncase = "{name}.toml"\nrole = "{role}"\ninput_u = {{ "flow.amplitude" = 0.01 }}\n'
         (self.work / "data.csv").write_text("\n".join(rows) + "\n")
         file = self.work / "DIAGNOSIS.toml"
-        file.write_text(DIAGNOSIS.format(points=points, **NOISE))
+        file.write_text(DIAGNOSIS.format(points=points, alternatives=alternatives, **NOISE))
         return file
 
     def diagnosed(self, file, ranks):
@@ -65,9 +77,12 @@ class MeshedDiagnosis(harness.CaseTest):
         found = verdict["parameters"]["operating_point"]
         print(f"  operating point {found['mean']:.3f} +- {found['sd']:.3f}, true {TRUE_FACTOR - 1}, {verdict['runs']} runs")
         self.assertAlmostEqual(found["mean"], TRUE_FACTOR - 1, delta=3 * found["sd"])
+        self.assertIn("fail", verdict["identifiability"]["blind"]["inlet"])
 
         runs = sorted((self.work / "out" / "runs").glob("run*/summary.json"))
         self.assertGreater(len(runs), 10, "whole runs are kept")
+        lower = [file for file in runs if "lower.msh" in (file.parent / "case.resolved.toml").read_text()]
+        self.assertGreaterEqual(len(lower), 3, "the alternative's mesh lies beside its case")
         made = {file: file.stat().st_mtime_ns for file in runs}
         shutil.copy(self.work / "out" / "verdict.json", self.work / "first.json")
         (self.work / "out" / "runs.tsv").unlink()
