@@ -35,7 +35,11 @@ int Fitter::runs_of_fit(int n_effects) const {
   return (10 + 8 * n_effects + static_cast<int>(moved.size())) * model_.n_seeds(model_.base());
 }
 
-int Fitter::runs_left() const { return model_.runs_left() - 2 * static_cast<int>(model_.withheld().size()) * runs_of_fit(0); }
+int Fitter::runs_left() const {
+  // A small budget goes to the question which effect it is.
+  const int for_withheld = 2 * static_cast<int>(model_.withheld().size()) * runs_of_fit(0);
+  return model_.runs_left() - std::min(for_withheld, model_.experiment().max_runs / 5);
+}
 
 // x: strengths in prior standard deviations, nuisances, shares of other forms.
 State Fitter::state_of(const Fit& fit, const Eigen::VectorXd& x) const {
