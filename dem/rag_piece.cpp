@@ -1,4 +1,5 @@
 // From settings to a piece: lattice, mass, hydrodynamic volume and bonds of its particles.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -87,6 +88,13 @@ BondProperties beam_bond(const RagSettings& s, const Rag& rag) {
   return bond;
 }
 
+/// Of contacts: spheres harder than the beam that they make up would only shorten the step.
+double shear_modulus(const RagSettings& s) {
+  constexpr double published = 1e6;  // Pa, Jensen (2018), Table 3.1
+  if (s.shear_modulus) return *s.shear_modulus;
+  return s.properties == "beam" && s.passport.empty() ? std::min(published, s.youngs_modulus / (2 * (1 + s.poisson_ratio))) : published;
+}
+
 void set_bonds_of(const Passport& passport, const std::string& where, Rag& rag) {
   try {
     rag.bond = {passport.bond(rag.radius, 0), passport.bond(rag.radius, 1)};
@@ -98,7 +106,7 @@ void set_bonds_of(const Passport& passport, const std::string& where, Rag& rag) 
 void set_bonds(const RagSettings& s, const std::string& where, const std::filesystem::path& folder, Rag& rag) {
   rag.bond_damping = s.bond_damping, rag.rotation_friction = s.rotation_friction, rag.contact_radius_ratio = s.contact_radius_ratio;
   rag.breakage = s.breakage;
-  rag.shear_modulus = s.shear_modulus, rag.poisson_ratio = s.poisson_ratio;
+  rag.shear_modulus = shear_modulus(s), rag.poisson_ratio = s.poisson_ratio;
   if (s.shape == Shape::particle) return;
   if (!s.passport.empty()) {
     if (s.properties == "given")

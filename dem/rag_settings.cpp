@@ -164,7 +164,9 @@ Section RagSettings::section() {
   const ShapeText& text = shape_texts[static_cast<std::size_t>(shape)];
   Records r{setting("name", &name, "Name in outputs; not given: the table and its number.")};
   add_size(*this, r), add_mass(*this, r), add_pose(*this, r), add_bonds(*this, r);
-  r.push_back(number("shear_modulus", &shear_modulus, "Pa", 1, Basis::literature, "G of a particle in contacts (Jensen 2018, Table 3.1)."));
+  r.push_back(number("shear_modulus", &shear_modulus, "Pa", 1, Basis::literature,
+                     "G of a particle in contacts; not given: 1 MPa (Jensen 2018, Table 3.1), and of a fibre as a beam no more than its "
+                     "own, E/(2 (1 + nu))."));
   r.push_back({.key = "poisson_ratio",
                .target = &poisson_ratio,
                .minimum = 0,

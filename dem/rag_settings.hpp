@@ -50,7 +50,8 @@ struct RagSettings {
   BondProperties along, across;          // given
   double bond_damping = 0.5, rotation_friction = 0.001, contact_radius_ratio = 2.2;
   bool breakage = false;
-  double shear_modulus = 1e6, poisson_ratio = 0.25;
+  std::optional<double> shear_modulus;  // Pa, of contacts
+  double poisson_ratio = 0.25;
 
   /// Name of the table and its records, which refer to this object.
   Section section();

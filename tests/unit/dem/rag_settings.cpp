@@ -92,6 +92,14 @@ TEST(RagSettings, FibreIsABeamOfItsDiameter) {
   EXPECT_NEAR(piece.pose(9, 0).position.z - piece.pose(0, 0).position.z, 0.018, 1e-15);
 }
 
+TEST(RagSettings, ContactsAreNoHarderThanTheBeam) {
+  // Requirement: without a shear modulus contacts have the published one, and of a soft beam its own; a given one holds.
+  EXPECT_EQ(piece_of("[[rag]]\n").rag.shear_modulus, 1e6);
+  EXPECT_EQ(piece_of("[[fibre]]\nyoungs_modulus_Pa = 1e7\n").rag.shear_modulus, 1e6);
+  EXPECT_NEAR(piece_of("[[fibre]]\nyoungs_modulus_Pa = 1e5\n").rag.shear_modulus, 4e4, 1e-9);
+  EXPECT_EQ(piece_of("[[fibre]]\nyoungs_modulus_Pa = 1e5\nshear_modulus_Pa = 2e6\n").rag.shear_modulus, 2e6);
+}
+
 TEST(RagSettings, GivenBondsMustBeGiven) {
   // Requirement: properties = "given" without stiffness is an error that names the keys.
   try {
