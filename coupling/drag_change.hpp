@@ -7,13 +7,8 @@
 
 namespace snag {
 
-/// What a factor may depend on.
-struct DragState {
-  double reynolds;  // rho |w| d/mu, w = u - v
-  double speed;     // |w|, m/s
-};
-
-/// `factor(p, state)` multiplies force and slope of particle p.
+/// `factor(p, Re, speed)` multiplies force and slope of particle p; Re = rho |w| d/mu, speed |w| in m/s, w = u - v. Plain numbers: a struct
+/// of them would not vectorise.
 template <class Factor>
 void multiply_drag(const FluidSamples& fluid, const Particles& particles, const Forces& forces, const Factor& factor) {
   const double per_speed = fluid.density * particles.diameter / fluid.dynamic_viscosity;
@@ -24,7 +19,7 @@ void multiply_drag(const FluidSamples& fluid, const Particles& particles, const 
   for (int p = particles.begin; p < particles.end; ++p) {
     const double wx = u.x[p] - v.x[p], wy = u.y[p] - v.y[p], wz = u.z[p] - v.z[p];
     const double speed = std::sqrt(wx * wx + wy * wy + wz * wz);
-    const double f = factor(p, DragState{per_speed * speed, speed});
+    const double f = factor(p, per_speed * speed, speed);
     force.x[p] *= f, force.y[p] *= f, force.z[p] *= f;
     slope[p] *= f;
   }

@@ -44,8 +44,13 @@ double PrescribedFlow::viscosity() const {
 void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   needed_ = needed;
   arrays_.fit(tiles, n_fields);
-  if (!needed.disturbance) return;
-  for (std::size_t t = 0; t < tiles.size(); ++t) std::fill_n(arrays_.field(t, width), tiles[t].exists.size(), undisturbed);
+  // What is the same everywhere and always.
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const auto fill = [&](int field, double value) { std::fill_n(arrays_.field(t, field), tiles[t].exists.size(), value); };
+    if (needed.disturbance) fill(width, undisturbed);
+    if (needed.turbulence) fill(epsilon, flow_.dissipation_rate);
+    for (int i = 0; i < 9 && needed.velocity_gradient; ++i) fill(gradient + i, flow_.gradient[i / 3][i % 3]);
+  }
 }
 
 FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed) {
@@ -59,26 +64,35 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
     rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(angle);
   }
   const auto vector = [&](int f) { return VectorSum{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
-  const auto set = [](const VectorSum& to, int p, const Vec3& v) { to.x[p] = v.x, to.y[p] = v.y, to.z[p] = v.z; };
-  const VectorSum u_at = vector(velocity), p_at = vector(pressure_gradient), a_at = vector(acceleration);
+  const VectorSum u_at = vector(velocity), p_at = vector(pressure_gradient), a_at = vector(acceleration), slope_at = vector(k_gradient);
   const std::array G_at{vector(gradient), vector(gradient + 3), vector(gradient + 6)};
-  const Mat3& G = flow_.gradient;
-  for (int p = tile.index(0, 0); p < tile.index(tile.nx, tile.ny - 1); ++p) {
-    const Vec3 u = uniform + G * tile.vector(Tile::x, p);
-    set(u_at, p, u);
-    if (needed_.velocity_gradient)
-      for (int i = 0; i < 3; ++i) set(G_at[i], p, G[i]);
-    if (needed_.turbulence) {
-      const Vec3& slope = flow_.turbulent_kinetic_energy_gradient;
-      const double here = flow_.turbulent_kinetic_energy + dot(slope, tile.vector(Tile::x, p));
-      arrays_.field(index, k)[p] = std::max(here, 0.0);
-      arrays_.field(index, epsilon)[p] = flow_.dissipation_rate;
-      set(vector(k_gradient), p, here > 0 ? slope : Vec3{});
+  const double *x = tile.field(Tile::x), *y = tile.field(Tile::y), *z = tile.field(Tile::z);
+  const Mat3 G = flow_.gradient;
+  const int begin = tile.index(0, 0), end = tile.index(tile.nx, tile.ny - 1);
+#pragma omp simd
+  for (int p = begin; p < end; ++p) {
+    const Vec3 u = uniform + G * Vec3{x[p], y[p], z[p]};
+    u_at.x[p] = u.x, u_at.y[p] = u.y, u_at.z[p] = u.z;
+  }
+  if (needed_.material_acceleration || needed_.pressure_gradient) {
+    const double density = flow_.density;
+#pragma omp simd
+    for (int p = begin; p < end; ++p) {
+      const Vec3 a = rate + G * Vec3{u_at.x[p], u_at.y[p], u_at.z[p]};
+      a_at.x[p] = a.x, a_at.y[p] = a.y, a_at.z[p] = a.z;
+      p_at.x[p] = -density * a.x, p_at.y[p] = -density * a.y, p_at.z[p] = -density * a.z;
     }
-    if (!needed_.material_acceleration && !needed_.pressure_gradient) continue;
-    const Vec3 acceleration_here = rate + G * u;
-    set(a_at, p, acceleration_here);
-    set(p_at, p, -flow_.density * acceleration_here);
+  }
+  if (needed_.turbulence) {
+    const Vec3 slope = flow_.turbulent_kinetic_energy_gradient;
+    double* k_at = arrays_.field(index, k);
+    const double at_origin = flow_.turbulent_kinetic_energy;
+#pragma omp simd
+    for (int p = begin; p < end; ++p) {
+      const double here = at_origin + slope.x * x[p] + slope.y * y[p] + slope.z * z[p];
+      k_at[p] = std::max(here, 0.0);
+      slope_at.x[p] = here > 0 ? slope.x : 0, slope_at.y[p] = here > 0 ? slope.y : 0, slope_at.z[p] = here > 0 ? slope.z : 0;
+    }
   }
   const auto array = [](const VectorSum& v) { return VectorArray{v.x, v.y, v.z}; };
   return {.density = flow_.density,
@@ -89,7 +103,7 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
           .material_acceleration = array(a_at),
           .turbulent_kinetic_energy = arrays_.field(index, k),
           .dissipation_rate = arrays_.field(index, epsilon),
-          .turbulent_kinetic_energy_gradient = array(vector(k_gradient)),
+          .turbulent_kinetic_energy_gradient = array(slope_at),
           .solid_fraction = arrays_.field(index, solid),
           .disturbance_width = arrays_.field(index, width)};
 }

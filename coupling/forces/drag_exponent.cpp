@@ -35,7 +35,7 @@ struct DragExponent final : FluidForce {
     if (exponent == 0) return;  // a power of zero is 1 only to the last digits
     const double theta = exponent, per_reference = 1 / reference_reynolds;
     multiply_drag(fluid, particles, forces,
-                  [=](int, const DragState& s) { return pow(per_reference * std::max(s.reynolds, least_reynolds), theta); });
+                  [=](int, double Re, double) { return pow(per_reference * std::max(Re, least_reynolds), theta); });
   }
   std::vector<ReferenceCase> reference_cases() const override {
     return {drag_at(100, 1.087, 0.02, "standard drag curve, Clift, Grace and Weber (1978), at the reference state")};

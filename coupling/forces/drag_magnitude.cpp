@@ -28,7 +28,7 @@ struct DragMagnitude final : FluidForce {
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double f = 1 + excess;
-    multiply_drag(fluid, particles, forces, [f](int, const DragState&) { return f; });
+    multiply_drag(fluid, particles, forces, [f](int, double, double) { return f; });
   }
   std::vector<ReferenceCase> reference_cases() const override {
     auto reference = drag_at(100, (1 + excess) * 1.087, 0.02, "standard drag curve, Clift, Grace and Weber (1978)");

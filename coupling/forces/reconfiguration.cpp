@@ -41,8 +41,8 @@ struct Reconfiguration final : FluidForce {
     if (exponent == 0) return;  // a power of zero is 1 only to the last digits
     const double V = exponent, per_reference = 1 / reference_speed;
     const bool smooth = form == "cauchy";
-    multiply_drag(fluid, particles, forces, [=](int, const DragState& s) {
-      const double x = per_reference * s.speed, square = smooth ? 1 + x * x : std::max(x * x, 1.0);
+    multiply_drag(fluid, particles, forces, [=](int, double, double speed) {
+      const double x = per_reference * speed, square = smooth ? 1 + x * x : std::max(x * x, 1.0);
       return pow(square, 0.5 * V);
     });
   }

@@ -44,7 +44,7 @@ struct VolumeFraction final : FluidForce {
     const double theta = exponent;
     const bool power = form == "power";
     const double* solid = fluid.solid_fraction;
-    multiply_drag(fluid, particles, forces, [=](int p, const DragState&) {
+    multiply_drag(fluid, particles, forces, [=](int p, double, double) {
       const double grown = pow(void_fraction(solid[p]), -theta);
       return power ? grown : 1 + theta * solid[p];
     });

@@ -30,6 +30,8 @@ struct RowForces {
   alignas(64) double force[3][row_size] = {}, torque1[3][row_size] = {}, torque2[3][row_size] = {};
 };
 
+[[gnu::always_inline]] inline void put(double (&to)[3][row_size], int k, const Vec3& v) { to[0][k] = v.x, to[1][k] = v.y, to[2][k] = v.z; }
+
 void load(const Tile& tile, int j, Row& row) {
   const int n = tile.stride / 8 * 8, first = (j + 1) * tile.stride;
   for (int f = 0; f < Tile::n_state; ++f) {
@@ -96,17 +98,18 @@ void evaluate(const BondLaw& given_law, const Row& one, const Row& two, double* 
     for (int i = line; i < line + Ahead::line; ++i) {
       const int k = margin + i;
       const BondForce bond = bond_force<direction, damped>(law, end_at<direction>(one, k), end_at<direction>(two, k + shift));
-      bool present = whole[i] > 0.5;
-      if constexpr (breakage) {
-        present = present & bond_holds(law, bond);
-        whole[i] = present ? 1.0 : 0.0;
+      if constexpr (breakage) whole[i] = (whole[i] > 0.5) & bond_holds(law, bond) ? 1.0 : 0.0;
+      put(out.force, k, bond.force), put(out.torque1, k, bond.torque1), put(out.torque2, k, bond.torque2);
+    }
+    // In a loop of its own: GCC would move all of the law behind the selection, and then not vectorise it.
+#pragma omp simd
+    for (int i = line; i < line + Ahead::line; ++i) {
+      const bool present = whole[i] > 0.5;
+      for (int c = 0; c < 3; ++c) {
+        out.force[c][margin + i] = present ? out.force[c][margin + i] : 0.0;
+        out.torque1[c][margin + i] = present ? out.torque1[c][margin + i] : 0.0;
+        out.torque2[c][margin + i] = present ? out.torque2[c][margin + i] : 0.0;
       }
-      out.force[0][k] = present ? bond.force.x : 0.0, out.force[1][k] = present ? bond.force.y : 0.0;
-      out.force[2][k] = present ? bond.force.z : 0.0;
-      out.torque1[0][k] = present ? bond.torque1.x : 0.0, out.torque1[1][k] = present ? bond.torque1.y : 0.0;
-      out.torque1[2][k] = present ? bond.torque1.z : 0.0;
-      out.torque2[0][k] = present ? bond.torque2.x : 0.0, out.torque2[1][k] = present ? bond.torque2.y : 0.0;
-      out.torque2[2][k] = present ? bond.torque2.z : 0.0;
     }
   }
 }
