@@ -13,10 +13,10 @@ namespace {
 
 constexpr double radius = 1e-3, gravity = 9.81;  // m, m/s2
 
-RagPiece cloth(int n_columns, int n_rows, const Vec3& centre) {
+RagPiece cloth(int n_columns, int n_rows, const Vec3& centre, bool breakage = true) {
   RagSettings settings;
   settings.radius = radius, settings.length = 2 * radius * n_columns, settings.width = 2 * radius * n_rows;
-  settings.breakage = true;
+  settings.breakage = breakage;
   settings.position = centre;
   return make_piece(settings, "snag bench dem");
 }
@@ -29,9 +29,9 @@ DemBenchCase built(MPI_Comm comm, std::vector<RagPiece> pieces, const WallSet& w
 
 }  // namespace
 
-DemBenchCase flat_sheets(MPI_Comm comm, int n_sheets, int n_columns, int n_rows) {
+DemBenchCase flat_sheets(MPI_Comm comm, int n_sheets, int n_columns, int n_rows, bool breakage) {
   std::vector<RagPiece> pieces;
-  for (int s = 0; s < n_sheets; ++s) pieces.push_back(cloth(n_columns, n_rows, {0, 0, 10 * radius * s}));
+  for (int s = 0; s < n_sheets; ++s) pieces.push_back(cloth(n_columns, n_rows, {0, 0, 10 * radius * s}, breakage));
   const Vec3 half{1.1 * radius * n_columns + 0.05, 1.1 * radius * n_rows + 0.05, 0.05};
   WallSet walls;
   walls.add_box("box", -half, half + Vec3{0, 0, 10 * radius * n_sheets});
