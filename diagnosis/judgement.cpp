@@ -164,7 +164,20 @@ class Judge {
     } else {
       v_.verdict = "effects";
       v_.wording = p >= attributed && guards_hold(first) ? "attributed" : "suspected";
+      note_weak_second(first);
     }
+  }
+
+  // The rule of 6 nats is stricter than the probabilities.
+  void note_weak_second(int first) {
+    const auto likeliest =
+        std::max_element(v_.probability.begin(), v_.probability.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const std::vector<std::string> acting = split(likeliest->first, '+');
+    const auto acts = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
+    if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
+    v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + words(v_.probability.at(a_.names[first])) + ") is " +
+                       likeliest->first + " (" + words(likeliest->second) +
+                       "), but a second effect is named only where it brings 6 nats and has a cell of its own.");
   }
 
   // Another hypothesis with as many effects that the data cannot tell from the first; -1 if there is none.

@@ -210,16 +210,20 @@ std::string PointCase::with_step_factor(double factor) const {
 
 double PointCase::end() const { return places_of(tree_->root, "time.end_s").front().value->value<double>().value(); }
 
+// Resolved paths are absolute: so a file is told from another text.
+bool PointCase::names_file(const std::string& table, const std::string& key) const {
+  for (const auto& found : tables_at(tree_->root, table)) {
+    const toml::node* value = found.second->get(key);
+    if (value != nullptr && value->value_or(std::string()).starts_with('/')) return true;
+  }
+  return false;
+}
+
 std::vector<std::string> PointCase::from_elsewhere(std::vector<std::string> overrides) const {
   for (std::string& text : overrides) {
     const std::size_t equals = text.find('='), dot = text.rfind('.', equals);
     if (equals == std::string::npos || dot == std::string::npos) continue;
-    const auto names_file = [&](const auto& table) {  // resolved paths are absolute
-      return table.second->get(text.substr(dot + 1, equals - dot - 1)) != nullptr &&
-             table.second->get(text.substr(dot + 1, equals - dot - 1))->value_or(std::string()).starts_with('/');
-    };
-    const auto tables = tables_at(tree_->root, text.substr(0, dot));
-    if (std::none_of(tables.begin(), tables.end(), names_file)) continue;
+    if (!names_file(text.substr(0, dot), text.substr(dot + 1, equals - dot - 1))) continue;
     std::string name = text.substr(equals + 1);
     std::erase(name, '"');
     text = text.substr(0, equals + 1) + toml_text(std::filesystem::absolute(file_.parent_path() / name).lexically_normal().string());

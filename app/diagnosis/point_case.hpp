@@ -64,6 +64,8 @@ class PointCase {
  private:
   struct Tree;
   void turn(double angle, std::vector<std::string>& overrides) const;
+  /// Whether a key of the case holds a path.
+  bool names_file(const std::string& table, const std::string& key) const;
 
   std::filesystem::path file_;
   std::string resolved_, sha256_;

@@ -94,6 +94,23 @@ TEST(Attribution, Pairs) {
 }
 
 // A periodic body force and a drag that grows with depth are in no library: abstain.
+// A second effect that is likelier there than not, but brings less than 6 nats, is not named; a note says how likely both are.
+TEST(Attribution, WeakSecondEffectIsTold) {
+  int told = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Verdict verdict = judged({.effects = {{"added_mass", 0.5}, {"measurement", 0.002 + 0.001 * i}}}, 3100 + i, false, 0);
+    if (verdict.verdict != "effects" || joined_effects(verdict) != "added_mass") continue;
+    const double alone = verdict.probability.at("added_mass"), both = verdict.probability.at("added_mass+measurement");
+    const bool has_note = std::any_of(verdict.notes.begin(), verdict.notes.end(), [](const std::string& note) {
+      return note.starts_with("Likelier than added_mass alone") && note.find("is added_mass+measurement") != std::string::npos;
+    });
+    EXPECT_EQ(has_note, both > alone) << i << ": " << both << ", alone " << alone;
+    told += has_note;
+  }
+  std::printf("weak second effects: %d of 8 told\n", told);
+  EXPECT_GE(told, 1);
+}
+
 TEST(Attribution, OutsideOfTheLibrary) {
   int abstained = 0, attributed = 0;
   for (int i = 0; i < 12; ++i) {
