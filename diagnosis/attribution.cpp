@@ -55,7 +55,7 @@ class Attributor {
     fit_rivals_of_leader();
     refine_random_leader();
     if (model_.experiment().pairs) credit_other_pairs(live);
-    result_.outside = fit_outside(model_, fitter_);
+    result_.outside = fit_outside(model_, fitter_, result_.fits.front());
     result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
     for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
     set_probabilities(result_);

@@ -5,50 +5,55 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+
+#include "diagnosis/statistics.hpp"
 
 namespace snag {
 
 namespace {
 
-constexpr std::array amplitudes{0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0};
+constexpr std::array amplitudes{0.0, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0};
 constexpr std::array lengths{0.1, 0.3, 1.0};
+constexpr std::array is_off{0.0, 1.0};
 
 class GaussianProcess {
  public:
-  GaussianProcess(const Responses& model, const Fitter& fitter) : model_(model) {
-    const Linearization& base = fitter.base();
+  explicit GaussianProcess(const Responses& model, const Linearization& at) : model_(model), expanded_at_(at.state.nuisances) {
     const auto& training = model.training();
-    n_observables_ = static_cast<int>(model.experiment().observables.size());
+    n_parts_ = static_cast<int>(model.experiment().observables.size()) + 1;
     for (std::size_t p = 0; p < training.size(); ++p) {
       const PointSummary& point = model.points()[training[p]];
       const int g = point.n_gaussian, n = static_cast<int>(point.rows.size());
       Block block{
-          &point, Eigen::MatrixXd::Identity(n, n), {}, Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(base.by_nuisance.size())), {}};
-      block.covariance.topLeftCorner(g, g) = model_covariance(point, base.responses[p], base.numerical_error[p], {});
+          &point, Eigen::MatrixXd::Identity(n, n), {}, Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(at.by_nuisance.size())), {}};
+      block.covariance.topLeftCorner(g, g) = model_covariance(point, at.responses[p], at.numerical_error[p], {});
       // Gaussian rows in their own units, the others as deviance residuals of unit variance.
       const Eigen::LLT<Eigen::MatrixXd> none(Eigen::MatrixXd::Identity(g, g));
-      block.difference = residual(point, base.responses[p], none);
-      for (std::size_t j = 0; j < base.by_nuisance.size(); ++j) {
-        if (base.by_nuisance[j][p].value.size() > 0)
-          block.nuisances.col(static_cast<Eigen::Index>(j)) =
-              (residual(point, base.by_nuisance[j][p], none) - block.difference) / nuisance_step;
+      const Eigen::VectorXd origin = residual(point, at.origin[p], none);
+      for (std::size_t j = 0; j < at.by_nuisance.size(); ++j) {
+        if (at.by_nuisance[j][p].value.size() > 0)
+          block.nuisances.col(static_cast<Eigen::Index>(j)) = (residual(point, at.by_nuisance[j][p], none) - origin) / nuisance_step;
       }
-      block.range = ranges(point, base.responses[p]);
+      block.difference = residual(point, at.responses[p], none) - block.nuisances * expanded_at_;
+      block.range = ranges(point, at.responses[p]);
       n_gaussian_ += g;
-      log_ratio_ += log_variance_ratio(point, base.responses[p]);
+      log_ratio_ += log_variance_ratio(point, at.responses[p]);
       blocks_.push_back(std::move(block));
     }
   }
 
-  int n_observables() const { return n_observables_; }
-
-  double log_marginal(const std::vector<double>& amplitude, double length, bool growing) const {
-    const Eigen::Index m = blocks_.front().nuisances.cols();
+  struct Marginal {
+    double log_evidence = 0;
+    Eigen::VectorXd nuisances;  // the likeliest, in standard uncertainties
+  };
+  Marginal marginal(const Outside& process) const {
+    const Eigen::Index m = expanded_at_.size();
     Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(m, m);
     Eigen::VectorXd projected = Eigen::VectorXd::Zero(m);
     double value = -0.5 * n_gaussian_ * std::log(2 * std::numbers::pi) - 0.5 * log_ratio_;
     for (const Block& block : blocks_) {
-      const Eigen::LLT<Eigen::MatrixXd> factor(covariance(block, amplitude, length, growing));
+      const Eigen::LLT<Eigen::MatrixXd> factor(covariance(block, process));
       const Eigen::VectorXd r = factor.matrixL().solve(block.difference);
       const Eigen::MatrixXd J = factor.matrixL().solve(block.nuisances);
       const Eigen::MatrixXd& L = factor.matrixLLT();
@@ -57,7 +62,40 @@ class GaussianProcess {
     }
     const Eigen::LLT<Eigen::MatrixXd> factor(precision);
     const Eigen::MatrixXd& L = factor.matrixLLT();
-    return value + 0.5 * projected.dot(factor.solve(projected)) - L.diagonal().array().log().sum();
+    const Eigen::VectorXd nuisances = -factor.solve(projected);
+    return {value - 0.5 * projected.dot(nuisances) - L.diagonal().array().log().sum(), nuisances};
+  }
+
+  /// How far the likeliest inputs of the best process are from those that the linear model was made at, in standard uncertainties.
+  double reach(const Outside& best) const { return expanded_at_.size() == 0 ? 0 : (best.nuisances - expanded_at_).cwiseAbs().maxCoeff(); }
+
+  /// The best process of the grid, with the evidence of all of it.
+  Outside fit() const {
+    Outside best;
+    best.log_evidence = -std::numeric_limits<double>::infinity();
+    const auto better_of = [&](const Outside& tried) {
+      const Marginal found = marginal(tried);
+      if (found.log_evidence > best.log_evidence)
+        best = {found.log_evidence, tried.length, tried.growing, tried.amplitude, found.nuisances};
+    };
+    for (const double length : lengths)
+      for (const bool growing : {false, true})
+        for (std::size_t a = 1; a < amplitudes.size(); ++a) {
+          std::vector<double> amplitude(n_parts_, amplitudes[a]);
+          amplitude.back() = 0;
+          better_of({0, length, growing, amplitude});
+        }
+    // Then each observable may choose its own amplitude.
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      for (int o = 0; o < n_parts_; ++o)
+        for (const Outside& other : with_other_amplitude(best, o)) better_of(other);
+      for (const Outside& other : with_other_shape(best)) better_of(other);
+    }
+    // Each choice of the grid has its share of the prior; what the others bring is taken one choice at a time.
+    double log_evidence = best.log_evidence;
+    for (int o = 0; o < n_parts_; ++o) log_evidence += log_mean(with_other_amplitude(best, o), choices(o).size(), best);
+    best.log_evidence = log_evidence + log_mean(with_other_shape(best), 2 * lengths.size(), best);
+    return best;
   }
 
  private:
@@ -91,60 +129,79 @@ class GaussianProcess {
     return range;
   }
 
-  static Eigen::MatrixXd covariance(const Block& block, const std::vector<double>& amplitude, double length, bool growing) {
+  // Spreads are as expected or not.
+  std::span<const double> choices(int part) const {
+    return part + 1 < n_parts_ ? std::span<const double>(amplitudes) : std::span<const double>(is_off);
+  }
+  // With another amplitude of one observable; at least one keeps one, or it would be the base model.
+  std::vector<Outside> with_other_amplitude(const Outside& best, int part) const {
+    std::vector<Outside> others;
+    for (const double amplitude : choices(part)) {
+      Outside other = best;
+      other.amplitude[part] = amplitude;
+      if (std::any_of(other.amplitude.begin(), other.amplitude.end(), [](double s) { return s > 0; })) others.push_back(other);
+    }
+    return others;
+  }
+  static std::vector<Outside> with_other_shape(const Outside& best) {
+    std::vector<Outside> others;
+    for (const double length : lengths)
+      for (const bool growing : {false, true}) {
+        others.push_back(best);
+        others.back().length = length, others.back().growing = growing;
+      }
+    return others;
+  }
+  /// log of the mean over n choices of exp(evidence), over that of the best.
+  double log_mean(const std::vector<Outside>& choices, std::size_t n, const Outside& best) const {
+    std::vector<double> gains;
+    for (const Outside& choice : choices) gains.push_back(marginal(choice).log_evidence - best.log_evidence);
+    return log_sum_exp(gains) - std::log(static_cast<double>(n));
+  }
+
+  static Eigen::MatrixXd covariance(const Block& block, const Outside& process) {
+    const auto& amplitude = process.amplitude;
     Eigen::MatrixXd K = block.covariance;
     const auto& rows = block.point->rows;
     const double duration = std::max(block.point->duration, 1e-300);
     const auto time = [&](const Row& row) { return row.kind == Row::Kind::path ? 0.5 * (row.begin + row.end) / duration : 1; };
     for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
-      if (amplitude[rows[i].observable] == 0) continue;
+      // What moves the mean of the replicates may leave them as far apart as they were.
+      if ((rows[i].kind == Row::Kind::spread ? amplitude.back() : amplitude[rows[i].observable]) == 0) continue;
       constexpr double deviance_scale = 3;
       if (!is_gaussian(rows[i])) K(i, i) += deviance_scale * deviance_scale;
       if (!is_gaussian(rows[i])) continue;
       for (int j = 0; j < block.point->n_gaussian; ++j) {
         if (rows[j].observable != rows[i].observable) continue;
-        const double s = amplitude[rows[i].observable], a = time(rows[i]), b = time(rows[j]), apart = (a - b) / length;
-        K(i, j) += s * block.range[i] * s * block.range[j] * (growing ? a * b : 1) * std::exp(-0.5 * apart * apart);
+        const double s = amplitude[rows[i].observable], a = time(rows[i]), b = time(rows[j]), apart = (a - b) / process.length;
+        K(i, j) += s * block.range[i] * s * block.range[j] * (process.growing ? a * b : 1) * std::exp(-0.5 * apart * apart);
       }
     }
     return K;
   }
 
   const Responses& model_;
+  Eigen::VectorXd expanded_at_;  // nuisances of the linear model
   std::vector<Block> blocks_;
-  int n_observables_ = 0, n_gaussian_ = 0;
-  double log_ratio_ = 0;  // of the rows that are not Gaussian
+  int n_parts_ = 0, n_gaussian_ = 0;  // parts: the observables, and the spreads between replicates
+  double log_ratio_ = 0;              // of the rows that are not Gaussian
 };
 
 }  // namespace
 
-Outside fit_outside(const Responses& model, const Fitter& fitter) {
-  const GaussianProcess process(model, fitter);
-  Outside best;
-  best.log_evidence = -std::numeric_limits<double>::infinity();
-  const auto try_one = [&](const std::vector<double>& amplitude, double length, bool growing) {
-    const double value = process.log_marginal(amplitude, length, growing);
-    if (value > best.log_evidence) best = {value, length, growing, amplitude};
-  };
-  for (const double length : lengths)
-    for (const bool growing : {false, true})
-      for (std::size_t a = 1; a < amplitudes.size(); ++a)
-        try_one(std::vector<double>(process.n_observables(), amplitudes[a]), length, growing);
-  // Then each observable may choose its own amplitude; at least one keeps one, or it would be the base model.
-  for (int sweep = 0; sweep < 2; ++sweep) {
-    for (int o = 0; o < process.n_observables(); ++o) {
-      for (const double a : amplitudes) {
-        std::vector<double> amplitude = best.amplitude;
-        amplitude[o] = a;
-        if (std::any_of(amplitude.begin(), amplitude.end(), [](double s) { return s > 0; })) try_one(amplitude, best.length, best.growing);
-      }
-    }
-    for (const double length : lengths)
-      for (const bool growing : {false, true}) try_one(best.amplitude, length, growing);
-  }
-  // The share of the prior that one choice of the grid has.
-  best.log_evidence -= process.n_observables() * std::log(static_cast<double>(amplitudes.size())) + std::log(2.0 * lengths.size());
-  return best;
+Outside fit_outside(const Responses& model, Fitter& fitter, const Fit& none) {
+  const GaussianProcess at_base(model, fitter.base()), at_none(model, none.at);
+  const Outside from_base = at_base.fit(), from_none = at_none.fit();
+  // Inputs are not linear as far as they may have to go: the linear model nearest to where it leads is the one to go by, and one made
+  // there is better.
+  const double reach_of_base = at_base.reach(from_base), reach_of_none = at_none.reach(from_none);
+  const Outside& nearer = reach_of_base < reach_of_none ? from_base : from_none;
+  constexpr double near = 0.5;  // standard uncertainties
+  if (std::min(reach_of_base, reach_of_none) < near || fitter.runs_left() < fitter.runs_of_fit(0) * static_cast<int>(none.first_row.size()))
+    return nearer;
+  State state = model.base();
+  state.nuisances = nearer.nuisances;
+  return GaussianProcess(model, fitter.linearize(state, {})).fit();
 }
 
 }  // namespace snag

@@ -4,7 +4,8 @@
 //
 //   y - f0 ~ N(J nu, C + K),   K = (s L)^2 g(t) g(t') exp(-(t - t')^2 / 2 l^2),   g = 1 or t/T
 //
-// s: amplitude by observable, over the range L of the motion; l: length. Both from a grid, each choice with its share of the prior.
+// s: amplitude by observable, over the range L of the motion; l: length. Both from a grid, each choice with its share of the prior. f0 and
+// J are taken where the inputs nu are likeliest under the process.
 #include "diagnosis/fit.hpp"
 
 namespace snag {
@@ -13,9 +14,11 @@ struct Outside {
   double log_evidence = 0;
   double length = 0;                // s over the duration
   bool growing = false;             // g = t/T
-  std::vector<double> amplitude{};  // by observable, relative to its range; 0: nothing there
+  std::vector<double> amplitude{};  // by observable, relative to its range, and of all spreads between replicates; 0: nothing there
+  Eigen::VectorXd nuisances{};      // the likeliest, in standard uncertainties
 };
 
-Outside fit_outside(const Responses& model, const Fitter& fitter);
+/// `none`: the fit of no effect.
+Outside fit_outside(const Responses& model, Fitter& fitter, const Fit& none);
 
 }  // namespace snag
