@@ -55,7 +55,7 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   Attribution attribution = attribute(model, fitter, options.progress);
   const int chosen = judge(model, attribution, verdict);
   verdict.identifiability = attribution.identifiability;
-  verdict.identifiability.next_experiment = next_experiment(model, attribution);
+  verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == "outside");
   verdict.where = gap_cells(model, fitter);
   verdict.curves = gap_curves(model, fitter, chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr, verdict.where);
   if (options.progress) options.progress("withheld points", 0.9);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "base/words.hpp"
 
@@ -42,6 +43,35 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   return result;
 }
 
+// The same of a row with a likelihood of its own, by the variance of one replicate; spreads are no measurement of one.
+Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int row) {
+  const PointSummary& point = model.points()[model.training()[p]];
+  const Row& own = point.rows[row];
+  const double difference = a.at.responses[p].value[row] - b.at.responses[p].value[row],
+               mean = 0.5 * (a.at.responses[p].value[row] + b.at.responses[p].value[row]);
+  double variance = 0;
+  if (own.kind == Row::Kind::time) variance = own.sigma * own.sigma;
+  if (own.kind == Row::Kind::count) variance = mean * std::max(1.0, own.sigma);
+  if (own.kind == Row::Kind::event) variance = mean * (1 - mean);
+  Proposal result{0, model.experiment().observables[own.observable].id, model.experiment().points[point.point].id, own.begin};
+  if (std::isfinite(difference) && variance > 0) result.T = difference * difference / variance;
+  return result;
+}
+
+// Where the fit leaves most, summed over the rows of an observable at a point.
+std::string what_remains(const Responses& model, const Fit& fit) {
+  std::map<std::pair<std::string, std::string>, double> left;  // by observable and point
+  for (std::size_t p = 0; p < model.training().size(); ++p) {
+    const PointSummary& point = model.points()[model.training()[p]];
+    for (std::size_t i = 0; i < point.rows.size(); ++i)
+      left[{model.experiment().observables[point.rows[i].observable].id, model.experiment().points[point.point].id}] +=
+          std::pow(fit.residual[fit.first_row[p] + static_cast<int>(i)], 2);
+  }
+  const auto most = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return "What no effect explains shows most in " + most->first.first + " at point " + most->first.second +
+         ": measured at further operating points around it, it would tell what the missing cause depends on.";
+}
+
 /// Two digits: more are not known of a prediction.
 std::string rounded(double value) {
   char text[32];
@@ -59,8 +89,9 @@ std::string spoken(std::string name) {
 
 }  // namespace
 
-std::string next_experiment(const Responses& model, const Attribution& attribution) {
+std::string next_experiment(const Responses& model, const Attribution& attribution, bool outside) {
   const int first = attribution.first();
+  if (outside) return what_remains(model, attribution.fits[first]);
   int second = -1;
   for (int i = 0; i < static_cast<int>(attribution.fits.size()); ++i)
     if (i != first && (second < 0 || attribution.weight[i] > attribution.weight[second])) second = i;
@@ -76,6 +107,8 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
       const Proposal tried = proposal(model, a, b, p, begin, end);
       if (tried.T > best.T) best = tried;
     }
+    for (int row = point.n_gaussian; row < static_cast<int>(point.rows.size()); ++row)
+      if (const Proposal tried = proposal(model, a, b, p, row); tried.T > best.T) best = tried;
   }
   const std::string both = spoken(attribution.names[first]) + " from " + spoken(attribution.names[second]);
   constexpr double wanted_nats = 6, most_replicates = 1000;
