@@ -95,6 +95,8 @@ PlaceInPump PassageGeometry::place_of(const Vec3& x) const {
 
 double PassageGeometry::angle(const Vec3& x) const {
   const Vec3 arm = x - origin_;
+  constexpr double on_axis = 1e-9;  // of the impeller's radius: there the arm is rounding, and so would be its angle
+  if (radius(x) < on_axis * impeller_radius_) return 0;
   const double a = std::atan2(dot(arm, second_), dot(arm, first_));
   return a == -std::numbers::pi ? std::numbers::pi : a;
 }

@@ -45,7 +45,7 @@ class PassageGeometry {
   bool is_out(const Vec3& x) const { return outlet_.beyond(x) > 0; }
   bool is_in_discharge(const Vec3& x) const;
   PlaceInPump place_of(const Vec3& x) const;
-  /// rad, in (-pi, pi].
+  /// rad, in (-pi, pi]; 0 on the axis.
   double angle(const Vec3& x) const;
   /// Distance from the axis, m.
   double radius(const Vec3& x) const;

@@ -329,6 +329,7 @@ TEST(Passage, WithoutAPumpByItsOpenings) {
 
 TEST(Passage, AnglesAreSeenFromTheInlet) {
   EXPECT_NEAR(geometry().angle({0, 0.1, 0}), 90 * degree, 1e-12);
+  EXPECT_EQ(geometry().angle({-1e-21, -2e-21, 0.1}), 0) << "on the axis, to rounding";
   EXPECT_NEAR(geometry().height({0, 0.1, 0.03}), 0.03, 1e-15);
   EXPECT_EQ(geometry().sense(), 1);
   PassageSettings below = pump();
