@@ -197,7 +197,8 @@ Outside fit_outside(const Responses& model, Fitter& fitter, const Fit& none) {
   const double reach_of_base = at_base.reach(from_base), reach_of_none = at_none.reach(from_none);
   const Outside& nearer = reach_of_base < reach_of_none ? from_base : from_none;
   constexpr double near = 0.5;  // standard uncertainties
-  if (std::min(reach_of_base, reach_of_none) < near || fitter.runs_left() < fitter.runs_of_fit(0) * static_cast<int>(model.training().size()))
+  if (std::min(reach_of_base, reach_of_none) < near ||
+      fitter.runs_left() < fitter.runs_of_fit(0) * static_cast<int>(model.training().size()))
     return nearer;
   State state = model.base();
   state.nuisances = nearer.nuisances;
