@@ -11,8 +11,10 @@ namespace snag {
 namespace {
 
 constexpr int n_resamples = 600;
-/// Below this excess, in units of u_D^2 per row, there is no gap that could shrink: the number is NaN, null in verdict.json.
-constexpr double no_gap = 1e-12;
+/// Share of experiments without a gap in which noise makes no larger excess than that which counts as none.
+constexpr double sure = 0.95;
+/// An excess is zero below this, in units of u_D^2 per row.
+constexpr double rounding = 1e-12;
 
 /// The errors without the noise that they hold already: as large as the excess says. Another realisation of the noise on top of errors that
 /// hold one would count it twice, and the interval would come out too wide.
@@ -67,10 +69,26 @@ double noise_floor(const WithheldError& error) {
   return n > 0 ? sum / static_cast<double>(n) : 0;
 }
 
+double excess_of_noise(const WithheldError& error, std::uint64_t seed) {
+  NormalNumbers random(seed + 19);
+  WithheldError drawn = error;
+  std::vector<double> excess;
+  for (int k = 0; k < n_resamples; ++k) {
+    for (std::size_t p = 0; p < error.error.size(); ++p) {
+      Eigen::VectorXd noise(error.error[p].size());
+      for (double& v : noise) v = random();
+      drawn.error[p] = error.noise[p] * noise;
+    }
+    excess.push_back(excess_gap(drawn));
+  }
+  std::sort(excess.begin(), excess.end());
+  return std::max(rounding, excess[static_cast<std::size_t>(sure * (n_resamples - 1))]);
+}
+
 Shrinkage shrinkage(const WithheldError& before, const WithheldError& after, std::uint64_t seed) {
   const double G_before = excess_gap(before);
   Shrinkage result;
-  result.mean = G_before > no_gap ? 1 - excess_gap(after) / G_before : std::numeric_limits<double>::quiet_NaN();
+  result.mean = G_before > excess_of_noise(before, seed) ? 1 - excess_gap(after) / G_before : std::numeric_limits<double>::quiet_NaN();
   const WithheldError clean_before = without_noise(before), clean_after = without_noise(after);
   NormalNumbers random(seed + 17);
   std::vector<double> draws;
@@ -81,7 +99,7 @@ Shrinkage shrinkage(const WithheldError& before, const WithheldError& after, std
     WithheldError b = at_points(clean_before, points), a = at_points(clean_after, points);
     perturb(b, a, random);
     const double own = excess_gap(b);
-    if (own > no_gap) draws.push_back(1 - excess_gap(a) / own);
+    if (own > rounding) draws.push_back(1 - excess_gap(a) / own);
   }
   std::sort(draws.begin(), draws.end());
   if (draws.empty() || std::isnan(result.mean)) return {result.mean, result.mean, result.mean};

@@ -25,8 +25,11 @@ double excess_gap(const WithheldError& error);
 /// What noise alone makes of the mean square, in the same units.
 double noise_floor(const WithheldError& error);
 
+/// G that noise alone exceeds in one of twenty experiments.
+double excess_of_noise(const WithheldError& error, std::uint64_t seed);
+
 /// With its 95 % interval by a nested bootstrap: points with replacement, and within each what the fit leaves open and another realisation
-/// of the noise, the same before and after. NaN where there is no gap that could shrink.
+/// of the noise, the same before and after. NaN where the gap before is not beyond what noise makes: nothing is there that could shrink.
 Shrinkage shrinkage(const WithheldError& before, const WithheldError& after, std::uint64_t seed);
 
 }  // namespace snag

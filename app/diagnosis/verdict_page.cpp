@@ -17,6 +17,7 @@ namespace snag {
 namespace {
 
 std::string percent(double share) {
+  if (std::isnan(share)) return "-";
   char text[32];
   std::snprintf(text, sizeof text, share < 0.1 && share > 0 ? "%.1f %%" : "%.0f %%", 100 * share);
   return text;
@@ -80,7 +81,7 @@ std::string how_far(const Verdict& v) {
                            {"noise floor", html::number(v.gap.floor), v.gap.floor, false},
                            {"remainder", html::number(v.gap.remainder), v.gap.remainder, false}});
   const auto row = [](const std::string& name, const Shrinkage& s) {
-    return std::vector<std::string>{escaped(name), percent(s.mean), percent(s.low) + " to " + percent(s.high)};
+    return std::vector<std::string>{escaped(name), percent(s.mean), std::isnan(s.mean) ? "-" : percent(s.low) + " to " + percent(s.high)};
   };
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, s] : v.shrinkage) rows.push_back(row(name, s));
@@ -89,7 +90,8 @@ std::string how_far(const Verdict& v) {
   return text +
          "<p>Mean square differences at the withheld points, in units of the data's own uncertainty, less what noise alone makes (the "
          "noise "
-         "floor). Remainder: what is left of the gap after the best that was tried.</p>\n" +
+         "floor). Remainder: what is left of the gap after the best that was tried. A dash: the withheld points show no gap beyond "
+         "noise.</p>\n" +
          html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
 }
 

@@ -53,5 +53,23 @@ TEST(ExcessGap, RatioOfSquares) {
   EXPECT_DOUBLE_EQ(noise_floor(with_noise(3, none)), 1);
 }
 
+/// Requirement: of experiments without a gap one in twenty is told a shrinkage; where the noise is small against the gap none is refused.
+TEST(ExcessGap, NoiseDoesNotShrink) {
+  NormalNumbers random(11);
+  int told = 0, refused = 0;
+  constexpr int n = 400;
+  for (int k = 0; k < n; ++k) {
+    std::vector<Eigen::VectorXd> noise(n_points, Eigen::VectorXd(n_rows));
+    for (Eigen::VectorXd& e : noise)
+      for (double& v : e) v = random();
+    const auto seed = static_cast<std::uint64_t>(k);
+    told += std::isfinite(shrinkage(with_noise(0, noise), with_noise(0, noise), seed).mean);
+    refused += std::isnan(shrinkage(with_noise(1, noise), with_noise(0, noise), seed).mean);
+  }
+  EXPECT_GE(told, 0.02 * n);  // 0.05 expected, standard deviation 0.011
+  EXPECT_LE(told, 0.09 * n);
+  EXPECT_EQ(refused, 0);
+}
+
 }  // namespace
 }  // namespace snag
