@@ -78,9 +78,8 @@ void prepare_output_folder(const fs::path& folder, bool fresh) {
   }
 }
 
-Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume)
-    : folder_(std::move(folder)), file_(file), simulation_(simulation) {
-  first_step_ = simulation.time_step();
+Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun)
+    : folder_(std::move(folder)), file_(file), simulation_(simulation), begun_(begun) {
   const double from = simulation.time(), end = simulation.time_settings.end;
   fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
   rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
@@ -142,8 +141,10 @@ bool Outputs::due(double interval) const {
 void Outputs::after_step() {
   const double begun = MPI_Wtime();
   write_monitors();
-  const bool last =
-      simulation_.time_step() == simulation_.time_settings.n_steps() || (simulation_.passage && simulation_.passage->all_exited());
+  together(MPI_COMM_WORLD, [&] {
+    for (const Series* each : series()) each->check();
+  });
+  const bool last = simulation_.has_ended();
   if (fields_ && (last || due(fields_interval_))) {
     fields_->write(simulation_.water->flow);
     walls_->write(simulation_.water->flow);
@@ -176,8 +177,31 @@ void Outputs::write_monitors() {
     largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
     if (root) coupling_.add(simulation_.coupled->record());
   }
+  const Effort spent = effort();
+  if (root) timing_.add({time, spent.flow, spent.rags, spent.coupling, spent.output});
+}
+
+Outputs::Effort Outputs::effort() const {
+  Effort all = effort_before_;
   const auto spent = simulation_.seconds();
-  if (root) timing_.add({time, spent.flow, spent.rags, spent.coupling, seconds_});
+  all.wall += MPI_Wtime() - begun_;
+  all.flow += spent.flow, all.rags += spent.rags, all.coupling += spent.coupling, all.output += seconds_;
+  if (simulation_.rags) all.particle_steps += static_cast<double>(sum(MPI_COMM_WORLD, simulation_.rags->n_particle_steps()));
+  return all;
+}
+
+std::vector<const Series*> Outputs::series() const {
+  std::vector<const Series*> all{&residuals_, &patches_, &wall_, &silhouettes_, &coupling_, &timing_};
+  const auto append = [&](const std::vector<const Series*>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  if (rag_monitors_) append(rag_monitors_->series());
+  if (pump_) append(pump_->series());
+  return all;
+}
+
+void Outputs::sync() const {
+  together(MPI_COMM_WORLD, [&] {
+    for (const Series* each : series()) each->check(), each->sync();
+  });
 }
 
 void Outputs::write_water_monitors() {
@@ -218,11 +242,12 @@ void Outputs::write_rotor_monitors() {
 
 void Outputs::save(CheckpointWriter& writer) const {
   writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_});
+  const Effort spent = effort();
+  writer.shared("effort", std::vector<double>{spent.wall, spent.flow, spent.rags, spent.coupling, spent.output, spent.particle_steps});
   if (rag_monitors_) {
     writer.shared("rag_monitors", rag_monitors_->state());
-    std::vector<double> at_start = elongation_at_start_;  // known on rank 0
-    MPI_Bcast(at_start.data(), static_cast<int>(at_start.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
-    writer.shared("elongation_at_start", at_start);
+    writer.shared("elongation_at_start", elongation_at_start_);
+    writer.shared("silhouettes", rag_output_->state());
   }
   if (!pump_) return;
   pump_->save(writer);
@@ -232,9 +257,12 @@ void Outputs::save(CheckpointWriter& writer) const {
 void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
   largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2];
+  const std::vector<double> spent = reader.shared("effort");
+  effort_before_ = {spent[0], spent[1], spent[2], spent[3], spent[4], spent[5]};
   if (rag_monitors_) {
     rag_monitors_->restore(reader.shared("rag_monitors"));
     elongation_at_start_ = reader.shared("elongation_at_start");
+    rag_output_->restore(reader.shared("silhouettes"));
   }
   if (pump_) pump_->load(reader);
 }
@@ -269,20 +297,20 @@ void Outputs::write_phase() const {
   });
 }
 
-void Outputs::finish(ExitCode exit, double wall_seconds) {
+void Outputs::finish(ExitCode exit) {
   Summary s;
   s.case_name = simulation_.case_settings.name;
   s.case_sha256 = file_.sha256();
   s.ranks = size_of(MPI_COMM_WORLD), s.exit = static_cast<int>(exit);
-  s.wall = wall_seconds, s.simulated = simulation_.time(), s.time_steps = simulation_.time_step();
+  s.simulated = simulation_.time(), s.time_steps = simulation_.time_step();
   if (simulation_.mesh)
     s.mesh = {simulation_.mesh->n_cells_global, simulation_.mesh->n_interior_global, 0, simulation_.mesh_quality.min_quality};
   summarise_rags(s);
-  const auto spent = simulation_.seconds();
-  s.performance = {spent.flow, spent.rags, spent.coupling, seconds_, 0, 0, peak_memory()};
-  const auto steps_done = static_cast<double>(simulation_.time_step() - first_step_);
-  if (simulation_.mesh) s.performance.cell_steps = steps_done * static_cast<double>(simulation_.mesh->n_cells_global);
-  if (simulation_.rags) s.performance.particle_steps = static_cast<double>(sum(MPI_COMM_WORLD, simulation_.rags->n_particle_steps()));
+  const Effort spent = effort();
+  s.wall = spent.wall;
+  s.performance = {spent.flow, spent.rags, spent.coupling, spent.output, 0, spent.particle_steps, peak_memory()};
+  if (simulation_.mesh)
+    s.performance.cell_steps = static_cast<double>(simulation_.time_step()) * static_cast<double>(simulation_.mesh->n_cells_global);
   s.conservation.mass_imbalance = largest_imbalance_;
   s.conservation.momentum_exchange = largest_exchange_;
   if (const RotatingZone* zone = simulation_.water ? simulation_.water->flow.rotating_zone : nullptr) {

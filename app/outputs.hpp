@@ -25,20 +25,30 @@ void prepare_output_folder(const std::filesystem::path& folder, bool fresh);
 
 class Outputs {
  public:
-  /// Opens monitors and collections; after a resume what lies behind the simulation's time is cut. Collective; throws Error(io).
-  Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume);
+  /// Opens monitors and collections; after a resume what lies behind the simulation's time is cut. `begun`: MPI_Wtime() at the beginning
+  /// of this process. Collective; throws Error(io).
+  Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun);
   /// Monitors of the step just done, and fields where they are due. Collective; throws Error(io).
   void after_step();
   /// State before the first step. Collective.
   void initial();
   /// summary.json. Collective.
-  void finish(ExitCode exit, double wall_seconds);
+  void finish(ExitCode exit);
+  /// The disk has all monitors. Collective; throws Error(io).
+  void sync() const;
   /// What a resume needs of the past of this run. Collective.
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
-  double seconds() const { return seconds_; }
 
  private:
+  /// Wall clock and work that led to the present state, in all processes of the run.
+  struct Effort {
+    double wall = 0, flow = 0, rags = 0, coupling = 0, output = 0;  // s
+    double particle_steps = 0;
+  };
+  Effort effort() const;
+  /// Open on rank 0.
+  std::vector<const Series*> series() const;
   void write_monitors();
   void write_water_monitors();
   void write_rotor_monitors();
@@ -60,8 +70,9 @@ class Outputs {
   RagForces forces_;  // of the last step
   std::unique_ptr<PumpOutput> pump_;
   double fields_interval_ = 0, rags_interval_ = 0;  // s
-  double seconds_ = 0;                              // spent here
-  std::int64_t first_step_ = 0;                     // of this process
+  double seconds_ = 0;                              // spent here by this process
+  double begun_;                                    // MPI_Wtime()
+  Effort effort_before_;                            // up to the checkpoint that was resumed
   std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
 
   // over the whole run, kept by checkpoints

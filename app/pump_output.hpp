@@ -46,6 +46,8 @@ class PumpOutput {
   /// What a resume needs of the past; names begin with "pump/". Collective.
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
+  /// The files that are written a line a step; open on rank 0.
+  std::vector<const Series*> series() const { return {&instants_, &revolutions_}; }
 
  private:
   void complete(const Revolution& revolution, double time);

@@ -25,6 +25,8 @@ class RagMonitors {
   std::int64_t most_beyond_walls() const { return static_cast<std::int64_t>(most_beyond_walls_); }
   std::vector<double> state() const;
   void restore(const std::vector<double>& state);
+  /// The files; open on rank 0.
+  std::vector<const Series*> series() const { return {&rags_, &contacts_, &passage_, &forces_}; }
 
  private:
   void measure_contacts(RagSystem& rags, double time);

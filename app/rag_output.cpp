@@ -62,4 +62,17 @@ void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64
   });
 }
 
+/// [rag][5]
+std::vector<double> RagOutput::state() const {
+  std::vector<double> state;
+  for (const Silhouette& s : silhouettes_) state.insert(state.end(), {s.area, s.x, s.y, s.elongation_ratio, s.orientation});
+  return state;
+}
+
+void RagOutput::restore(const std::vector<double>& state) {
+  silhouettes_.clear();
+  for (std::size_t i = 0; i + 4 < state.size(); i += 5)
+    silhouettes_.push_back({state[i], state[i + 1], state[i + 2], state[i + 3], state[i + 4]});
+}
+
 }  // namespace snag

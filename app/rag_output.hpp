@@ -19,6 +19,9 @@ class RagOutput {
   void write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time);
   /// Silhouettes of the rags as they were last written, seen against z (x to the right, y up); on rank 0.
   const std::vector<Silhouette>& silhouettes() const { return silhouettes_; }
+  /// Those silhouettes, for a resume.
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);
 
  private:
   std::filesystem::path folder_;

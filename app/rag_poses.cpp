@@ -8,6 +8,7 @@
 #include "dem/poses/crumpled.hpp"
 #include "dem/poses/pose_file.hpp"
 #include "observe/silhouette.hpp"
+#include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -18,10 +19,19 @@ std::filesystem::path pose_file(const std::filesystem::path& folder, std::size_t
   return folder / ("pose_" + std::to_string(number) + ".csv");
 }
 
-bool exists_on_first(MPI_Comm comm, const std::filesystem::path& file) {
-  int found = rank_of(comm) == 0 && std::filesystem::exists(file);
-  MPI_Bcast(&found, 1, MPI_INT, 0, comm);
-  return found != 0;
+std::string name_in_checkpoint(std::size_t number) { return "poses/" + std::to_string(number); }
+
+/// [particle][7]: position, quaternion.
+std::vector<double> as_numbers(const std::vector<ParticlePose>& poses) {
+  std::vector<double> numbers;
+  for (const auto& [x, q] : poses) numbers.insert(numbers.end(), {x.x, x.y, x.z, q.w, q.x, q.y, q.z});
+  return numbers;
+}
+
+std::vector<ParticlePose> as_poses(const std::vector<double>& n) {
+  std::vector<ParticlePose> poses;
+  for (std::size_t i = 0; i + 6 < n.size(); i += 7) poses.push_back({{n[i], n[i + 1], n[i + 2]}, {n[i + 3], n[i + 4], n[i + 5], n[i + 6]}});
+  return poses;
 }
 
 /// Direction along which the rag is to travel: of the pipe, or along the folds.
@@ -78,13 +88,13 @@ std::size_t first_alike(const std::vector<RagPiece>& pieces, std::size_t n) {
 
 }  // namespace
 
-RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, const std::filesystem::path& stored) {
+RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored) {
   std::vector<std::size_t> model(pieces.size());  // the first piece of the same pose
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     model[n] = first_alike(pieces, n);
     if (!pieces[n].plan.crumpled() || model[n] != n) continue;
-    if (!stored.empty() && exists_on_first(comm, pose_file(stored, n)))
-      together(comm, [&] { pieces[n].poses = read_pose_file(pose_file(stored, n), pieces[n].rag); });
+    if (stored && stored->has(name_in_checkpoint(n)))
+      pieces[n].poses = as_poses(stored->shared(name_in_checkpoint(n)));
     else
       log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind);
   }
@@ -109,6 +119,11 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
 
 void RagPoses::write(const std::filesystem::path& folder) const {
   for (std::size_t n = 0; n < pieces_.size(); ++n) write_pose_file(pose_file(folder, numbers_[n]), pieces_[n]);
+}
+
+void RagPoses::save(CheckpointWriter& writer) const {
+  for (std::size_t n = 0; n < pieces_.size(); ++n)
+    if (pieces_[n].plan.crumpled()) writer.shared(name_in_checkpoint(numbers_[n]), as_numbers(pieces_[n].poses));
 }
 
 }  // namespace snag

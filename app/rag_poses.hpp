@@ -11,16 +11,21 @@
 
 namespace snag {
 
+class CheckpointReader;
+class CheckpointWriter;
+
 class RagPoses {
  public:
-  /// Makes the poses that take a run of their own, or reads them from the folder `stored` of the run that is resumed (empty: there is
+  /// Makes the poses that take a run of their own, or reads them from the checkpoint `stored` of the run that is resumed (null: there is
   /// none). Collective; throws Error(usage, io).
-  RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, const std::filesystem::path& stored);
+  RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored);
 
   /// How each pose was made, and what a camera beside the pipe sees of it, for the log.
   const std::vector<std::string>& lines() const { return lines_; }
   /// pose_<number of the piece, from 0>.csv for each piece that does not lie flat. Rank 0 only; throws Error(io).
   void write(const std::filesystem::path& folder) const;
+  /// The poses that took a run of their own. Collective.
+  void save(CheckpointWriter& writer) const;
 
  private:
   std::vector<std::string> lines_;

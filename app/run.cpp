@@ -1,12 +1,14 @@
 #include "app/run.hpp"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "app/outputs.hpp"
 #include "app/report.hpp"
 #include "app/simulation.hpp"
 #include "app/stop_request.hpp"
+#include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
 #include "base/version.hpp"
@@ -54,6 +56,7 @@ struct Run {
   Outputs& outputs;
 
   void write_checkpoint() const {
+    outputs.sync();  // a checkpoint is never ahead of the monitors
     CheckpointWriter writer(
         world, folder / "checkpoint",
         {.case_sha256 = file.resume_sha256(), .ranks = size_of(world), .time_step = simulation.time_step(), .time = simulation.time()});
@@ -75,19 +78,19 @@ struct Run {
 
   /// Steps to the end of the case, or to a request to stop.
   ExitCode steps() {
-    const std::int64_t n_steps = simulation.time_settings.n_steps();
+    if (simulation.has_ended()) {
+      log::info("the run had reached its end: no step is left, only the summary and the report are written");
+      return ExitCode::ok;
+    }
     const StopRequest stop(world, folder);
     CheckpointClock clock(simulation.checkpoint_settings, simulation.time());
     Progress progress(simulation.case_settings.name, simulation.time_settings.end, simulation.time());
-    while (simulation.time_step() < n_steps) {
+    while (!simulation.has_ended()) {
       simulation.step();
       outputs.after_step();
       if (rank_of(world) == 0) progress.update(simulation.time(), note());
-      if (simulation.time_settings.end_when_rags_left && simulation.passage && simulation.passage->all_exited()) {
-        log::info("all rags have left: the run ends here");
-        break;
-      }
-      if (simulation.time_step() < n_steps && stop.asked()) {
+      if (simulation.has_ended()) break;
+      if (stop.asked()) {
         write_checkpoint();
         log::info("stopped on request (" + stop.reason() + "), checkpoint written; go on with --resume");
         return ExitCode::stopped;
@@ -95,6 +98,7 @@ struct Run {
       if (clock.due(simulation.time())) write_checkpoint();
     }
     if (rank_of(world) == 0) progress.finish();
+    if (simulation.rags_have_left()) log::info("all rags have left: the run ends here");
     write_checkpoint();
     return ExitCode::ok;
   }
@@ -128,11 +132,60 @@ std::optional<std::vector<int>> stored_partition(CheckpointReader* reader) {
   return std::vector<int>(stored.begin(), stored.end());
 }
 
+void check_same_case(const CaseFile& file, const std::filesystem::path& folder, const CheckpointReader& reader) {
+  const std::string stored = reader.stamp().case_sha256, own = file.resume_sha256();
+  if (stored != own)
+    throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " + stored.substr(0, 12) +
+                                     ", this one " + own.substr(0, 12) +
+                                     "); resume with the same case and --set values; only [time] end may be another");
+}
+
+/// The folder holds all that a run writes that has ended at the checkpoint. Collective.
+bool is_complete(const std::filesystem::path& folder, const CaseFile& file, const Simulation& simulation, std::int64_t time_step) {
+  int complete = rank_of(world) == 0 && is_of_ended_run(folder / "summary.json", file.sha256(), time_step) &&
+                 (!simulation.output_settings.report || std::filesystem::exists(folder / "report.html"));
+  MPI_Bcast(&complete, 1, MPI_INT, 0, world);
+  return complete != 0;
+}
+
 void load(Simulation& simulation, CheckpointReader& checkpoint) {
   simulation.load(checkpoint);
   if (simulation.time_step() > simulation.time_settings.n_steps())
     throw Error(ExitCode::usage, "[time] end_s = " + words(simulation.time_settings.end) + " lies before the checkpoint, at " +
                                      words(simulation.time()) + " s; give a later end");
+}
+
+/// Initial state, or that of the checkpoint (null: there is none); makes the folders and opens the log.
+void begin(Simulation& simulation, const CaseFile& file, const std::filesystem::path& folder, CheckpointReader* reader) {
+  const std::string start = reader ? "" : simulation.start();
+  if (!reader) simulation.insert_rags();
+  together(world, [&] {
+    if (rank_of(world) != 0) return;
+    prepare_output_folder(folder, !reader);
+    if (simulation.poses) simulation.poses->write(folder / "rags");
+  });
+  log::open(folder / "log.txt", reader != nullptr);
+  log_heading(simulation, file);
+  if (!start.empty()) log::info(start);
+  if (!reader) return;
+  if (!reader->fallback().empty()) log::warning(reader->fallback());
+  load(simulation, *reader);
+}
+
+void report(const std::filesystem::path& folder) {
+  together(world, [&] {
+    if (rank_of(world) == 0) write_report(folder);
+  });
+  log::info("report: " + (folder / "report.html").string());
+}
+
+/// What was reached is still told; the error that ended the run goes on to the command line.
+void summarise_failed(Outputs& outputs, ExitCode code) {
+  try {
+    outputs.finish(code);
+  } catch (const Error& second) {
+    log::warning(std::string("no summary of the failed run: ") + second.what());
+  }
 }
 
 }  // namespace
@@ -141,31 +194,27 @@ ExitCode run_case(const RunOptions& options) {
   const double begun = MPI_Wtime();
   const CaseFile file = CaseFile::read(options.case_file, options.overrides);
   const auto folder = output_folder(options, file);
+  std::optional<FolderLock> lock;
   together(world, [&] {
-    if (rank_of(world) == 0) check_output_folder(folder, options.resume, options.overwrite);
+    if (rank_of(world) != 0) return;
+    lock.emplace(folder);
+    check_output_folder(folder, options.resume, options.overwrite);
   });
   std::unique_ptr<CheckpointReader> reader;
   if (options.resume) reader = std::make_unique<CheckpointReader>(world, folder / "checkpoint");
 
-  Simulation::Stored stored;
-  if (reader) stored = {.partition = stored_partition(reader.get()), .poses = folder / "rags"};
+  Simulation::Stored stored{};
+  if (reader) stored = {.partition = stored_partition(reader.get()), .checkpoint = reader.get()};
   Simulation simulation(file, world, std::move(stored));
-  if (reader && reader->stamp().case_sha256 != file.resume_sha256())
-    throw Error(ExitCode::usage, (folder / "checkpoint").string() + ": was written by another case (sha256 " +
-                                     reader->stamp().case_sha256.substr(0, 12) + ", this one " + file.resume_sha256().substr(0, 12) +
-                                     "); resume with the same case and --set values; only [time] end may be another");
-  const std::string start = reader ? "" : simulation.start();
-  if (!reader) simulation.insert_rags();
-  together(world, [&] {
-    if (rank_of(world) != 0) return;
-    prepare_output_folder(folder, !options.resume);
-    if (simulation.poses) simulation.poses->write(folder / "rags");
-  });
-  log::open(folder / "log.txt", options.resume);
-  log_heading(simulation, file);
-  if (!start.empty()) log::info(start);
-  if (reader) load(simulation, *reader);
-  Outputs outputs(folder, file, simulation, options.resume);
+  if (reader) check_same_case(file, folder, *reader);
+  if (reader && is_complete(folder, file, simulation, reader->stamp().time_step)) {
+    if (!reader->fallback().empty()) log::warning(reader->fallback());
+    log::info(folder.string() + ": the run ended at " + words(reader->stamp().time) +
+              " s, there is nothing to resume and nothing is changed; with a later [time] end it goes on, with --overwrite it begins anew");
+    return ExitCode::ok;
+  }
+  begin(simulation, file, folder, reader.get());
+  Outputs outputs(folder, file, simulation, options.resume, begun);
   if (reader) {
     outputs.load(*reader);
     log::info("resumed at " + words(simulation.time()) + " s");
@@ -178,17 +227,11 @@ ExitCode run_case(const RunOptions& options) {
   try {
     code = Run{file, folder, simulation, outputs}.steps();
   } catch (const Error& failure) {
-    // What was reached is still told; the error goes on to the command line.
-    outputs.finish(failure.code, MPI_Wtime() - begun);
+    summarise_failed(outputs, failure.code);
     throw;
   }
-  outputs.finish(code, MPI_Wtime() - begun);
-  if (code == ExitCode::ok && simulation.output_settings.report) {
-    together(world, [&] {
-      if (rank_of(world) == 0) write_report(folder);
-    });
-    log::info("report: " + (folder / "report.html").string());
-  }
+  outputs.finish(code);
+  if (code == ExitCode::ok && simulation.output_settings.report) report(folder);
   log::info("done after " + duration(MPI_Wtime() - begun) + ": " + folder.string());
   return code;
 }

@@ -158,7 +158,7 @@ void Simulation::build_rags(const CaseFile& file) {
     throw Error(ExitCode::usage,
                 "[rotating_zone] motion = \"frame\" with rags: the mesh would stand while the walls turn; use \"sliding\"");
   place_at_patches(mesh.get(), pieces);
-  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.poses);
+  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
   if (way) rags->contacts()->mark_line({way->tongue(), way->direction(), way->tongue_reach()});
@@ -297,6 +297,7 @@ void Simulation::save(CheckpointWriter& writer) const {
   }
   if (water) water->save(writer);
   if (rags) {
+    poses->save(writer);
     rags->save(writer);
     writer.shared("passage", std::span<const double>(passage->state()));
   }

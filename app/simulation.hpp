@@ -24,7 +24,7 @@ class Simulation {
   /// Of a run that is resumed.
   struct Stored {
     std::optional<std::vector<int>> partition;  // rank of every cell
-    std::filesystem::path poses;                // folder with the poses
+    CheckpointReader* checkpoint;               // null: none; with the poses; only while the simulation is built
   };
   /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn.
   /// Collective; throws Error.
@@ -35,6 +35,10 @@ class Simulation {
   void step();
   double time() const { return static_cast<double>(time_step_) * time_settings.step; }
   std::int64_t time_step() const { return time_step_; }
+  /// All rags have left, and the case is to end then.
+  bool rags_have_left() const { return time_settings.end_when_rags_left && passage && passage->all_exited(); }
+  /// There is no step left to do.
+  bool has_ended() const { return time_step_ >= time_settings.n_steps() || rags_have_left(); }
 
   /// Initial fields of the water from another run, if [start] names one; returns a line for the log, empty without. Collective; throws
   /// Error.

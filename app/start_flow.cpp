@@ -34,8 +34,7 @@ std::vector<Vec3> centres_of(CheckpointReader& reader, std::span<const std::int6
 void check_checkpoint(MPI_Comm comm, const std::filesystem::path& folder, const std::string& where) {
   const auto slots = checkpoint_slots(comm, folder);
   if (newest(slots) >= 0) return;
-  throw Error(ExitCode::io, where + ": " + folder.string() + " holds no valid checkpoint (" + slots[0].file.filename().string() + ": " +
-                                slots[0].state + "; " + slots[1].file.filename().string() + ": " + slots[1].state +
+  throw Error(ExitCode::io, where + ": " + folder.string() + " holds no valid checkpoint (" + states(slots) +
                                 "); name the output folder of a run with water that has ended or written a checkpoint");
 }
 
@@ -143,6 +142,7 @@ StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const s
   if (!reader.has(velocity_name)) throw Error(ExitCode::usage, where + ": that run has no water; name the output folder of one that has");
   const double time = reader.stamp().time;
   std::string told = "start: water of " + folder.string() + " at " + words(time) + " s";
+  if (!reader.fallback().empty()) told += "; " + reader.fallback();
   std::vector<std::int64_t> ids(owned_ids(mesh).begin(), owned_ids(mesh).end());
   if (settings.map) {
     double farthest = 0;

@@ -12,20 +12,26 @@ volatile std::sig_atomic_t signal_received = 0;
 
 extern "C" void remember_signal(int number) { signal_received = number; }
 
-constexpr int handled[] = {SIGTERM, SIGINT, SIGUSR1};
+constexpr int handled[] = {SIGTERM, SIGINT, SIGUSR1, SIGHUP};
 constexpr int stop_file_seen = 1000;  // above every signal number
 
 }  // namespace
 
 StopRequest::StopRequest(MPI_Comm comm, const std::filesystem::path& folder) : comm_(comm), file_(folder / "stop") {
   signal_received = 0;
-  for (const int number : handled) std::signal(number, remember_signal);
+  for (const int number : handled) {
+    const auto before = std::signal(number, remember_signal);
+    if (number == SIGHUP && before == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup wants the run to go on
+  }
   std::error_code ignored;
   if (rank_of(comm_) == 0) std::filesystem::remove(file_, ignored);
 }
 
 StopRequest::~StopRequest() {
-  for (const int number : handled) std::signal(number, SIG_DFL);
+  for (const int number : handled) {
+    const auto before = std::signal(number, SIG_DFL);
+    if (before == SIG_IGN) std::signal(number, SIG_IGN);
+  }
 }
 
 bool StopRequest::asked() const {

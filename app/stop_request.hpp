@@ -1,6 +1,6 @@
 #pragma once
-// A run may be told to stop: by a signal (SIGTERM, SIGINT, SIGUSR1; batch systems send them) or by a file named `stop` in its output
-// folder.
+// A run may be told to stop: by a signal (SIGTERM, SIGINT, SIGUSR1 of batch systems, SIGHUP of a terminal that closes) or by a file named
+// `stop` in its output folder. Under nohup SIGHUP stays ignored.
 #include <mpi.h>
 
 #include <filesystem>

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "app/command_line.hpp"
 #include "app/run.hpp"
 #include "app/study_results.hpp"
 #include "base/atomic_file.hpp"
+#include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
 #include "parallel/checkpoint.hpp"
@@ -209,6 +211,10 @@ Study read_study(const std::filesystem::path& file) {
 ExitCode run_study(const StudyOptions& options) {
   const Study study = read_study(options.study_file);
   const auto folder = options.out.empty() ? std::filesystem::path("results") / folder_word(study.settings.name) : options.out;
+  std::optional<FolderLock> lock;
+  together(world, [&] {
+    if (rank_of(world) == 0 && !options.dry_run) lock.emplace(folder);
+  });
   ExitCode worst = ExitCode::ok;
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const StudyRun& run = study.runs[i];

@@ -88,6 +88,12 @@ nlohmann::ordered_json pump_json(const PumpSummary& pump) {
 
 }  // namespace
 
+bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
+  const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
+  const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
+  return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
+}
+
 void write_summary(const std::filesystem::path& file, const Summary& s) {
   nlohmann::ordered_json rags = nlohmann::ordered_json::array();
   for (const RagSummary& rag : s.rags) rags.push_back(rag_json(rag));

@@ -44,6 +44,9 @@ struct Summary {
   } conservation;
 };
 
+/// The summary in this file is that of a run of this case that ended as planned after this number of steps.
+bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps);
+
 /// Throws Error(io).
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 

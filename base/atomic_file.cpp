@@ -1,9 +1,12 @@
 #include "base/atomic_file.hpp"
 
+#include <fcntl.h>
+
 #include <fstream>
 #include <iterator>
 
 #include "base/error.hpp"
+#include "base/open_file.hpp"
 
 namespace snag {
 
@@ -18,19 +21,18 @@ std::optional<std::string> file_text(const std::filesystem::path& file) {
 void write_atomically(const std::filesystem::path& file, std::string_view content) {
   auto temporary = file;
   temporary += ".tmp";
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
   std::error_code failure;
-  if (out) {
+  try {
+    OpenFile out(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    out.write(content);
+    out.sync();  // before the new name: after a power cut the file is the old or the new one, never an empty one
     std::filesystem::rename(temporary, file, failure);
-    if (!failure) return;
+    if (failure) throw Error(ExitCode::io, file.string() + ": cannot be replaced (" + failure.message() + "); choose another --out");
+    sync_to_disk(file.has_parent_path() ? file.parent_path() : ".");
+  } catch (const Error&) {
+    std::filesystem::remove(temporary, failure);
+    throw;
   }
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw Error(ExitCode::io, file.string() + ": cannot be written (" + std::to_string(content.size()) + " bytes" +
-                                (failure ? ", " + failure.message() : "") +
-                                "); the folder must exist, be writable and have room on its disk: free some or choose another --out");
 }
 
 }  // namespace snag

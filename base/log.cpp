@@ -20,6 +20,7 @@ spdlog::logger& logger() {
     terminal->set_pattern("%^%v%$");
     auto made = std::make_shared<spdlog::logger>("snag", terminal);
     made->set_level(spdlog::level::info);
+    made->flush_on(spdlog::level::info);  // a run that is killed leaves all lines
     return made;
   }();
   return *instance;

@@ -1,11 +1,15 @@
 #include "base/series.hpp"
 
+#include <fcntl.h>
+
 #include <charconv>
 #include <cstdio>
+#include <fstream>
 #include <optional>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/words.hpp"
 
 namespace snag {
@@ -53,13 +57,16 @@ std::string for_each_record(const std::filesystem::path& file, Record record) {
 }  // namespace
 
 Series::Series(const std::filesystem::path& file, std::vector<std::string> columns, bool resume, double from_time)
-    : columns_(std::move(columns)) {
+    : path_(file), columns_(std::move(columns)) {
   for (const auto& column : columns_)
     if (column.empty() || column.find_first_of(",\n") != std::string::npos)
       throw Error(ExitCode::io, file.string() + ": column name \"" + column + "\" is empty or holds a comma; choose another name");
   const std::string header = header_line(columns_);
   std::string kept = header + "\n";
-  if (resume && std::filesystem::exists(file)) {
+  const bool found_before = std::filesystem::exists(file);
+  if (resume && from_time > 0 && !found_before)
+    log::warning(file.string() + ": is not there, its records up to " + words(from_time) + " s are missing; a new file begins here");
+  if (resume && found_before) {
     const auto found = for_each_record(file, [&](const std::string& line, const std::vector<double>& values) {
       if (!is_later(values[0], from_time)) kept += line + "\n";
     });
@@ -68,8 +75,7 @@ Series::Series(const std::filesystem::path& file, std::vector<std::string> colum
                                     "\"; resume with the same program and case, or move the file away");
   }
   write_atomically(file, kept);
-  file_.open(file, std::ios::app);
-  if (!file_) throw Error(ExitCode::io, file.string() + ": cannot be written; choose another --out");
+  file_ = OpenFile(file, O_WRONLY | O_APPEND);
 }
 
 void Series::add(const std::vector<double>& values) {
@@ -84,9 +90,25 @@ void Series::add(const std::vector<double>& values) {
     line.append(number, length);
   }
   line += '\n';
-  file_.write(line.data(), static_cast<std::streamsize>(line.size()));
-  file_.flush();
-  if (!file_) throw Error(ExitCode::io, "monitor of \"" + header_line(columns_) + "\": a line could not be written; is the disk full?");
+  if (!failure_.empty()) return;
+  try {
+    file_.write(line);
+  } catch (const Error& failure) {
+    failure_ = failure.what();
+  }
+}
+
+void Series::check() const {
+  if (file_.descriptor() < 0) return;
+  if (!failure_.empty()) throw Error(ExitCode::io, failure_);
+  if (file_.is_removed())
+    throw Error(ExitCode::io, path_.string() +
+                                  ": was removed while the run was writing to it, its records are lost; restore it if you can, "
+                                  "then go on from the last checkpoint with --resume, or run anew with --overwrite");
+}
+
+void Series::sync() const {
+  if (file_.descriptor() >= 0) file_.sync();
 }
 
 const std::vector<double>& SeriesTable::column(const std::string& name) const {

@@ -2,9 +2,10 @@
 // Monitors: one CSV file a series, header with units, a line a record, flushed; no line twice after a resume.
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "base/open_file.hpp"
 
 namespace snag {
 
@@ -17,13 +18,21 @@ class Series {
   /// `columns`: "time [s]" first, each with its unit. On a resume lines with time > from_time are cut and the header must match. Throws
   /// Error(io).
   Series(const std::filesystem::path& file, std::vector<std::string> columns, bool resume = false, double from_time = 0);
-  /// One record; as many values as columns; written with 17 significant digits.
+  /// One record; as many values as columns; written with 17 significant digits. Only one rank writes: what it fails at is thrown by
+  /// check(), so that all ranks can learn of it together.
   void add(const std::vector<double>& values);
+  /// Throws Error(io) if a record could not be written, or the file was removed since it was opened. Nothing is checked before it is
+  /// opened.
+  void check() const;
+  /// The disk has all records. Throws Error(io).
+  void sync() const;
   const std::vector<std::string>& columns() const { return columns_; }
 
  private:
-  std::ofstream file_;
+  std::filesystem::path path_;
+  OpenFile file_;
   std::vector<std::string> columns_;
+  std::string failure_;  // of the first record that could not be written
 };
 
 /// Columns of a CSV file that Series wrote.

@@ -1,23 +1,25 @@
 // Layout of a slot:
-//   /                 attributes complete, case_sha256, ranks, time_step, time_s, date, version, sequence
+//   /                 attributes case_sha256, ranks, time_step, time_s, date, version, sequence
 //   /ids/K            [n] ids of a set of rows, rank by rank, and /ids/K_start [ranks + 1] where each rank's begin; sets that agree are
-//   stored once /rows/NAME        [n][components], attribute ids = K /shared/NAME      [n], /text/NAME [n] bytes: the same on every rank
-// Every array carries its CRC-32 as an attribute: what a disk has spoilt is an error, never a start state.
+//                     stored once
+//   /rows/NAME        [n][components], attribute ids = K
+//   /shared/NAME      [n], /text/NAME [n] bytes: the same on every rank
+//   trailer           behind the HDF5 data: length and CRC-32 of all bytes (checkpoint_trailer.hpp)
+// Every array carries its CRC-32, too, from the memory of the ranks that wrote it to that of those that read it: an error on the way
+// between memory and file is an error of the run, never a start state.
 #include "parallel/checkpoint.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <numeric>
 #include <set>
 
+#include "base/date.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
 #include "parallel/checkpoint_file.hpp"
 #include "parallel/checkpoint_slots.hpp"
+#include "parallel/checkpoint_trailer.hpp"
 #include "parallel/halo.hpp"
 #include "parallel/id_directory.hpp"
 #include "parallel/session.hpp"
@@ -27,22 +29,6 @@ namespace snag {
 namespace {
 
 using hdf5::Handle;
-
-/// The disk has what was written to a file or folder.
-void sync(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY);
-  const bool done = descriptor >= 0 && fsync(descriptor) == 0;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!done) throw Error(ExitCode::io, path.string() + ": could not be flushed to the disk; is it full or gone?");
-}
-
-std::string date() {
-  char text[32] = "";
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
-  return text;
-}
 
 }  // namespace
 
@@ -99,7 +85,7 @@ CheckpointWriter::CheckpointWriter(MPI_Comm comm, const std::filesystem::path& f
   const hid_t root = file_->slot.file;
   file_->slot.on_all("writing the stamp", [&] {
     using hdf5::write_attribute;
-    return std::min({write_attribute(root, "complete", std::int64_t{0}), write_attribute(root, "case_sha256", stamp.case_sha256),
+    return std::min({write_attribute(root, "case_sha256", stamp.case_sha256),
                      write_attribute(root, "ranks", static_cast<std::int64_t>(size_of(comm))),
                      write_attribute(root, "time_step", stamp.time_step), write_attribute(root, "time_s", stamp.time),
                      write_attribute(root, "sequence", sequence), write_attribute(root, "date", now),
@@ -132,17 +118,9 @@ void CheckpointWriter::text(const std::string& name, const std::string& value) {
 
 void CheckpointWriter::finish() {
   CheckpointFile& slot = file_->slot;
-  const auto on_disk = [&](const std::filesystem::path& path) {
-    together(slot.comm, [&] {
-      if (rank_of(slot.comm) == 0) sync(path);
-    });
-  };
   slot.on_all("flushing", [&] { return H5Fflush(slot.file, H5F_SCOPE_GLOBAL); });
-  on_disk(slot.path);
-  slot.on_all("completing", [&] { return hdf5::write_attribute(slot.file, "complete", std::int64_t{1}); });
   slot.on_all("closing", [&] { return slot.file.reset(); });
-  on_disk(slot.path);
-  on_disk(slot.path.parent_path());
+  append_trailer(slot.comm, slot.path);
   file_.reset();
 }
 
@@ -155,6 +133,7 @@ struct StoredIds {
 struct CheckpointReader::File {
   CheckpointFile slot;
   CheckpointStamp stamp;
+  std::string fallback;
   std::set<std::string> names;  // "rows/flow/velocity"
   std::map<std::int64_t, StoredIds> id_sets;
   // way of the rows last redistributed: all fields of a mesh take the same
@@ -238,13 +217,10 @@ struct CheckpointReader::File {
 CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& folder) {
   const auto slots = checkpoint_slots(comm, folder);
   const int latest = newest(slots);
-  if (latest < 0) {
-    std::string found;
-    for (const auto& slot : slots) found += (found.empty() ? "" : "; ") + slot.file.filename().string() + ": " + slot.state;
+  if (latest < 0)
     throw Error(ExitCode::io,
-                folder.string() + ": no valid checkpoint (" + found + "), a resume needs one; check --out or run without --resume");
-  }
-  file_.reset(new File{CheckpointFile(comm, slots[latest].file, false), slots[latest].stamp, {}, {}, -1, {}, {}});
+                folder.string() + ": no valid checkpoint (" + states(slots) + "), a resume needs one; check --out or run without --resume");
+  file_.reset(new File{CheckpointFile(comm, slots[latest].file, false), slots[latest].stamp, fallback_of(slots), {}, {}, -1, {}, {}});
   const auto add_name = [](hid_t, const char* name, const H5O_info_t* object, void* names) -> herr_t {
     if (object->type == H5O_TYPE_DATASET) static_cast<std::set<std::string>*>(names)->insert(name);
     return 0;
@@ -256,6 +232,8 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& f
 CheckpointReader::~CheckpointReader() = default;
 
 const CheckpointStamp& CheckpointReader::stamp() const { return file_->stamp; }
+
+const std::string& CheckpointReader::fallback() const { return file_->fallback; }
 
 bool CheckpointReader::has(const std::string& name) const {
   return file_->names.contains("rows/" + name) || file_->names.contains("shared/" + name) || file_->names.contains("text/" + name);

@@ -1,8 +1,9 @@
 #pragma once
 // Checkpoints: HDF5, two alternating slots, valid only when complete. A run resumes from the newest valid slot on any number of ranks.
 //
-//   DIR/slot_a.h5, DIR/slot_b.h5     root attributes: complete (written last), case_sha256, ranks, time_step, time_s, date, version,
-//                                    sequence (counts the checkpoints of the folder: the newest is the one written last)
+//   DIR/slot_a.h5, DIR/slot_b.h5     root attributes: case_sha256, ranks, time_step, time_s, date, version, sequence (counts the
+//                                    checkpoints of the folder: the newest is the one written last); at the end a checksum of all bytes,
+//                                    written last
 // Arrays are stored rank by rank (each rank its rows, in rank order) beside the ids of the rows and a checksum, so that on the same ranks
 //   with the same ids every value returns to its place to the bit, and on others it is sent to the rank that asks for its id.
 #include <mpi.h>
@@ -35,7 +36,7 @@ class CheckpointWriter {
   void shared(const std::string& name, std::span<const double> values);
   void shared(const std::string& name, std::span<const std::int64_t> values);
   void text(const std::string& name, const std::string& value);
-  /// Marks the slot complete (flushed to disk before). A slot without it is never read. Collective.
+  /// Marks the slot complete by its checksum (flushed to disk before). A slot without it is never read. Collective.
   void finish();
 
  private:
@@ -46,10 +47,12 @@ class CheckpointWriter {
 class CheckpointReader {
  public:
   /// Opens the complete slot that was written last. Collective; throws Error(io) that names the folder, what is wrong with each slot
-  /// (absent, truncated, incomplete) and the remedy. Whether it belongs to this case is for the caller to compare: stamp().case_sha256.
+  /// (absent, incomplete, damaged) and the remedy. Whether it belongs to this case is for the caller to compare: stamp().case_sha256.
   CheckpointReader(MPI_Comm comm, const std::filesystem::path& folder);
   ~CheckpointReader();
   const CheckpointStamp& stamp() const;
+  /// What is wrong with the other slot and which one is read instead, for a warning; empty if nothing is.
+  const std::string& fallback() const;
   bool has(const std::string& name) const;
   /// Values of the rows with these ids, in this order. Throws Error(io) if an id is not in the file. Collective.
   std::vector<double> rows(const std::string& name, std::span<const std::int64_t> ids, int components);

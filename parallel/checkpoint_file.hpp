@@ -1,7 +1,6 @@
 #pragma once
 // A slot open on all ranks: arrays written and read together, each with its checksum. For .cpp files of this folder only.
 #include <mpi.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <span>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "parallel/checkpoint_trailer.hpp"
 #include "parallel/hdf5_file.hpp"
 #include "parallel/session.hpp"
 
@@ -74,13 +74,7 @@ struct CheckpointFile {
 
   /// CRC-32 of the array of which each rank has a part, in rank order.
   std::int64_t checksum(const void* part, std::size_t bytes) const {
-    const std::int64_t mine[2] = {static_cast<std::int64_t>(crc32_z(0, static_cast<const Bytef*>(part), bytes)),
-                                  static_cast<std::int64_t>(bytes)};
-    std::vector<std::int64_t> all(2 * static_cast<std::size_t>(size_of(comm)));
-    MPI_Allgather(mine, 2, MPI_INT64_T, all.data(), 2, MPI_INT64_T, comm);
-    uLong total = crc32_z(0, nullptr, 0);
-    for (std::size_t i = 0; i < all.size(); i += 2) total = crc32_combine(total, static_cast<uLong>(all[i]), all[i + 1]);
-    return static_cast<std::int64_t>(total);
+    return joined_crc32(comm, crc32_z(0, static_cast<const Bytef*>(part), bytes), static_cast<std::int64_t>(bytes));
   }
 
   /// Space in memory and in the file of a slab of rows.

@@ -57,6 +57,7 @@ class Look {
       rows_.add({time, static_cast<double>(number_), static_cast<double>(b), s.area, s.x, s.y, s.elongation_ratio, degrees * s.orientation,
                  static_cast<double>(blobs[b].n_pixels), blobs[b].at_border ? 1.0 : 0.0});
     }
+    rows_.check();
     found_.add(blobs);
     if (watch_) watch_->add(blobs, time, step);
     if (!blobs.empty() && n_drawn_ < n_outlines) {

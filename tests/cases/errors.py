@@ -7,25 +7,20 @@ import harness
 from small_cases import CHANNEL, CHANNEL_MESH, TWO_SHEETS
 
 
-def snapshot(folder):
-    """Name, size, time of change and content of every file."""
-    return {str(p.relative_to(folder)): (p.stat().st_mtime_ns, p.read_bytes()) for p in sorted(folder.rglob("*")) if p.is_file()}
-
-
 class Mistakes(harness.CaseTest):
     def refused(self, code, fragments, file, *arguments, out="out"):
         """`snag run` on 2 ranks ends with `code` and one line on stderr that holds all fragments."""
         folder = self.work / out
         folder.mkdir(exist_ok=True)
         (folder / "notes.txt").write_text("a user's own file")
-        before = snapshot(folder)
+        before = harness.snapshot(folder)
         run = harness.snag(["run", file, "--out", folder, *arguments], 2, folder)
         self.assertEqual(run.code, code, run.tail())
         self.assertEqual(len(run.messages), 1, f"one message on stderr is wanted, these came:\n{run.stderr}")
         print(f"  {code}: {run.messages[0]}")
         for fragment in fragments:
             self.assertIn(fragment, run.messages[0])
-        self.assertEqual(before, snapshot(folder), "the output folder must stay as it was")
+        self.assertEqual(before, harness.snapshot(folder), "the output folder must stay as it was")
 
     def channel(self, replace="", by="", mesh=None):
         text = CHANNEL.format(mesh=mesh or self.mesh(*CHANNEL_MESH), kernel="cell")

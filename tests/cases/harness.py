@@ -72,6 +72,11 @@ class Run:
     def summary(self):
         return json.loads((self.folder / "summary.json").read_text())
 
+    @property
+    def physical_summary(self):
+        """summary.json without what the clock and the memory gave."""
+        return {key: value for key, value in self.summary.items() if key not in ("wall_s", "performance")}
+
     def monitor(self, name):
         return Monitor(self.folder / "monitors" / f"{name}.csv")
 
@@ -106,6 +111,20 @@ def program_processes(mpirun):
     children = pathlib.Path(f"/proc/{mpirun.pid}/task/{mpirun.pid}/children")
     ids = [int(word) for word in children.read_text().split()]
     return sorted(i for i in ids if pathlib.Path(f"/proc/{i}/comm").read_text().strip() == "snag")
+
+
+def wait_for_the_end_of(process, timeout=20):
+    """Return once a process that is no child of this one is gone."""
+    begun = time.monotonic()
+    while pathlib.Path(f"/proc/{process}").exists():
+        if time.monotonic() - begun > timeout:
+            raise AssertionError(f"process {process} is still there after {timeout} s")
+        time.sleep(0.02)
+
+
+def snapshot(folder):
+    """Name, time of change and content of every file."""
+    return {str(p.relative_to(folder)): (p.stat().st_mtime_ns, p.read_bytes()) for p in sorted(folder.rglob("*")) if p.is_file()}
 
 
 def wait_for_records(monitor_file, count, process, timeout=120):
@@ -220,7 +239,8 @@ class CaseTest(unittest.TestCase):
         return whole, resumed
 
     def assert_equal_to_the_bit(self, whole, resumed, last_files):
-        """Monitors line by line, `last_files(whole)` byte by byte."""
+        """Summary key by key, monitors line by line, `last_files(whole)` byte by byte."""
+        self.assertEqual(whole.physical_summary, resumed.physical_summary)
         for file in sorted((whole.folder / "monitors").glob("*.csv")):
             if file.stem == "timing":  # the clock never shows the same twice
                 continue

@@ -25,8 +25,6 @@ class ResumedRun(harness.CaseTest):
     def assert_equal(self, whole, resumed):
         self.assertGreaterEqual(len(self.final_fields(whole)), 3, "final fields of water, rags and particles must be there")
         self.assert_equal_to_the_bit(whole, resumed, self.final_fields)
-        for name in ("rags", "conservation"):
-            self.assertEqual(whole.summary[name], resumed.summary[name])
 
     def final_fields(self, run):
         return sorted((run.folder / "fields").glob(f"water_{N_STEPS:06}_*.vtu")) + sorted((run.folder / "rags").glob(f"*_{N_STEPS:06}.vtp"))

@@ -2,9 +2,12 @@
 #include "base/series.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
+#include <fstream>
 #include <sstream>
 
 #include "base/error.hpp"
@@ -44,6 +47,37 @@ TEST_F(SeriesFile, IsFlushedLineByLine) {
   Series series(file, {"time [s]"});
   series.add({1});
   EXPECT_EQ(content(), "time [s]\n1\n");
+}
+
+// A file that was removed, by itself or with its folder, is missed at the next check, also if another one has its name by then.
+TEST_F(SeriesFile, ReportsThatItWasRemoved) {
+  Series series(file, {"time [s]"});
+  series.add({1});
+  EXPECT_NO_THROW(series.check());
+  std::filesystem::remove(file);
+  append("time [s]\n");
+  series.add({2});
+  try {
+    series.check();
+    ADD_FAILURE() << "not missed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::io);
+    EXPECT_TRUE(std::string(error.what()).starts_with(file.string() + ": was removed")) << error.what();
+  }
+}
+
+// A record for which the disk has no room is an error of the next check, not of the call of the one rank that writes.
+TEST_F(SeriesFile, ReportsAFullDisk) {
+  Series series(file, {"time [s]"});
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little{4, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &little);
+  series.add({1});
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_THROW(series.check(), Error);
 }
 
 // A resume from t cuts what is later than t and keeps what is at t, also several lines of one time.

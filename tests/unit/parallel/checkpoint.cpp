@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "parallel/checkpoint_trailer.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -274,10 +275,44 @@ TEST_F(Checkpoint, SaysWhatIsWrongWithBothSlots) {
   write(2, false);
   on_first_rank([&] { std::filesystem::resize_file(folder / "slot_a.h5", 3000); });
   const auto both = refusal([&] { CheckpointReader(MPI_COMM_WORLD, folder); });
-  EXPECT_TRUE(holds(both, "slot_a.h5: truncated") && holds(both, "slot_b.h5: incomplete")) << both;
+  EXPECT_TRUE(holds(both, "slot_a.h5: incomplete") && holds(both, "slot_b.h5: incomplete")) << both;
 }
 
-// A number spoilt on the disk in a complete slot is found by its checksum, on the ranks that wrote it and on others.
+// Any bit of a slot that a disk has spoilt is found, also in the stamp, in the tables of HDF5 and in the checksum: the other slot is read,
+// and a warning names both.
+TEST_F(Checkpoint, FindsEverySpoiltBit) {
+  write(1);
+  write(2);
+  const auto spoilt = folder / "slot_b.h5";
+  EXPECT_EQ(CheckpointReader(MPI_COMM_WORLD, folder).fallback(), "");
+  const auto length = static_cast<std::int64_t>(std::filesystem::file_size(spoilt));
+  const auto flip = [&](std::int64_t byte, int bit) {
+    on_first_rank([&] {
+      std::fstream file(spoilt, std::ios::in | std::ios::out | std::ios::binary);
+      const int value = file.seekg(byte).get();
+      file.seekp(byte).put(static_cast<char>(value ^ (1 << bit)));
+    });
+  };
+  // The head with the stamp, the checksum at the end, and a sample of the rest.
+  for (std::int64_t byte = 0; byte < length; byte += byte < 2048 ? 31 : byte > length - 64 ? 1 : length / 67) {
+    const int bit = static_cast<int>(byte % 8);
+    flip(byte, bit);
+    CheckpointReader reader(MPI_COMM_WORLD, folder);
+    EXPECT_EQ(reader.stamp().time_step, 1) << "bit " << bit << " of byte " << byte;
+    EXPECT_TRUE(holds(reader.fallback(), "slot_b.h5") && holds(reader.fallback(), "slot_a.h5 is read instead") &&
+                holds(reader.fallback(), "time step 1 at 0.1 s"))
+        << reader.fallback();
+    flip(byte, bit);
+  }
+  EXPECT_EQ(read_text(), "step 2") << "every bit is as it was";
+  flip(length / 2, 3);
+  write(3);  // to the spoilt slot
+  EXPECT_EQ(CheckpointReader(MPI_COMM_WORLD, folder).fallback(), "");
+  EXPECT_EQ(read_text(), "step 3");
+}
+
+// A number that got wrong on its way to the file, so that the trailer was written for it, is found by the checksum of its array, on the
+// ranks that wrote it and on others.
 TEST_F(Checkpoint, FindsSpoiltNumbers) {
   const double marker = 123456.789012345678;
   for (const int n_writing : {size, 1}) {
@@ -296,6 +331,9 @@ TEST_F(Checkpoint, FindsSpoiltNumbers) {
         if (at == std::string::npos) continue;
         file.clear();
         file.seekp(static_cast<std::streamoff>(at) + 3).put('\x5a');
+        file.close();
+        std::filesystem::resize_file(folder / name, content.rfind("\nsnag checkpoint: "));
+        append_trailer(MPI_COMM_SELF, folder / name);
       }
     });
     CheckpointReader reader(MPI_COMM_WORLD, folder);
