@@ -10,6 +10,9 @@
 
 namespace snag::generate {
 
+/// A cell below this makes the mesh of most geometries fail, and be made again with slightly smaller sizes.
+inline constexpr double poor_quality = 0.05;
+
 /// What a finished mesh has to fulfil beyond being watertight and of good quality.
 struct Expectation {
   struct Volume {
@@ -24,7 +27,8 @@ struct Expectation {
   std::vector<Volume> volumes;
   std::vector<std::pair<std::string, std::string>> equal_areas;  // surfaces that have to tile the same area without sharing nodes
   std::vector<Match> periodic;
-  std::vector<std::string> remarks;  // what the user should know of how his parameters were met
+  double minimum_quality = poor_quality;  // of each cell, see cells.hpp
+  std::vector<std::string> remarks;       // what the user should know of how his parameters were met
 };
 
 struct Geometry {

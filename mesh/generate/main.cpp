@@ -107,7 +107,7 @@ void make_good_mesh(Geometry& geometry) {
         if (report.failures.empty()) return;
         throw Error(ExitCode::mesh, "snag-mesh: the mesh failed its checks:\n  " + fmt::format("{}", fmt::join(report.failures, "\n  ")));
       }
-      reason = fmt::format("{} cells below a quality of {}", report.n_poor, poor_quality);
+      reason = fmt::format("{} cells below a quality of {}", report.n_poor, report.quality_limit);
     } catch (const std::string& gmsh_error) {  // gmsh throws text
       if (attempt == max_attempts)
         throw Error(ExitCode::mesh, "snag-mesh: gmsh could not mesh this shape (" + gmsh_error + "); change sizes or parameters");

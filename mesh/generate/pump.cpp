@@ -1,10 +1,12 @@
-// Single-vane wastewater pump in two zones, rotor and stator, that share no node: their common surface slides.
+// Wastewater pump of one to seven vanes in two zones, rotor and stator, that share no node: their common surface slides.
 //
-//   rotor   disc of the sliding radius and the turning eye, less the vane      (pump_solids.cpp; dimensions in pump_plan.hpp)
+//   rotor   disc of the sliding radius and the turning eye, less the vanes     (pump_solids.cpp; dimensions in pump_plan.hpp)
 //   stator  spiral casing with outlet pipe, and the inlet pipe or a tank: two parts that only the rotor connects
 //
 // Both sides of the interface have the same sizes, so that their faceted areas agree; the rotor is meshed at an angle, because one
 // thread meshes the same cylinder twice alike and a sliding interface would be conformal without anyone noticing.
+// Sizes follow the shape where a preset is too coarse for it: a quarter of each round nose has an edge of its own, and the walls of
+// the vanes are fine enough for `cells_across_passage` cells in the narrowest passage.
 #include <gmsh.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -14,6 +16,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/error.hpp"
 #include "mesh/generate/cad.hpp"
 #include "mesh/generate/geometry.hpp"
 #include "mesh/generate/pump_solids.hpp"
@@ -28,6 +31,7 @@ enum Surface { inlet = 11, outlet, impeller_walls, casing_walls, interface_rotor
 
 struct PumpSizes {
   double wall, edge, interface, core, pipe, tank;  // m
+  double vane = wall, nose = edge;                 // m, of the vanes' walls and noses
 };
 
 const std::map<std::string, PumpSizes>& presets() {
@@ -39,14 +43,22 @@ const std::map<std::string, PumpSizes>& presets() {
   return sizes;
 }
 
+constexpr double edge_over_thickness = 0.9;  // a quarter of a round nose has the length pi/4 of the thickness: one edge
+constexpr double cells_across_passage = 2;   // at least, of the size at the walls of the vanes
+constexpr double edges_across_passage = 3;   // at least, of the size at the noses; narrower passages are refused
+
 struct Pump final : Geometry {
   static constexpr const char* name = "pump";
   PumpDimensions dimensions;
   SuctionTank tank;
   std::string suction = "pipe", resolution = "coarse";
   std::optional<double> wall_size, edge_size, interface_size, core_size, pipe_size, tank_size;
+  int mesh_seed = 1;
+  double minimum_quality = poor_quality;
 
-  std::string meaning() const override { return "Single-vane wastewater pump, rotor and stator with a sliding interface; tetrahedra."; }
+  std::string meaning() const override {
+    return "Wastewater pump of one to seven vanes, rotor and stator with a sliding interface; tetrahedra.";
+  }
   std::vector<Parameter> parameters() override;
   Expectation build(double size_factor) override;
 
@@ -54,9 +66,10 @@ struct Pump final : Geometry {
   /// Faces of each named surface.
   struct Faces {
     std::map<Surface, std::vector<int>> of;
-    std::vector<int> edges, pipes;  // noses of vane and tongue; outlet transition and pipes: subsets of the walls
+    std::vector<int> vanes, noses, tongue, pipes;  // sides and noses of vanes; outlet transition and pipes: subsets of the walls
   };
   PumpSizes sizes(double factor) const;
+  void fit_to_shape(PumpSizes& h, std::vector<std::string>& remarks) const;
   void sort_rotor(const std::vector<int>& volumes, Faces& faces) const;
   void sort_casing(const std::vector<int>& volumes, Faces& faces) const;
   void sort_suction(const std::vector<int>& volumes, Faces& faces) const;
@@ -76,12 +89,15 @@ std::vector<Parameter> Pump::parameters() {
   using enum Basis;
   for (const auto& [key, target, meaning] :
        {std::tuple{"wall_size", &wall_size, "Edge length at the walls of impeller and casing."},
-        std::tuple{"edge_size", &edge_size, "Edge length at the noses of vane and tongue."},
+        std::tuple{"edge_size", &edge_size, "Edge length at the noses of vanes and tongue."},
         std::tuple{"interface_size", &interface_size, "Edge length on both sides of the sliding interface."},
         std::tuple{"core_size", &core_size, "Edge length away from the walls."},
         std::tuple{"pipe_size", &pipe_size, "Edge length in the middle of the pipes; 0.625 of it at their walls."},
         std::tuple{"tank_size", &tank_size, "Edge length far out in the tank."}})
     all.push_back({key, target, "m", 1e-4, 1, assumed, std::string(meaning) + " That of the resolution if absent."});
+  all.push_back({"mesh_seed", &mesh_seed, "1", 1, 1e6, assumed, "Another number makes another mesh of the same shape and sizes."});
+  all.push_back({"minimum_quality", &minimum_quality, "1", 0.01, 0.3, assumed,
+                 "A mesh with a cell of less quality (signed inverse condition number) is made again with sizes 1 % smaller."});
   return all;
 }
 
@@ -90,6 +106,28 @@ PumpSizes Pump::sizes(double factor) const {
   return {factor * wall_size.value_or(preset.wall),           factor * edge_size.value_or(preset.edge),
           factor * interface_size.value_or(preset.interface), factor * core_size.value_or(preset.core),
           factor * pipe_size.value_or(preset.pipe),           factor * tank_size.value_or(preset.tank)};
+}
+
+// Sizes that are too large for the shape are reduced, with a remark. Throws Error(usage) where no size fits between the vanes.
+void Pump::fit_to_shape(PumpSizes& h, std::vector<std::string>& remarks) const {
+  const auto limit = [&](double& size, double largest, const std::string& what, const std::string& reason) {
+    if (size <= largest) return;
+    remarks.push_back(fmt::format("{} {:.3g} m reduced to {:.3g} m: {}", what, size, largest, reason));
+    size = largest;
+  };
+  limit(h.edge, 0.8 * (dimensions.tongue_tip_radius() - dimensions.impeller_radius()), "edge_size", "0.8 of the gap at the tongue");
+  h.nose = h.edge;
+  limit(h.nose, edge_over_thickness * std::min(dimensions.leading_thickness(), dimensions.trailing_thickness()), "edge_size at the vanes",
+        fmt::format("{:g} of their thickness", edge_over_thickness));
+  const double passage = narrowest_passage(dimensions), least = edges_across_passage * h.nose;
+  if (passage < least)
+    throw Error(
+        ExitCode::usage,
+        fmt::format("[pump]: narrowest passage between the vanes ({:.3g} m{}), must hold {:g} cells of edge_size ({:.3g} m); take fewer "
+                    "vanes, a smaller wrap_angle, thinner vanes or a smaller edge_size",
+                    passage, passage < 0 ? ", they overlap" : "", edges_across_passage, least));
+  limit(h.vane, passage / cells_across_passage, "wall_size at the vanes",
+        fmt::format("{:g} cells across their narrowest passage ({:.3g} m)", cells_across_passage, passage));
 }
 
 bool Pump::is_sliding_cylinder(const Face& face) const {
@@ -104,11 +142,12 @@ bool Pump::is_nose(const Face& face, double radius, double height) const {
 }
 
 void Pump::sort_rotor(const std::vector<int>& volumes, Faces& faces) const {
-  const double nose = std::max(dimensions.leading_edge_thickness, dimensions.trailing_edge_thickness) / 2;
+  const double nose = std::max(dimensions.leading_thickness(), dimensions.trailing_thickness()) / 2;
   for (const Face& face : faces_of(volumes)) {
     const bool slides = is_sliding_cylinder(face) || face.lies_at(2, dimensions.eye_height());
     faces.of[slides ? interface_rotor : impeller_walls].push_back(face.tag);
-    if (!slides && is_nose(face, nose, dimensions.impeller_width)) faces.edges.push_back(face.tag);
+    if (slides || !face.spans(2, 0, dimensions.impeller_width)) continue;
+    (is_nose(face, nose, dimensions.impeller_width) ? faces.noses : faces.vanes).push_back(face.tag);
   }
 }
 
@@ -122,7 +161,7 @@ void Pump::sort_casing(const std::vector<int>& volumes, Faces& faces) const {
     if (surface != casing_walls) continue;
     const bool in_pipe = face.lower.y > plan.outlet_start - 1e-5;
     if (in_pipe) faces.pipes.push_back(face.tag);
-    if (!in_pipe && is_nose(face, dimensions.tongue_radius, dimensions.casing_width())) faces.edges.push_back(face.tag);
+    if (!in_pipe && is_nose(face, dimensions.tongue_radius, dimensions.casing_width())) faces.tongue.push_back(face.tag);
   }
 }
 
@@ -157,6 +196,10 @@ std::vector<int> joined_lists(std::vector<int> a, const std::vector<int>& b) {
 }
 
 Expectation Pump::build(double size_factor) {
+  Expectation expectation;
+  PumpSizes h = sizes(size_factor);
+  fit_to_shape(h, expectation.remarks);
+
   const bool from_tank = suction == "tank";
   const double inlet_length = dimensions.inlet_length.value_or((from_tank ? 0.3 : 3) * dimensions.inlet_diameter);
   const auto casing = casing_solid(dimensions), wheel = rotor_solid(dimensions);
@@ -171,17 +214,11 @@ Expectation Pump::build(double size_factor) {
   name_group(3, stator, "stator", joined_lists(casing, supply));
   name_surfaces(faces);
 
-  Expectation expectation;
   expectation.volumes = {{"rotor", 1, volume_of(wheel)}, {"stator", 2, volume_of(casing) + volume_of(supply)}};
   expectation.equal_areas = {{"interface_rotor", "interface_stator"}};
-  PumpSizes h = sizes(size_factor);
-  const double largest_edge = 0.8 * (dimensions.tongue_tip_radius() - dimensions.impeller_radius());
-  if (h.edge > largest_edge) {
-    expectation.remarks.push_back(
-        fmt::format("edge_size {:.3g} m reduced to {:.3g} m: 0.8 of the gap at the tongue", h.edge, largest_edge));
-    h.edge = largest_edge;
-  }
+  expectation.minimum_quality = minimum_quality;
   size_mesh(faces, h);
+  gmsh::option::setNumber("Mesh.RandomSeed", mesh_seed);
   return expectation;
 }
 
@@ -203,12 +240,15 @@ void Pump::name_surfaces(const Faces& faces) const {
 
 void Pump::size_mesh(const Faces& faces, const PumpSizes& h) const {
   const auto& of = faces.of;
-  const auto walls = without(without(joined_lists(of.at(impeller_walls), of.at(casing_walls)), faces.edges), faces.pipes);
+  const auto edges = joined_lists(faces.noses, faces.tongue);
+  const auto walls = without(without(joined_lists(of.at(impeller_walls), of.at(casing_walls)), edges), faces.pipes);
   // Growth is slow on coarse meshes and quick on fine ones: in between the core's size and the casing's radius.
   const double growth_distance = std::sqrt(h.core * dimensions.tongue_tip_radius());
   SizeField field;
   field.around(walls, {h.wall, h.core, 0, growth_distance});
-  field.around(faces.edges, {h.edge, h.core, 0, growth_distance});
+  if (h.vane < h.wall) field.around(faces.vanes, {h.vane, h.core, 0, growth_distance});
+  if (h.nose < h.edge) field.around(faces.noses, {h.nose, h.core, 0, growth_distance});
+  field.around(edges, {h.edge, h.core, 0, growth_distance});
   field.around(joined_lists(of.at(interface_rotor), of.at(interface_stator)), {h.interface, h.core, 0, growth_distance});
   field.around(faces.pipes, {0.625 * h.pipe, h.pipe, 0, 2.5 * h.pipe}, suction == "pipe");
   if (suction == "tank") {

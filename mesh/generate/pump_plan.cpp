@@ -2,8 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -14,6 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double gravity = 9.81;  // m/s2
 constexpr int vane_points = 25;
+constexpr int passage_points = 401;  // along a vane, to find the narrowest passage: a point each 0.2 % of its length
 constexpr int spiral_points = 61;
 
 Vec3 polar(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle), 0}; }
@@ -22,17 +25,36 @@ void require(bool rule, const std::string& message) {
   if (!rule) throw Error(ExitCode::usage, "[pump]: " + message);
 }
 
+double trailing_edge_radius(const PumpDimensions& pump) { return pump.impeller_radius() - pump.trailing_thickness() / 2; }
+
+/// The vane about the place s of its centre line; the vane is turned by `turn` about the axis.
+struct VaneDisc {
+  Vec3 centre;
+  double radius;  // half the vane's thickness, m
+};
+
+VaneDisc vane_disc(const PumpDimensions& pump, double s, double turn = 0) {
+  const double r1 = pump.leading_edge_radius, r2 = trailing_edge_radius(pump);
+  const double t1 = pump.leading_thickness(), t2 = pump.trailing_thickness();
+  const double r = r1 * std::exp(std::log(r2 / r1) / pump.wrap() * s);
+  // The length of a logarithmic spiral is proportional to r - r1: thickness linear along the vane is linear in r.
+  return {polar(r, turn - s), 0.5 * (t1 + (t2 - t1) * (r - r1) / (r2 - r1))};
+}
+
 }  // namespace
 
 std::vector<Parameter> PumpDimensions::parameters() {
   using enum Basis;
   return {
+      {"vanes", &vanes, "1", 1, 7, assumed, "Number of vanes, equal and evenly spaced."},
       {"impeller_diameter", &impeller_diameter, "m", 0.02, 2, assumed, "Outer diameter d2 of the impeller."},
       {"impeller_width", &impeller_width, "m", 0.005, 1, measured, "Width b2 between hub and shroud; the free passage of the pump."},
-      {"leading_edge_radius", &leading_edge_radius, "m", 0.002, 1, assumed, "Radius of the leading edge's centre."},
-      {"wrap_angle", &wrap_angle, "rad", 2, 8, assumed, "Angle that the vane spans about the axis."},
-      {"leading_edge_thickness", &leading_edge_thickness, "m", 5e-4, 0.1, assumed, "Thickness of the vane at its leading edge."},
-      {"trailing_edge_thickness", &trailing_edge_thickness, "m", 5e-4, 0.1, assumed, "Thickness at the trailing edge; linear between."},
+      {"leading_edge_radius", &leading_edge_radius, "m", 0.002, 1, assumed, "Radius of the centres of the leading edges."},
+      {"wrap_angle", &wrap_angle, "rad", 0.5, 8, assumed, "Angle that a vane spans about the axis; 300 deg / vanes^0.6 if absent."},
+      {"leading_edge_thickness", &leading_edge_thickness, "m", 5e-4, 0.1, assumed,
+       "Thickness of a vane at its leading edge; 5 mm / vanes^(1/3) if absent."},
+      {"trailing_edge_thickness", &trailing_edge_thickness, "m", 5e-4, 0.1, assumed,
+       "Thickness at the trailing edge, linear between; 8 mm / vanes^(1/3) if absent."},
       {"rotor_angle", &rotor_angle, "rad", -7, 7, assumed,
        "Angle at which the rotor is meshed; not 0, so that the two sides never match by chance."},
       {"side_gap", &side_gap, "m", 0, 0.2, assumed, "How much wider than the impeller the casing is, on each side."},
@@ -58,17 +80,16 @@ std::vector<Parameter> PumpDimensions::parameters() {
 }
 
 VanePlan vane_plan(const PumpDimensions& pump) {
-  const double r1 = pump.leading_edge_radius, r2 = pump.impeller_radius() - pump.trailing_edge_thickness / 2;
-  const double t1 = pump.leading_edge_thickness, t2 = pump.trailing_edge_thickness;
+  const double r1 = pump.leading_edge_radius, r2 = trailing_edge_radius(pump), wrap = pump.wrap();
+  const double t1 = pump.leading_thickness(), t2 = pump.trailing_thickness();
   require(r1 < r2,
           fmt::format("leading_edge_radius ({:g} m), must be below the radius of the trailing edge ({:g} m); take a smaller one", r1, r2));
-  const double c = std::log(r2 / r1) / pump.wrap_angle, beta = std::atan(c);
+  const double c = std::log(r2 / r1) / wrap, beta = std::atan(c);
   VanePlan plan;
   for (int k = 0; k < vane_points; ++k) {
-    const double s = pump.wrap_angle * k / (vane_points - 1), r = r1 * std::exp(c * s);
-    // The length of a logarithmic spiral is proportional to r - r1: thickness linear along the vane is linear in r.
-    const double half = 0.5 * (t1 + (t2 - t1) * (r - r1) / (r2 - r1));
-    const Vec3 centre = polar(r, -s), along = polar(std::sin(beta), -s) + polar(std::cos(beta), -s - pi / 2);
+    const double s = wrap * k / (vane_points - 1);
+    const auto [centre, half] = vane_disc(pump, s);
+    const Vec3 along = polar(std::sin(beta), -s) + polar(std::cos(beta), -s - pi / 2);
     const Vec3 normal{-along.y, along.x, 0};  // to the left of the way outwards: towards larger radii and with the rotation
     plan.front.push_back(centre + half * normal);
     plan.back.push_back(centre - half * normal);
@@ -77,6 +98,21 @@ VanePlan vane_plan(const PumpDimensions& pump) {
   }
   plan.area = (r2 - r1) / std::sin(beta) * (t1 + t2) / 2 + pi / 8 * (t1 * t1 + t2 * t2);
   return plan;
+}
+
+double narrowest_passage(const PumpDimensions& pump) {
+  std::vector<std::pair<double, VaneDisc>> vane, ahead;
+  const double step = pump.wrap() / (passage_points - 1);
+  for (int k = 0; k < passage_points; ++k) {
+    vane.emplace_back(k * step, vane_disc(pump, k * step));
+    ahead.emplace_back(k * step, vane_disc(pump, k * step, pump.pitch()));
+  }
+  double narrowest = infinity;
+  for (const auto& [s, disc] : vane)
+    for (const auto& [s_ahead, other] : ahead)
+      if (pump.vanes > 1 || std::abs(s - s_ahead) > pi)
+        narrowest = std::min(narrowest, norm(disc.centre - other.centre) - disc.radius - other.radius);
+  return narrowest;
 }
 
 VolutePlan volute_plan(const PumpDimensions& pump) {
@@ -105,7 +141,7 @@ VolutePlan volute_plan(const PumpDimensions& pump) {
       pump.sliding_radius() < 0.99 * pump.tongue_tip_radius() && pump.sliding_radius() > 1.02 * pump.inlet_diameter / 2,
       fmt::format("sliding radius ({:g} m), must lie between the eye ({:g} m) and the tongue ({:g} m); change inlet_diameter or tongue_gap",
                   pump.sliding_radius(), pump.inlet_diameter / 2, pump.tongue_tip_radius()));
-  require(pump.leading_edge_radius + pump.leading_edge_thickness < pump.impeller_radius(),
+  require(pump.leading_edge_radius + pump.leading_thickness() < pump.impeller_radius(),
           "leading_edge_radius, must lie inside the impeller");
   return plan;
 }

@@ -33,7 +33,7 @@ std::vector<int> extruded(int face, const Vec3& way) {
   return volumes;
 }
 
-int vane(const PumpDimensions& pump) {
+int first_vane(const PumpDimensions& pump) {
   const VanePlan plan = vane_plan(pump);
   const auto front = points(plan.front, 0), back = points(plan.back, 0);
   // Half a circle in one arc would be ambiguous: each nose is two arcs that meet at its tip.
@@ -46,6 +46,17 @@ int vane(const PumpDimensions& pump) {
   const auto leading = nose(back.front(), plan.leading_tip, plan.leading_centre, front.front());
   const int outline = occ::addWire({front_side, trailing[0], trailing[1], back_side, leading[0], leading[1]});
   return extruded(occ::addPlaneSurface({outline}), {0, 0, pump.impeller_width}).at(0);
+}
+
+std::vector<int> vanes(const PumpDimensions& pump) {
+  std::vector<int> all{first_vane(pump)};
+  for (int k = 1; k < pump.vanes; ++k) {
+    DimTags copy;
+    occ::copy({{3, all.front()}}, copy);
+    occ::rotate(copy, 0, 0, 0, 0, 0, 1, k * pump.pitch());
+    all.push_back(copy.at(0).second);
+  }
+  return all;
 }
 
 std::vector<int> spiral_prism(const PumpDimensions& pump, const VolutePlan& plan) {
@@ -93,9 +104,9 @@ int outlet_loft(const PumpDimensions& pump, const VolutePlan& plan) {
 std::vector<int> rotor_solid(const PumpDimensions& pump) {
   const double b2 = pump.impeller_width;
   const int disc = cylinder({0, 0, 0}, {0, 0, b2}, pump.sliding_radius());
-  // The eye turns with the impeller: the leading edge, which reaches into it, stays off the interface.
+  // The eye turns with the impeller: the leading edges, which reach into it, stay off the interface.
   const int eye = cylinder({0, 0, b2}, {0, 0, pump.eye_length}, pump.inlet_diameter / 2);
-  auto rotor = cut(fused({disc, eye}), {vane(pump)});
+  auto rotor = cut(fused({disc, eye}), vanes(pump));
   occ::rotate(with_dimension(3, rotor), 0, 0, 0, 0, 0, 1, pump.rotor_angle);
   return rotor;
 }

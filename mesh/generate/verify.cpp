@@ -28,7 +28,7 @@ void examine_cells(const Cells& cells, const Cells::Volume& volume, MeshReport::
     ++result.cells[kind->name];
     report.min_quality = std::min(report.min_quality, q);
     report.mean_quality += q;
-    report.n_poor += q < poor_quality;
+    report.n_poor += q < report.quality_limit;
   }
   report.n_cells += static_cast<std::int64_t>(volume.kind.size());
 }
@@ -166,12 +166,13 @@ MeshReport verified(const Expectation& expectation) {
   const Cells cells = current_cells();
   MeshReport report;
   report.min_quality = 1;
+  report.quality_limit = expectation.minimum_quality;
   for (const auto& volume : cells.volumes) examine_volume(cells, volume, expectation, report);
   if (report.n_cells == 0) report.failures.push_back("there are no cells");
   report.mean_quality /= static_cast<double>(std::max<std::int64_t>(1, report.n_cells));
   if (report.n_poor > 0)
     report.failures.push_back(fmt::format("{} cells have a quality below {} (worst {:.3g}); change sizes or shape a little", report.n_poor,
-                                          poor_quality, report.min_quality));
+                                          report.quality_limit, report.min_quality));
   examine_surfaces(cells, report);
   examine_nodes(cells, report);
   for (const auto& [first, second] : expectation.equal_areas) {
@@ -199,7 +200,7 @@ std::string table(const MeshReport& report) {
   text += fmt::format("{:<22}{:>12}{:>24}\n", "surface", "faces", "area [m2]");
   for (const auto& surface : report.surfaces) text += fmt::format("{:<22}{:>12}{:>24.7e}\n", surface.name, surface.n_faces, surface.area);
   text += fmt::format("cells {}, nodes {}, quality: least {:.3f}, mean {:.3f}, below {}: {}\n", report.n_cells, report.n_nodes,
-                      report.min_quality, report.mean_quality, poor_quality, report.n_poor);
+                      report.min_quality, report.mean_quality, report.quality_limit, report.n_poor);
   return text;
 }
 

@@ -29,12 +29,10 @@ struct MeshReport {
   std::vector<Surface> surfaces;
   std::int64_t n_cells = 0, n_nodes = 0;
   double min_quality = 0, mean_quality = 0;  // tetrahedra: signed inverse condition number; others: scaled Jacobian, worst corner
-  std::int64_t n_poor = 0;                   // cells below poor_quality
+  double quality_limit = 0;                  // the least quality that a cell may have
+  std::int64_t n_poor = 0;                   // cells below it
   std::vector<std::string> failures;         // one sentence each; empty: the mesh may be used
 };
-
-/// A cell below this makes the mesh fail, and be made again with slightly smaller sizes.
-inline constexpr double poor_quality = 0.05;
 
 /// Examine the mesh of the current gmsh model.
 MeshReport verified(const Expectation& expectation);

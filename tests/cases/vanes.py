@@ -1,0 +1,56 @@
+# timeout: 200
+"""Requirement: a pump of several vanes that `snag mesh pump` made is fit by `snag mesh --info`, and water runs through it."""
+import numpy
+
+import harness
+
+COARSE = ("impeller_width_mm=20", "side_gap_mm=5", "design_flow_L_s=8", "inlet_length_mm=60", "outlet_length_mm=80", "wall_size_mm=16", "core_size_mm=24",
+          "interface_size_mm=13", "pipe_size_mm=40")
+CASE = """
+[case]
+name = "three-vanes"
+[mesh]
+file = "{mesh}"
+[rotating_zone]
+zone = "rotor"
+speed_rpm = 1000
+[time]
+end_ms = 2.5
+step_ms = 0.5
+[flow]
+outer_correctors = 2
+convection = "upwind"
+[turbulence]
+model = "k_epsilon"
+[pump]
+[[boundary]]
+patch = "inlet"
+kind = "flow_rate_inlet"
+flow_rate_L_s = 6
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["impeller_walls", "casing_walls"]
+kind = "wall"
+[output]
+report = false
+"""
+
+
+class Vanes(harness.CaseTest):
+    def test_three_vanes(self):
+        mesh = self.mesh("pump", "vanes=3", *COARSE)
+        judged = harness.snag(["mesh", "--info", mesh])
+        self.assertEqual(judged.code, 0, judged.tail())
+        run = self.run_case(self.case(CASE.format(mesh=mesh)))
+        self.assertEqual(run.summary["time_steps"], 5)
+        pump = run.monitor("pump")
+        # Water at rest that vanes set into motion: all five torques brake the impeller, and the interface lets all of the water through.
+        self.assertTrue(numpy.all(pump.column("torque") < 0), pump.column("torque"))
+        self.assertLess(run.summary["conservation"]["mass_imbalance_rel"], 1e-6)
+        self.assertLess(run.summary["conservation"]["interface_closure_rel"], 1e-9)
+
+
+if __name__ == "__main__":
+    harness.main()
