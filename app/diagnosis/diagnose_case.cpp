@@ -3,11 +3,13 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 
 #include "app/diagnosis/case_simulator.hpp"
 #include "app/diagnosis/verdict_page.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
 #include "diagnosis/diagnose.hpp"
@@ -19,9 +21,10 @@ Verdict diagnose_file(const DiagnoseOptions& options) {
   const MPI_Comm world = MPI_COMM_WORLD;
   const bool first = rank_of(world) == 0;
   Experiment experiment;
+  std::optional<FolderLock> lock;
   together(world, [&] {
     experiment = read_experiment(options.file);
-    if (first) std::filesystem::create_directories(options.out);
+    if (first) lock.emplace(options.out);
   });
   CaseSimulator simulator(world, experiment, options.keep_runs ? options.out : std::filesystem::path());
   std::unique_ptr<Progress> progress;

@@ -32,8 +32,14 @@ class Poses(harness.CaseTest):
         self.assertEqual(one.monitor("rags").lines, taken.monitor("rags").lines)
         self.assertNotIn("strain of the bonds", (taken.folder / "log.txt").read_text())
 
+        # A resume takes the pose of the checkpoint, not of a file that may have been damaged since.
+        as_made = stored.read_text()
+        stored.write_text(as_made.replace("\n1,", "\n1,9", 1))
+        (one.folder / "summary.json").unlink()
         resumed = self.run_case(file, 1, "--resume", out="one")
         self.assertNotIn("making the pose", resumed.stdout + resumed.stderr)
+        self.assertEqual(as_made, stored.read_text())
+        self.assertEqual(two.summary["rags"], resumed.summary["rags"])
 
     def test_errors(self):
         file = self.case(SHEET.format(pose='pose = "confined"\nconfine_radius_mm = 6'))

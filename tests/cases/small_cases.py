@@ -1,4 +1,5 @@
 """Case files of a few seconds that several tests run."""
+import re
 
 # Two sheets of several tiles each: the lower one strikes the ground on its edge and buckles, the upper one falls on it.
 TWO_SHEETS = """
@@ -32,6 +33,8 @@ velocity_m_s = [2, 0, -3]
 [output]
 report = false
 """
+# The same with smaller sheets in free fall: 20 steps of a few milliseconds each.
+SMALL_SHEETS = re.sub(r"_mm = (120|80)\n", "_mm = 20\n", TWO_SHEETS).replace("end_s = 0.02", "end_s = 0.008")
 
 # Patches of `snag mesh channel` but for its inlet.
 CHANNEL_OUTLET_AND_WALLS = """

@@ -1,0 +1,16 @@
+# labels: long
+# timeout: 14400
+# processors: 3
+"""Requirement: kills.py, a thousand times."""
+import harness
+import kills
+
+
+class ManyKills(kills.Kills):
+    n_kills = int(kills.os.environ.get("SNAG_KILLS", 1000 // 6))
+
+
+del kills.Kills
+
+if __name__ == "__main__":
+    harness.main()
