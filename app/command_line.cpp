@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/build_info.hpp"
 #include "app/command.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
@@ -57,7 +58,7 @@ int parse_and_act(int argc, char** argv, const Session& session) {
     return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
   if (build_info) {
-    if (session.rank() == 0) std::cout << "snag " << version_number << " " << version_git << "\n" << version_build << "\n";
+    if (session.rank() == 0) std::cout << snag::build_info() << "\n";
     return 0;
   }
   for (const auto& [name, action] : actions) {

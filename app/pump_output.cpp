@@ -14,8 +14,9 @@ namespace snag {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi, degrees = 180 / std::numbers::pi;
-constexpr std::size_t n_bins = 72;      // of 5 degrees
-constexpr std::size_t n_harmonics = 3;  // written
+constexpr std::size_t n_bins = 72;       // of 5 degrees
+constexpr std::size_t n_harmonics = 3;   // written
+constexpr double settled_change = 0.02;  // of the means of head and torque from a revolution to the next
 
 // Quantities of one instant in the order of the columns; those of the machine's balance by name.
 const std::vector<std::string>& quantities() {
@@ -48,7 +49,8 @@ std::vector<std::string> instant_columns() {
 std::vector<std::string> revolution_columns() {
   std::vector<std::string> columns{"time [s]", "revolution [1]"};
   columns.insert(columns.end(), quantities().begin(), quantities().end());
-  for (const char* column : {"head_change_rel [1]", "torque_change_rel [1]", "head_noise [m]"}) columns.emplace_back(column);
+  for (const char* column : {"start_up [1]", "head_change_rel [1]", "torque_change_rel [1]", "head_noise [m]"})
+    columns.emplace_back(column);
   for (const auto& [name, unit] : {std::pair<std::string, std::string>{"head", "m"}, {"torque", "N m"}}) {
     for (const char* end : {"_min", "_max"}) columns.push_back(name + end + " [" + unit + "]");
     for (std::size_t n = 1; n <= n_harmonics; ++n) {
@@ -88,6 +90,7 @@ void PumpOutput::after_step(const Flow& flow, const RotorState& rotor) {
     turned_ = rotor.angle - start_angle_;
   else
     turned_ += 0.5 * (speed_ + rotor.shaft.speed) * flow.time_step_size;
+  keeps_speed_ = keeps_speed_ && rotor.shaft.speed == speed_;
   speed_ = rotor.shaft.speed;
   for (const Revolution& revolution : sampler_.add(turned_, values)) complete(revolution, flow.time);
   if (!root_) return;
@@ -96,13 +99,27 @@ void PumpOutput::after_step(const Flow& flow, const RotorState& rotor) {
   instants_.add(record);
 }
 
+/// Whether the start-up is over with this revolution.
+bool PumpOutput::has_settled(const Revolution& revolution, const std::vector<double>& means) const {
+  if (phase_.n_revolutions() > 0) return true;
+  if (last_means_.empty() || !keeps_speed_) return false;
+  for (const std::size_t q : {head, torque}) {
+    const Extremes range = revolution_extremes(revolution, q);
+    if (std::abs(means[q] - last_means_[q]) > settled_change * std::max(std::abs(means[q]), range.highest - range.lowest)) return false;
+  }
+  return true;
+}
+
 void PumpOutput::complete(const Revolution& revolution, double time) {
   const std::vector<double> means = means_of(revolution);
-  if (revolution.number > 1) phase_.add(revolution, {head, torque});
+  const bool is_start_up = !has_settled(revolution, means);
+  keeps_speed_ = true;
+  if (!is_start_up) phase_.add(revolution, {head, torque});
   if (root_) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     std::vector<double> record{time, static_cast<double>(revolution.number)};
     record.insert(record.end(), means.begin(), means.end());
+    record.push_back(is_start_up);
     for (const std::size_t q : {head, torque})
       record.push_back(last_means_.empty() ? none : (means[q] - last_means_[q]) / std::abs(last_means_[q]));
     record.push_back(revolution_spectrum(revolution, head).noise);
@@ -141,7 +158,7 @@ PumpSummary PumpOutput::summary() const {
 }
 
 void PumpOutput::save(CheckpointWriter& writer) const {
-  writer.shared("pump/turned", std::vector<double>{turned_, speed_});
+  writer.shared("pump/turned", std::vector<double>{turned_, speed_, keeps_speed_ ? 1.0 : 0.0});
   writer.shared("pump/revolution", sampler_.state());
   writer.shared("pump/phase", phase_.state());
   if (!last_means_.empty()) writer.shared("pump/last_means", last_means_);
@@ -149,7 +166,7 @@ void PumpOutput::save(CheckpointWriter& writer) const {
 
 void PumpOutput::load(CheckpointReader& reader) {
   const std::vector<double> turned = reader.shared("pump/turned");
-  turned_ = turned[0], speed_ = turned[1];
+  turned_ = turned[0], speed_ = turned[1], keeps_speed_ = turned[2] != 0;
   sampler_.restore(reader.shared("pump/revolution"));
   phase_.restore(reader.shared("pump/phase"));
   if (reader.has("pump/last_means")) last_means_ = reader.shared("pump/last_means");

@@ -2,6 +2,10 @@
 // What a pump engineer reads: monitors/pump.csv every step, monitors/revolutions.csv a row a revolution of the rotor, monitors/phase.csv
 // the mean over revolutions at each angle.
 //
+// The start-up is left out of phase.csv. It ends with the first revolution that is not the first of the run, in which the shaft keeps its
+// speed, and in which the means of head and torque differ from those of the revolution before by less than 2 % of themselves or of their
+// range within a revolution. That revolution counts; revolutions.csv marks those of the start-up.
+//
 // Angles are those of the rotor in the frame of the casing. In a frame (motion = "frame") the rotor stands at its angle and revolutions are
 // those that the shaft would have made.
 #include <filesystem>
@@ -39,7 +43,7 @@ class PumpOutput {
              double from_time);
   /// The step just done. Collective.
   void after_step(const Flow& flow, const RotorState& rotor);
-  /// monitors/phase.csv as it stands; nothing before the second revolution is complete. Rank 0 only; throws Error(io).
+  /// monitors/phase.csv as it stands; nothing before a revolution after the start-up is complete. Rank 0 only; throws Error(io).
   void write_phase() const;
   PumpSummary summary() const;
 
@@ -51,6 +55,7 @@ class PumpOutput {
 
  private:
   void complete(const Revolution& revolution, double time);
+  bool has_settled(const Revolution& revolution, const std::vector<double>& means) const;
 
   std::filesystem::path folder_;
   bool root_;
@@ -58,6 +63,7 @@ class PumpOutput {
   Series instants_, revolutions_;  // open on rank 0
   double start_angle_, speed_;     // rad; rad/s, at the end of the last step
   double turned_ = 0;              // rad, since the start
+  bool keeps_speed_ = true;        // the shaft, in this revolution
   RevolutionSampler sampler_;
   PhaseAverage phase_;
   std::vector<double> last_means_;  // of the last complete revolution, empty before the first

@@ -66,7 +66,7 @@ std::string plot_section(const MonitorPlots& monitors) {
   if (!content.empty()) content = "<div class=\"plots\">\n" + content + "</div>\n";
   std::vector<std::vector<std::string>> constants;
   for (const auto& [title, value] : monitors.constants) constants.push_back({escaped(title), html::number(value)});
-  if (!constants.empty()) content += html::table({"Kept one value throughout", "Value"}, constants);
+  if (!constants.empty()) content += html::table({"Constant throughout the run", "Value"}, constants);
   for (const auto& text : monitors.problems) content += problem("A monitor could not be drawn: " + text);
   return content;
 }
@@ -159,14 +159,14 @@ void write_report(const std::filesystem::path& dir) {
   const PictureParts drawn = picture_parts(pictures);
   const bool is_passage = !passages.section.empty();
   page += heading(summary, title, passages.verdict);
-  page += section("What was run", run_table(summary));
+  page += section("Run summary", run_table(summary));
   if (is_passage) page += section("The rag's way through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
   page += section("Rags", rag_tables(summary));
-  page += section("What must hold", conservation_table(summary));
+  page += section("Conservation and sanity checks", conservation_table(summary));
   page += section("Pictures", (is_passage ? "" : drawn.instants) + drawn.others + drawn.unreadable + missing(pictures));
   page += section("Over time", plot_section(monitor_plots(dir / "monitors", passages.shown)));
-  page += section("What it cost", cost_table(summary));
+  page += section("Computing cost", cost_table(summary));
   page += section("A closer look with ParaView", paraview_section(dir));
   page += section("The case and the log",
                   folded("The case with all its defaults (case.resolved.toml)", file_text(dir / "case.resolved.toml").value_or("")) +

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/outputs.hpp"
+#include "app/rag_assumptions.hpp"
 #include "app/report.hpp"
 #include "app/simulation.hpp"
 #include "app/stop_request.hpp"
@@ -104,19 +105,30 @@ struct Run {
   }
 };
 
+/// "1 rank", "2 ranks".
+std::string counted(std::int64_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
+
+/// The sub-step of the rags and what limits it.
+std::string sub_step_words(const RagSystem& rags) {
+  const double step = rags.stable_step(), limit = rags.step_limit().step;
+  return (std::isfinite(step) ? "sub-step " + words(step) + " s" : "no sub-steps") +
+         (std::isfinite(limit) ? " (limit " + words(limit) + " s by " + rags.step_limit().reason + ")"
+                               : " (neither bonds nor contacts limit the step)");
+}
+
 /// Header of the log: enough to know and repeat the run.
 void log_heading(const Simulation& simulation, const CaseFile& file) {
   std::ostringstream text;
   text << "snag " << version_number << " (" << version_git << "), " << version_build << "\n"
-       << "case " << simulation.case_settings.name << ", sha256 " << file.sha256() << ", " << size_of(world) << " ranks\n";
+       << "case " << simulation.case_settings.name << ", sha256 " << file.sha256() << ", " << counted(size_of(world), "rank") << "\n";
   if (simulation.mesh)
     text << "mesh: " << simulation.mesh->n_cells_global << " cells, " << simulation.mesh->n_interior_global << " interior faces\n";
   if (simulation.rags) {
-    text << "rags: " << simulation.rags->rags().size() << " with " << simulation.rags->n_particles() << " particles, sub-step "
-         << simulation.rags->stable_step() << " s (limit " << simulation.rags->step_limit().step << " s by "
-         << simulation.rags->step_limit().reason << ")\n";
+    text << "rags: " << counted(static_cast<std::int64_t>(simulation.rags->rags().size()), "piece") << " with "
+         << counted(simulation.rags->n_particles(), "particle") << ", " << sub_step_words(*simulation.rags) << "\n";
   }
   log::info(text.str());
+  for (const std::string& line : rag_assumptions(CaseFile::parse(file.resolved()))) log::info("assumed: " + line);
   if (simulation.poses)
     for (const std::string& line : simulation.poses->lines()) log::info(line);
   if (simulation.coupled && simulation.mesh) {
@@ -252,7 +264,11 @@ ExitCode check_case(const RunOptions& options) {
   text.precision(3);
   text << n_steps << " steps of " << simulation.time_settings.step << " s";
   if (simulation.rags)
-    text << ", each of " << std::ceil(simulation.time_settings.step / simulation.rags->stable_step()) << " sub-steps of the rags";
+    text << ", each of "
+         << counted(std::max<std::int64_t>(
+                        1, static_cast<std::int64_t>(std::ceil(simulation.time_settings.step / simulation.rags->stable_step()))),
+                    "sub-step")
+         << " of the rags";
   // Orders of magnitude on one core of a present workstation, measured by `snag run` itself: see timing.csv of a run for this machine's.
   constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 6e3, bytes_per_particle = 2e3;
   double cost = 0, memory = 1e8;
@@ -265,7 +281,7 @@ ExitCode check_case(const RunOptions& options) {
             seconds_per_particle_step;
     memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
   }
-  text << "\ncost: about " << duration(cost / size_of(world)) << " on " << size_of(world) << " ranks, " << memory / 1e9
+  text << "\ncost: about " << duration(cost / size_of(world)) << " on " << counted(size_of(world), "rank") << ", " << memory / 1e9
        << " GB\nthe case is ready to run";
   log::info(text.str());
   return ExitCode::ok;

@@ -10,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/run.hpp"
 #include "app/study_results.hpp"
+#include "app/summary.hpp"
 #include "base/atomic_file.hpp"
 #include "base/folder_lock.hpp"
 #include "base/log.hpp"
@@ -83,6 +84,30 @@ void lay_out(Study& study) {
                   where + ": two runs would be named \"" + run.name + "\"; remove the value that stands twice, or name the keys apart");
 }
 
+/// Results and axes that no summary can hold would be empty columns after hours of runs.
+void check_keys(const Study& study, const std::filesystem::path& file) {
+  const std::vector<std::string> known = summary_keys();
+  const auto check = [&](const std::string& where, const std::string& key) {
+    for (const VarySettings& vary : study.vary)
+      if (where != "[study] results" && key == vary.name) return;
+    std::string plain;  // with 0 for each number
+    for (const std::string& word : split(key, '.')) {
+      const bool is_number = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c); });
+      plain += (plain.empty() ? "" : ".") + (is_number ? "0" : word);
+    }
+    if (std::find(known.begin(), known.end(), plain) != known.end()) return;
+    const std::string near = nearest_name(plain, known);
+    throw Error(ExitCode::usage, file.string() + ": " + where + " has \"" + key + "\", which is no key of summary.json" +
+                                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; known: " + joined(known) +
+                                     " (0 stands for any number)");
+  };
+  for (const std::string& key : study.settings.results) check("[study] results", key);
+  for (const StudyPlotSettings& plot : study.plots) {
+    check("[[plot]] x", plot.x);
+    for (const std::string& key : plot.y) check("[[plot]] y", key);
+  }
+}
+
 /// What a run is made of, to see on a repetition whether it is still the same.
 std::string input_of(const Study& study, const StudyRun& run) {
   const auto text = file_text(study.case_file);
@@ -142,7 +167,8 @@ ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem:
   try {
     return run_case(options);
   } catch (const Error& failure) {
-    if (failure.code != ExitCode::diverged && failure.code != ExitCode::invariant) throw;
+    // Of this run alone: its flow, its rags, or a value of it that is refused, as a pose that cannot be made.
+    if (failure.code != ExitCode::diverged && failure.code != ExitCode::invariant && failure.code != ExitCode::usage) throw;
     log::error(run.name + ": " + failure.what());
     leave_together(failure.code);
     return failure.code;
@@ -205,11 +231,12 @@ Study read_study(const std::filesystem::path& file) {
   text.reject_unread();
   study.case_file = text.path(study.settings.case_file);
   lay_out(study);
+  check_keys(study, file);
   return study;
 }
 
 ExitCode run_study(const StudyOptions& options) {
-  const Study study = read_study(options.study_file);
+  Study study = read_study(options.study_file);
   const auto folder = options.out.empty() ? std::filesystem::path("results") / folder_word(study.settings.name) : options.out;
   std::optional<FolderLock> lock;
   together(world, [&] {
@@ -217,7 +244,7 @@ ExitCode run_study(const StudyOptions& options) {
   });
   ExitCode worst = ExitCode::ok;
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
-    const StudyRun& run = study.runs[i];
+    StudyRun& run = study.runs[i];
     const std::string which = "run " + std::to_string(i + 1) + " of " + std::to_string(study.runs.size()) + ": " + run.name;
     if (options.dry_run) {
       log::info(which + "\n  " + joined(run.overrides));
@@ -228,6 +255,7 @@ ExitCode run_study(const StudyOptions& options) {
     if (before == Before::ended) continue;
     const ExitCode code = run_one(study, run, folder / run.name, before);
     if (code == ExitCode::stopped) return code;
+    run.failed_with = static_cast<int>(code);
     if (worst == ExitCode::ok) worst = code;
   }
   if (options.dry_run) return worst;

@@ -42,6 +42,7 @@ struct StudyRun {
   std::string name;                    // of its folder: "flow-26.8_speed-1200"
   std::vector<std::string> values;     // of what varies, in the order of the study file
   std::vector<std::string> overrides;  // as for --set
+  int failed_with = 0;                 // code of a run that was refused and has no summary
 };
 
 struct Study {

@@ -3,6 +3,8 @@
 #include <mpi.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -86,15 +88,7 @@ nlohmann::ordered_json pump_json(const PumpSummary& pump) {
           {"revolutions", pump.revolutions}};
 }
 
-}  // namespace
-
-bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
-  const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
-  const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
-  return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
-}
-
-void write_summary(const std::filesystem::path& file, const Summary& s) {
+nlohmann::ordered_json summary_json(const Summary& s) {
   nlohmann::ordered_json rags = nlohmann::ordered_json::array();
   for (const RagSummary& rag : s.rags) rags.push_back(rag_json(rag));
   const auto& p = s.performance;
@@ -132,7 +126,44 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
                                    {"bonds_lost", s.conservation.bonds_lost},
                                    {"particles_beyond_walls", s.conservation.particles_beyond_walls}}}};
   if (!s.pump) json.erase("pump");
-  write_atomically(file, json.dump(2) + "\n");
+  return json;
+}
+
+/// A summary in which nothing is missing.
+Summary full_summary() {
+  Summary full;
+  full.pump.emplace();
+  full.conservation.interface_closure = 0;
+  RagVerdict& rag = full.rags.emplace_back().verdict;
+  rag.volute.emplace(), rag.max_tension_time = 0;
+  rag.events.push_back({});
+  return full;
+}
+
+}  // namespace
+
+bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
+  const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
+  const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
+  return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
+}
+
+void write_summary(const std::filesystem::path& file, const Summary& summary) {
+  write_atomically(file, summary_json(summary).dump(2) + "\n");
+}
+
+std::vector<std::string> summary_keys() {
+  std::vector<std::string> keys;
+  const nlohmann::ordered_json flat = summary_json(full_summary()).flatten();
+  for (const auto& [place, value] : flat.items()) {
+    const std::vector<std::string> words = split(place.substr(1), '/');
+    // Of a list its first entry stands for all.
+    if (std::any_of(words.begin(), words.end(), [](const std::string& word) { return std::isdigit(word[0]) && word != "0"; })) continue;
+    std::string key;
+    for (const std::string& word : words) key += (key.empty() ? "" : ".") + word;
+    keys.push_back(key);
+  }
+  return keys;
 }
 
 std::string results_in_words(const Summary& summary) {

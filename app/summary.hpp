@@ -50,6 +50,9 @@ bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_
 /// Throws Error(io).
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 
+/// Keys of all values that a summary can hold, "pump.head_m"; 0 stands for the number of a rag or of another entry of a list.
+std::vector<std::string> summary_keys();
+
 /// What most want to know, a line a rag and one for the pump; empty without both.
 std::string results_in_words(const Summary& summary);
 

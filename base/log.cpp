@@ -26,6 +26,14 @@ spdlog::logger& logger() {
   return *instance;
 }
 
+/// To one place only: the terminal and the file mark the kind of a message each in its own way.
+void write(std::size_t sink, spdlog::level::level_enum level, const std::string& message) {
+  if (sink >= logger().sinks().size() || !logger().should_log(level) || !logger().sinks()[sink]->should_log(level)) return;
+  logger().sinks()[sink]->log({"snag", level, message});
+  logger().sinks()[sink]->flush();  // as the logger does after each line
+}
+constexpr std::size_t terminal = 0, log_file = 1;
+
 }  // namespace
 
 void start(int rank, bool quiet) {
@@ -46,14 +54,17 @@ void open(const std::filesystem::path& file, bool append) {
 }
 
 void info(const std::string& message) { logger().info(message); }
-void warning(const std::string& message) { logger().warn("warning: " + message); }
+void warning(const std::string& message) {
+  write(terminal, spdlog::level::warn, "warning: " + message);
+  write(log_file, spdlog::level::warn, message);
+}
 
 // Errors go to stderr, so that they are seen where stdout is redirected; to the file as well.
 void error(const std::string& message) {
   if (logger().level() == spdlog::level::off) return;
   flush();
   std::fprintf(stderr, "error: %s\n", message.c_str());
-  if (logger().sinks().size() > 1) logger().sinks().back()->log({"snag", spdlog::level::err, message});
+  write(log_file, spdlog::level::err, message);
 }
 
 void flush() { logger().flush(); }

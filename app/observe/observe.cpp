@@ -9,6 +9,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -35,12 +36,25 @@ void check_groups(const std::vector<ObserveGroup>& groups) {
   }
 }
 
+/// What lies beside a path that does not exist: the nearest name, or all where they are few.
+std::string near_it(const path& missing) {
+  const path parent = missing.has_parent_path() ? missing.parent_path() : path(".");
+  std::vector<std::string> names;
+  std::error_code failure;
+  for (const auto& entry : std::filesystem::directory_iterator(parent, failure)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  if (failure) return "; nor does the folder " + parent.string() + "; check the path";
+  const std::string near = nearest_name(missing.filename().string(), names);
+  if (!near.empty()) return "; did you mean " + (parent / near).string() + "?";
+  constexpr std::size_t few = 12;
+  return names.empty() || names.size() > few ? "; check the path" : "; the folder " + parent.string() + " holds: " + joined(names);
+}
+
 void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
   std::size_t n_subjects = 0, n_tables = 0;
   for (const ObserveGroup& group : groups)
     for (const path& subject : group.subjects) {
-      if (!std::filesystem::exists(subject))
-        throw Error(ExitCode::io, subject.string() + ": is neither a picture, nor a folder of pictures or of a run, nor a table");
+      if (!std::filesystem::exists(subject)) throw Error(ExitCode::io, subject.string() + ": does not exist" + near_it(subject));
       if (!has_camera && !is_table(subject) && !is_run(subject))
         throw Error(ExitCode::usage, subject.string() + ": is no run, and pictures need a camera; give --camera CAMERA.toml");
       ++n_subjects, n_tables += is_table(subject);

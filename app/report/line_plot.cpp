@@ -116,9 +116,21 @@ Axis x_axis(const LinePlot& plot) {
   return axis;
 }
 
+/// The values of a line that the axis of y spans.
+std::vector<double> scaled_values(const PlotLine& line, double from) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+    if (line.x[i] >= from) values.push_back(line.y[i]);
+  return values;
+}
+
 Axis y_axis(const LinePlot& plot) {
+  std::vector<std::vector<double>> lines;
+  for (const PlotLine& line : plot.lines) lines.push_back(scaled_values(line, plot.scale_from));
+  if (std::all_of(lines.begin(), lines.end(), [](const auto& line) { return line.empty(); }))
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i] = plot.lines[i].y;
   std::vector<const std::vector<double>*> values;
-  for (const PlotLine& line : plot.lines) values.push_back(&line.y);
+  for (const auto& line : lines) values.push_back(&line);
   for (const PlotBand& band : plot.bands) values.insert(values.end(), {&band.low, &band.high});
   std::vector<double> levels;
   for (const PlotMark& mark : plot.marks)
@@ -223,6 +235,13 @@ std::string spans_of(const LinePlot& plot, const Axis& x) {
   return svg;
 }
 
+/// Begins a group that is cut at the frame.
+std::string cut_at_frame() {
+  return "<clipPath id=\"frame\"><rect x=\"" + printed("%.0f", left) + "\" y=\"" + printed("%.0f", top) + "\" width=\"" +
+         printed("%.0f", width - left - right) + "\" height=\"" + printed("%.0f", height - top - bottom) +
+         "\"/></clipPath><g clip-path=\"url(#frame)\">\n";
+}
+
 /// The k-th band; what has no place on the axis reaches down to its end. Long bands are thinned to their outermost values.
 std::string band_of(const PlotBand& band, const Axis& x, const Axis& y, std::size_t k) {
   constexpr std::size_t stretches = 400;
@@ -301,6 +320,19 @@ std::string legend(const LinePlot& plot) {
   return result + "</div>";
 }
 
+/// The values that lie beyond the axis of y, and between which bounds.
+std::string outside(const LinePlot& plot, const Axis& y) {
+  std::int64_t n = 0;
+  double low = infinity, high = -infinity, last = -infinity;
+  for (const auto& line : plot.lines)
+    for (std::size_t i = 0; i < line.y.size(); ++i)
+      if (const double part = y.part(line.y[i]); part < -1e-9 || part > 1 + 1e-9)
+        ++n, low = std::min(low, line.y[i]), high = std::max(high, line.y[i]), last = std::max(last, line.x[i]);
+  if (n == 0) return "";
+  return "The axis spans the values after the start-up; " + html::count(n) + " values up to " + html::number(last) +
+         " s lie outside it, between " + html::number(low) + " and " + html::number(high) + ". ";
+}
+
 /// What a reader would otherwise not know is missing.
 std::string gaps(const LinePlot& plot, const Axis& y) {
   std::size_t n_gaps = 0, n_low = 0;
@@ -310,7 +342,8 @@ std::string gaps(const LinePlot& plot, const Axis& y) {
       if (y.logarithmic && value <= 0) ++n_low;
     }
   std::string text;
-  if (n_low > 0) text += html::count(static_cast<std::int64_t>(n_low)) + " values of zero or less have no place on the logarithmic axis. ";
+  text += outside(plot, y);
+  if (n_low > 0) text += html::count(static_cast<std::int64_t>(n_low)) + " non-positive values are omitted from the logarithmic axis. ";
   if (n_gaps > 0) text += html::count(static_cast<std::int64_t>(n_gaps)) + " values are not finite. ";
   return text.empty() ? "" : "<div class=\"note\">" + text + "</div>";
 }
@@ -334,6 +367,8 @@ std::string figure(const LinePlot& plot) {
   const auto colour = colours_of(plot);
   std::string svg = "<svg viewBox=\"0 0 " + printed("%.0f ", width) + printed("%.0f", height) + "\" role=\"img\" aria-label=\"" +
                     escaped(plot.title) + "\">\n" + spans_of(plot, x) + frame(plot, x, y);
+  const bool is_cut = plot.scale_from > -infinity;
+  if (is_cut) svg += cut_at_frame();
   for (std::size_t k = plot.bands.size(); k-- > 0;) svg += band_of(plot.bands[k], x, y, k);
   for (const bool faint : {true, false})
     for (std::size_t i = 0; i < plot.lines.size(); ++i)
@@ -341,6 +376,7 @@ std::string figure(const LinePlot& plot) {
         svg += path_of(plot.lines[i], x, y,
                        "stroke=\"" + colour[i] + "\" stroke-width=\"" + (faint ? "0.7" : "1.4") +
                            "\" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+  if (is_cut) svg += "</g>\n";
   svg += marks_of(plot, x, y);
   return "<figure class=\"plot\"><figcaption>" + escaped(plot.title) + "</figcaption>\n" + svg + "</svg>" + legend(plot) + gaps(plot, y) +
          "</figure>\n";

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/parameter.hpp"
+
 namespace snag {
 
 struct PlotLine {
@@ -41,6 +43,7 @@ struct LinePlot {
   std::vector<PlotBand> bands = {};
   std::vector<PlotMark> marks = {};
   std::vector<PlotSpan> spans = {};
+  double scale_from = -infinity;  // the axis of y spans the values from this x on; lines are cut where they leave it, and the page says so
   std::vector<double> x_ticks = {};  // rising; they span the axis; empty: round numbers that suit the values
 };
 

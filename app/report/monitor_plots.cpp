@@ -25,34 +25,34 @@ const std::vector<KnownPlot>& known_plots() {
       {"pump", "Torque of the water on the impeller", {"torque", "torque_pressure", "torque_friction"}},
       {"pump", "Shaft power", {"shaft_power", "hydraulic_power"}},
       {"pump", "Efficiency", {"efficiency"}},
-      {"rags", "Where the rag is: its centroid", {"x", "y", "z"}},
+      {"rags", "Centroid of the rag", {"x", "y", "z"}},
       {"rags", "Velocity of the rag's centroid", {"vx", "vy", "vz"}},
       {"rags", "Elongation ratio: long side over short side of the rag", {"elongation_ratio"}},
       {"rags", "Distance between the ends of the rag", {"end_to_end"}},
-      {"rags", "From where to where the rag reaches along x", {"x_min", "x_max"}},
-      {"rags", "From where to where the rag reaches along y", {"y_min", "y_max"}},
-      {"rags", "From where to where the rag reaches along z", {"z_min", "z_max"}},
-      {"rags", "Energy of motion and of the stretched and bent cloth", {"kinetic_energy", "bond_energy"}},
+      {"rags", "Extent of the rag along x", {"x_min", "x_max"}},
+      {"rags", "Extent of the rag along y", {"y_min", "y_max"}},
+      {"rags", "Extent of the rag along z", {"z_min", "z_max"}},
+      {"rags", "Kinetic and elastic energy of the rag", {"kinetic_energy", "bond_energy"}},
       {"rags", "Largest strain of a bond", {"bond_strain_max"}},
       {"rags", "Largest tension of a bond", {"bond_tension_max"}},
       {"rags", "Broken bonds", {"broken_bonds"}},
       {"rags", "Particles that have left the domain", {"particles_out"}},
-      {"passage", "Where the largest tension of a bond is", {"max_tension_x", "max_tension_y", "max_tension_z"}},
+      {"passage", "Place of the largest tension of a bond", {"max_tension_x", "max_tension_y", "max_tension_z"}},
       {"contacts", "Contacts: all, and those with walls", {"contacts", "wall_contacts"}},
       {"contacts", "Deepest overlap of a contact, in particle radii", {"overlap_over_radius_max"}},
       {"silhouettes", "Elongation ratio of the silhouette", {"elongation_ratio"}},
       {"silhouettes", "Area of the silhouette", {"area"}},
       {"coupling", "Force of the water on all rags", {"force_on_rags_x", "force_on_rags_y", "force_on_rags_z"}},
       {"coupling", "Momentum lost in the exchange, relative to what was exchanged", {"momentum_exchange_rel"}},
-      {"coupling", "Largest part of a cell that is cloth", {"max_solid_fraction", "solid_fraction_max"}},
+      {"coupling", "Largest solid fraction of a cell", {"max_solid_fraction", "solid_fraction_max"}},
       {"patches", "Flow rate through each part of the boundary", {"*_flow"}},
       {"patches", "Mean pressure on each part of the boundary", {"*_pressure"}},
       {"wall", "y+ of the cells at the walls, mean over each wall", {"*_y_plus_mean"}},
       {"wall", "y+ of the cells at the walls, lowest and highest of each wall", {"*_y_plus_min", "*_y_plus_max"}},
       {"residuals", "Courant number", {"courant_max", "courant_mean"}},
       {"residuals", "Residuals of the water's equations", {"momentum_residual", "pressure_residual"}},
-      {"residuals", "Continuity: volume not accounted for in a cell, relative", {"continuity_local"}},
-      {"residuals", "Continuity: volume not accounted for in all", {"continuity_global"}},
+      {"residuals", "Continuity: largest imbalance of a cell, relative", {"continuity_local"}},
+      {"residuals", "Continuity: imbalance of the whole domain", {"continuity_global"}},
       {"residuals", "Iterations of the linear solvers", {"momentum_sweeps_iterations", "pressure_iterations"}},
       {"timing", "Wall-clock time by part", {"flow_s", "dem_s", "coupling_s", "output_s"}},
   };
@@ -72,6 +72,61 @@ Column column_of(const std::string& header) {
 std::string spaced(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
+}
+
+/// What a reader calls a column; without an entry: its name with spaces.
+std::string title_of(const std::string& column) {
+  static const std::map<std::string, std::string> titles = {
+      {"head", "static head"},
+      {"head_total", "total head"},
+      {"flow_in", "into the inlet"},
+      {"flow_out", "out of the outlet"},
+      {"torque", "torque"},
+      {"torque_pressure", "pressure part"},
+      {"torque_friction", "viscous part"},
+      {"shaft_power", "shaft power"},
+      {"hydraulic_power", "hydraulic power"},
+      {"vx", "velocity, x"},
+      {"vy", "velocity, y"},
+      {"vz", "velocity, z"},
+      {"x_min", "lowest x"},
+      {"x_max", "highest x"},
+      {"y_min", "lowest y"},
+      {"y_max", "highest y"},
+      {"z_min", "lowest z"},
+      {"z_max", "highest z"},
+      {"kinetic_energy", "kinetic energy"},
+      {"bond_energy", "elastic energy of the bonds"},
+      {"bond_strain_max", "largest strain"},
+      {"bond_tension_max", "largest tension"},
+      {"max_tension_x", "x"},
+      {"max_tension_y", "y"},
+      {"max_tension_z", "z"},
+      {"contacts", "all contacts"},
+      {"wall_contacts", "contacts with walls"},
+      {"overlap_over_radius_max", "overlap / radius"},
+      {"momentum_exchange_rel", "relative loss"},
+      {"max_solid_fraction", "largest solid fraction"},
+      {"courant_max", "largest"},
+      {"courant_mean", "mean"},
+      {"momentum_residual", "momentum"},
+      {"pressure_residual", "pressure"},
+      {"continuity_local", "relative imbalance"},
+      {"continuity_global", "imbalance"},
+      {"momentum_sweeps_iterations", "momentum"},
+      {"pressure_iterations", "pressure"},
+      {"flow_s", "water"},
+      {"dem_s", "rags"},
+      {"coupling_s", "exchange"},
+      {"output_s", "output"},
+  };
+  if (const auto found = titles.find(column); found != titles.end()) return found->second;
+  for (const auto& [end, of] :
+       {std::pair<const char*, const char*>{"_y_plus_mean", "mean"}, {"_y_plus_min", "lowest"}, {"_y_plus_max", "highest"}})
+    if (column.ends_with(end)) return column.substr(0, column.size() - std::string(end).size()) + ", " + of;
+  for (const char* end : {"_flow", "_pressure"})
+    if (column.ends_with(end)) return column.substr(0, column.size() - std::string(end).size());
+  return spaced(column);
 }
 
 /// "force" of force_x, force_y, force_z, otherwise the name itself.
@@ -110,7 +165,7 @@ class Monitor {
     if (shown.empty()) return result;
     const Column& first = columns_[shown[0]];
     const bool is_one = shown.size() == 1, is_vector = stem(first.name) != first.name;
-    result.y_label = axis_label({is_one ? spaced(first.name) : is_vector ? spaced(stem(first.name)) : "", first.unit});
+    result.y_label = axis_label({is_one ? title_of(first.name) : is_vector ? spaced(stem(first.name)) : "", first.unit});
     bool is_error_plot = true;
     for (const auto c : shown) {
       left_.erase(table_.columns[c]);
@@ -160,7 +215,7 @@ class Monitor {
   }
   PlotLine line(std::size_t c, long rag, const std::vector<std::size_t>& records, bool named) const {
     PlotLine result;
-    if (named) result.label = spaced(columns_[c].name);
+    if (named) result.label = title_of(columns_[c].name);
     if (records_.size() > 1) result.label += (named ? ", rag " : "rag ") + std::to_string(rag);
     for (const auto i : records) {
       result.x.push_back(table_.values[0][i]);
@@ -179,6 +234,20 @@ std::optional<double> constant_value(const LinePlot& plot) {
       value = y;
     }
   return value;
+}
+
+/// End of the pump's start-up (app/pump_output.hpp), s; nothing without a revolution.
+std::optional<double> start_up_end(const std::filesystem::path& folder) {
+  try {
+    const SeriesTable revolutions = recorded(folder / "revolutions.csv");
+    if (revolutions.columns.empty()) return {};
+    const auto &time = revolutions.values[0], &start_up = revolutions.column("start_up");
+    const auto settled = static_cast<std::size_t>(std::find(start_up.begin(), start_up.end(), 0.0) - start_up.begin());
+    if (settled == 0) return {};
+    return time[settled == time.size() ? 0 : settled - 1];  // never settled: what follows the first revolution
+  } catch (const Error&) {
+    return {};  // of another version; the whole run is drawn
+  }
 }
 
 /// What is not over time has a section of its own.
@@ -218,7 +287,9 @@ MonitorPlots monitor_plots(const std::filesystem::path& folder, const ColumnsByM
   auto monitors = monitors_of(folder, result.problems);
   for (auto& monitor : monitors)
     if (const auto found = elsewhere.find(monitor.name()); found != elsewhere.end()) monitor.leave_out(found->second);
-  const auto keep = [&](const LinePlot& plot) {
+  const std::optional<double> scale_from = start_up_end(folder);
+  const auto keep = [&](LinePlot plot) {
+    if (scale_from && !plot.logarithmic) plot.scale_from = *scale_from;
     const auto value = constant_value(plot);
     if (value)
       result.constants.emplace_back(plot.title, *value);

@@ -68,6 +68,12 @@ Pictures drawn(const std::filesystem::path& dir, const char* list, const char* l
 
 }  // namespace
 
+std::vector<Picture> pictures_there(const std::filesystem::path& dir) {
+  std::vector<Picture> pictures = listed(dir / "pictures", "pictures.json");
+  std::erase_if(pictures, [](const Picture& picture) { return !std::filesystem::is_regular_file(picture.file); });
+  return pictures;
+}
+
 Pictures draw_pictures(const std::filesystem::path& dir) { return drawn(dir, "pictures.json", time_limit, {}); }
 
 Pictures draw_film(const std::filesystem::path& dir) {

@@ -21,6 +21,9 @@ struct Pictures {
 /// Draws what fields, rags and walls of the run's folder hold into DIR/pictures; the script stays there for views of one's own.
 Pictures draw_pictures(const std::filesystem::path& dir);
 
+/// What an earlier report drew of the run, as far as it is still there.
+std::vector<Picture> pictures_there(const std::filesystem::path& dir);
+
 /// Draws DIR/pictures/film_0001.png and so on, one for each instant at which the rags were written; those of an earlier film are removed.
 /// Only `made` and `problem` are set.
 Pictures draw_film(const std::filesystem::path& dir);

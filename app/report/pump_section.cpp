@@ -31,10 +31,10 @@ std::string revolution_table(const SeriesTable& revolutions) {
                                  {"Head of the total pressure, weighted with the flux", "head_total", "m"},
                                  {"Lowest head", "head_min", "m"},
                                  {"Highest head", "head_max", "m"},
-                                 {"Head beyond the shaft's first 20 harmonics, rms", "head_noise", "m"},
+                                 {"Broadband head fluctuation (beyond 20 shaft harmonics), rms", "head_noise", "m"},
                                  {"Torque of the water on the impeller", "torque", "N m"},
-                                 {"of this by pressure", "torque_pressure", "N m"},
-                                 {"of this by friction", "torque_friction", "N m"},
+                                 {"pressure part", "torque_pressure", "N m"},
+                                 {"viscous part", "torque_friction", "N m"},
                                  {"Lowest torque", "torque_min", "N m"},
                                  {"Highest torque", "torque_max", "N m"},
                                  {"Shaft power", "shaft_power", "W"},
@@ -50,7 +50,7 @@ std::string revolution_table(const SeriesTable& revolutions) {
     if (n > 1) table.back().push_back(cell(row, n - 2));
   }
   const auto title = [&](std::size_t i) { return "Revolution " + html::number(revolutions.column("revolution")[i]); };
-  std::vector<std::string> header{"Mean of a revolution, where nothing else is said", title(n - 1)};
+  std::vector<std::string> header{"Per-revolution mean, unless stated otherwise", title(n - 1)};
   if (n > 1) header.push_back(title(n - 2));
   return html::table(header, table);
 }
@@ -67,7 +67,7 @@ std::string harmonics_table(const SeriesTable& revolutions) {
 
 /// How far the last revolution is from the one before it.
 std::string settled(const SeriesTable& revolutions) {
-  if (revolutions.values[0].size() < 2) return "<p>One revolution tells nothing of how the flow settles.</p>\n";
+  if (revolutions.values[0].size() < 2) return "<p>One revolution: whether the flow has settled is not known.</p>\n";
   const auto percent = [&](const char* column) { return html::number(100 * revolutions.column(column).back()) + " %"; };
   return "<p>From the revolution before to the last one the mean head changed by " + percent("head_change_rel") + ", the mean torque by " +
          percent("torque_change_rel") + ".</p>\n";
@@ -125,8 +125,8 @@ std::string pump_section(const nlohmann::json& summary, const std::filesystem::p
     std::string plots = over_angle(instants, "Head over the angle", "head", "head [m]") +
                         over_angle(instants, "Torque over the angle", "torque", "torque [N m]");
     if (!phase.columns.empty() && phase.column("revolutions")[0] > 1)
-      plots += scatter(phase, "Head at each angle, over all revolutions after the first", "head", "head [m]") +
-               scatter(phase, "Torque at each angle, over all revolutions after the first", "torque", "torque [N m]");
+      plots += scatter(phase, "Head at each angle, over all revolutions after the start-up", "head", "head [m]") +
+               scatter(phase, "Torque at each angle, over all revolutions after the start-up", "torque", "torque [N m]");
     if (!revolutions.columns.empty() && revolutions.values[0].size() > 1)
       plots += over_revolutions(revolutions, "Mean head of each revolution", "head", "head [m]") +
                over_revolutions(revolutions, "Efficiency of each revolution", "efficiency", "efficiency");

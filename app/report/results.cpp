@@ -151,7 +151,7 @@ std::string run_table(const json& summary) {
   Rows rows;
   add_rows(rows, summary,
            {{"case", "Case", ""},
-            {"case_sha256", "Fingerprint of the case (SHA-256)", ""},
+            {"case_sha256", "Case hash (SHA-256)", ""},
             {"version", "Version of Snag", ""},
             {"git", "Revision of the sources", ""},
             {"ranks", "Processes (MPI ranks)", ""},
@@ -161,7 +161,7 @@ std::string run_table(const json& summary) {
   if (const double wall = real(summary, "wall_s"); std::isfinite(wall)) rows.push_back({"Duration of the run", duration(wall)});
   add_rows(rows, member(summary, "mesh"),
            {{"cells", "Cells of the mesh", ""},
-            {"interior_faces", "Faces between cells", ""},
+            {"interior_faces", "Internal faces", ""},
             {"facets", real(member(summary, "mesh"), "facets") == 0 ? "" : "Facets of the sliding interface", ""},
             {"min_quality", "Lowest quality of a cell (1 is best)", ""}});
   std::erase_if(rows, [](const auto& row) { return row[0].empty(); });
@@ -203,14 +203,14 @@ std::string rag_tables(const json& summary) {
               {"stuck_on_tongue_s", "Time stuck on the tongue", "s"},
               {"stuck_on_impeller_s", "Time stuck on the impeller", "s"},
               {"wall_contact_s", "Time in contact with a wall", "s"},
-              {"elongation_ratio_at_start", "Elongation ratio where it begins", ""},
+              {"elongation_ratio_at_start", "Initial elongation ratio", ""},
               {"elongation_ratio", "Elongation ratio at the end: long side over short side", ""},
               {"projected_area_m2", "Projected area at the end", "m²"},
               {"max_wall_overlap_over_radius", "Deepest overlap with a wall, in particle radii", ""},
               {"max_overlap_over_radius", "Deepest overlap between particles, in particle radii", ""},
               {"bond_strain_p99", "Strain that 99 % of the bonds stay below", ""},
               {"max_bond_tension_N", "Largest tension of a bond", "N"},
-              {"corrected_positions", "Corrected positions", ""}});
+              {"corrected_positions", "Clamped positions", ""}});
     add_rows(rows, member(rag, "wall_contact_by_zone_s"),
              {{"impeller", "Time in contact with the impeller", "s"},
               {"tongue", "Time in contact with the tongue", "s"},
@@ -235,7 +235,7 @@ std::string conservation_table(const json& summary) {
     double limit;
   };
   const std::vector<Check> checks = {
-      {"mass_imbalance_rel", "Water that is not accounted for, relative to the flow", 1e-6},
+      {"mass_imbalance_rel", "Mass imbalance, relative to the flow", 1e-6},
       {"momentum_exchange_rel", "Momentum lost between water and rags, relative to what was exchanged", 1e-10},
       {"interface_closure_rel", "Gap of the sliding interface, relative to its area", 1e-12},
       {"particles_lost", "Particles lost", 0},
@@ -258,7 +258,7 @@ std::string conservation_table(const json& summary) {
   }
   // of rags: the worst of them; a contact that gives way by more than half a radius is no longer the contact of a sphere with a wall
   for (const Check& check : {Check{"max_wall_overlap_over_radius", "Deepest overlap of a particle with a wall, in its radii", 0.5},
-                             Check{"corrected_positions", "Positions of particles corrected by hand", 0}})
+                             Check{"corrected_positions", "Clamped positions of particles", 0}})
     if (const json worst = largest(member(summary, "rags"), check.key); !worst.is_null()) add(check, worst);
   return html::table({"Quantity", "Largest value", "Limit", "Check"}, rows);
 }

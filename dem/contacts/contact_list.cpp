@@ -13,14 +13,14 @@ ContactList::ContactList(std::vector<double> radius, double skin) : radius_(std:
   for (double r : radius_) largest_radius_ = std::max(largest_radius_, r);
 }
 
-void ContactList::build(ContactParticles& particles) {
-  sort_into_cells(particles);
+void ContactList::build(ContactParticles& particles, ListedPairs listed) {
   pairs.clear();
+  if (listed.within_pieces || listed.between_pieces) sort_into_cells(particles);
   for (ParticleRow& row : particles.rows) row.near = false;
   for (int p = 0; p < particles.size(); ++p) {
-    if (!particles.present[p]) continue;
+    if (!particles.present[p] || !(listed.within_pieces || listed.between_pieces)) continue;
     partners_.clear();
-    find_partners(particles, p);
+    find_partners(particles, p, listed);
     std::sort(partners_.begin(), partners_.end());
     for (int q : partners_) {
       pairs.push_back({p, q});
@@ -84,7 +84,7 @@ void ContactList::sort_into_cells(const ContactParticles& particles) {
   cell_start_.back() = static_cast<int>(sorted_.size());
 }
 
-void ContactList::find_partners(const ContactParticles& particles, int p) {
+void ContactList::find_partners(const ContactParticles& particles, int p, ListedPairs listed) {
   const ParticlePosition a = particles.position[p];
   const double reach = radius_[particles.rag_of(p)] + skin_;
   const bool owned = particles.owned(p);
@@ -97,6 +97,7 @@ void ContactList::find_partners(const ContactParticles& particles, int p) {
         const ParticlePosition& b = particles.position[q];
         const double dx = b.x - a.x, dy_ = b.y - a.y, dz_ = b.z - a.z, square = dx * dx + dy_ * dy_ + dz_ * dz_;
         if (square >= (reach + largest_radius_) * (reach + largest_radius_)) continue;
+        if (!(particles.rag_of(p) == particles.rag_of(q) ? listed.within_pieces : listed.between_pieces)) continue;
         const double limit = reach + radius_[particles.rag_of(q)];
         if (square < limit * limit && (owned || particles.owned(q)) && !particles.bonded(p, q)) partners_.push_back(q);
       }

@@ -29,6 +29,11 @@ struct StoredSlip {
   bool operator<(const StoredSlip& b) const { return low != b.low ? low < b.low : high < b.high; }
 };
 
+/// Which pairs can touch: particles of one piece, particles of two.
+struct ListedPairs {
+  bool within_pieces = true, between_pieces = true;
+};
+
 class ContactList {
  public:
   /// `radius`: [n_rags], m.
@@ -36,7 +41,7 @@ class ContactList {
 
   /// New list from the marked positions; pairs that are still near keep their slip, and pairs that were stored take theirs. Marks the rows
   /// that are near.
-  void build(ContactParticles& particles);
+  void build(ContactParticles& particles, ListedPairs listed = {});
   /// All touching pairs, sorted; call before particles are assigned anew.
   std::vector<StoredSlip> touching(const ContactParticles& particles) const;
   /// Slip to be given to pairs at the next build. A pair may come twice, with the same slip.
@@ -48,7 +53,7 @@ class ContactList {
 
  private:
   void sort_into_cells(const ContactParticles& particles);
-  void find_partners(const ContactParticles& particles, int p);
+  void find_partners(const ContactParticles& particles, int p, ListedPairs listed);
 
   std::vector<double> radius_;
   double skin_, largest_radius_ = 0;

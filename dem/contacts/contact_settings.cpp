@@ -7,7 +7,9 @@ std::vector<Parameter> ContactSettings::parameters() {
     return Parameter{.key = key, .target = target, .minimum = minimum, .maximum = maximum, .basis = basis, .meaning = meaning};
   };
   return {
-      setting("between_particles", &between_particles, "Contacts of particles with each other; without, cloth passes through cloth."),
+      setting("self_contact", &self_contact, "Contacts between the particles of one piece; without, its folds pass through each other."),
+      setting("mutual_contact", &mutual_contact,
+              "Contacts between particles of different pieces; without, one piece passes through another."),
       number("restitution", &restitution, 1e-6, 1, Basis::literature,
              "Speed after a normal impact over speed before, between particles (Jensen 2018, Table 3.2)."),
       number("static_friction", &static_friction, 0, 10, Basis::literature,

@@ -7,7 +7,8 @@
 namespace snag {
 
 struct ContactSettings {
-  bool between_particles = true;   // contacts of particles with each other
+  bool self_contact = true;        // of particles of one piece with each other
+  bool mutual_contact = true;      // of particles of different pieces
   double restitution = 0.01;       // e, of normal impact
   double static_friction = 0.5;    // mu, Coulomb
   double rolling_friction = 0.01;  // mu_r, between particles

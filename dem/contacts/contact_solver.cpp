@@ -92,7 +92,7 @@ void ContactSolver::State::update_lists(std::span<Tile* const> owned, std::span<
   list.store(list.touching(particles));
   if (!same_tiles) particles.assign(owned, ghosts);
   particles.mark_positions();
-  if (settings.between_particles) list.build(particles);
+  list.build(particles, {.within_pieces = settings.self_contact, .between_pieces = settings.mutual_contact});
   if (walls && unpacked) walls->sort_unpacked();
   if (walls) walls->list(particles, time);
   particles.reset_path();

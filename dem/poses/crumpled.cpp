@@ -122,7 +122,7 @@ PipeWall::Law wall_law(const Rag& rag) {
 
 ContactSettings contacts_of_run(const ContactSettings& given) {
   ContactSettings contacts = given;
-  contacts.between_particles = true;
+  contacts.self_contact = true;
   contacts.impact_speed = fastest_impact;
   contacts.skin_over_radius = 0.5;  // never a result, only speed
   return contacts;

@@ -1,8 +1,11 @@
 # timeout: 600
 """Requirement: the case files and meshes that README and tutorials print, and all cases and studies of cases/, are accepted by the program as they stand."""
+import ctypes
+import ctypes.util
 import os
 import re
 import shlex
+import tomllib
 
 import harness
 
@@ -43,6 +46,93 @@ class Examples(harness.CaseTest):
 
     def test_readme(self):
         self.accepted(DOCUMENTS[0])
+
+    def test_observed_runs_are_those_of_the_demo(self):
+        """README observes folders that the demo writes, with a camera that is there."""
+        text = DOCUMENTS[0].read_text()
+        listed = harness.snag(["study", harness.SOURCE_DIR / "cases" / "pump-demo" / "study.toml", "--dry-run"])
+        names = set(re.findall(r"run \d+ of \d+: (\S+)", listed.stdout))
+        observed = set(re.findall(r"results/demo/([\w*-]+)", "\n".join(line for line in text.splitlines() if "./snag observe" in line)))
+        self.assertEqual(observed, names)
+        for camera in set(re.findall(r"cases/\S+/CAMERA\.toml", text)):
+            self.assertIn("camera", tomllib.loads((harness.SOURCE_DIR / camera).read_text()))
+
+    def test_camera_of_the_demo_sees_the_pump(self):
+        """A cloth at rest in the volute: the picture has it where it is, in its size."""
+        case = self.case(
+            '[case]\nname = "still"\n[time]\nend_ms = 2\nstep_ms = 1\n[output]\nreport = false\nrags_interval_ms = 1\n'
+            "[[rag]]\nlength_mm = 40\nwidth_mm = 20\nradius_mm = 2\ncentre_m = [0.12, 0.02, 0.04]\n"
+        )
+        self.run_case(case)
+        camera = harness.SOURCE_DIR / "cases" / "pump-demo" / "CAMERA.toml"
+        seen = harness.snag(["observe", self.work / "out", "--camera", camera, "--out", self.work / "seen"])
+        self.assertEqual(seen.code, 0, seen.tail())
+        observed = harness.Monitor(self.work / "seen" / "observations.csv")
+        self.assertAlmostEqual(observed.column("x")[0], 0.12 - 0.03, delta=1e-3)  # from the middle of the picture
+        self.assertAlmostEqual(observed.column("y")[0], 0.02 - 0.05, delta=1e-3)
+        self.assertAlmostEqual(observed.column("area")[0], 0.04 * 0.02, delta=0.05 * 0.0008)
+
+    def test_tutorial_of_the_bend_has_a_bend(self):
+        """The pipe of the tutorial turns by a right angle: its inlet does not look along its main leg."""
+        text = (harness.SOURCE_DIR / "docs" / "tutorial-own-mesh.md").read_text()
+        words = next(words for words in printed_commands(text) if words[:2] == ["mesh", "pipe"])
+        self.assertIn("bend_angle_deg=90", words, "a pipe is straight unless it is told to bend")
+
+    def test_tutorial_script_for_gmsh(self):
+        """The script that the tutorial prints makes a mesh that Snag finds fit; gmsh by its library."""
+        text = (harness.SOURCE_DIR / "docs" / "tutorial-own-mesh.md").read_text()
+        self.assertIn("apt-get install gmsh", text, "gmsh is not among Snag's packages")
+        script = re.search(r"`stub\.geo`:\n\n((?:    .*\n)+)", text).group(1)
+        (self.work / "stub.geo").write_text("\n".join(line[4:] for line in script.splitlines()) + "\n")
+        gmsh, error = ctypes.CDLL(ctypes.util.find_library("gmsh")), ctypes.c_int(0)
+
+        def call(function, *arguments):
+            getattr(gmsh, function)(*arguments, ctypes.byref(error))
+            self.assertEqual(error.value, 0, function)
+
+        call("gmshInitialize", 0, None, 1)
+        call("gmshOptionSetNumber", b"General.Terminal", ctypes.c_double(0))
+        call("gmshOptionSetNumber", b"Mesh.MshFileVersion", ctypes.c_double(2.2))
+        call("gmshOpen", str(self.work / "stub.geo").encode())
+        call("gmshModelMeshGenerate", 3)
+        call("gmshWrite", str(self.work / "stub.msh").encode())
+        run = harness.snag(["mesh", "--info", self.work / "stub.msh"])
+        self.assertEqual(run.code, 0, run.tail())
+        self.assertRegex(run.stdout, r"patch walls")
+
+    def test_tutorial_tear_tears(self):
+        text = (harness.SOURCE_DIR / "docs" / "tutorial-rag-alone.md").read_text()
+        line = next(line for line in text.splitlines() if "--out results/tear" in line)
+        words = shlex.split(re.sub(r"\s+#.*", "", line))[3:]
+        words = words[words.index("results/tear") + 1 :]
+        run = self.run_case(self.case(printed_files(text)["fall.toml"]), 1, *words, "--set", "output.report=false")
+        self.assertGreater(run.summary["rags"][0]["broken_bonds"], 10)
+
+    def test_build_info_names_the_libraries(self):
+        told = harness.snag(["--build-info"]).stdout
+        for library in ("MPI: Open MPI", "PETSc: 3.", "hypre: ", "HDF5: 1.", "Eigen: 3."):
+            self.assertIn(library, told)
+        self.assertNotIn(str(harness.SOURCE_DIR), told, "nothing of this machine")
+
+    def test_single_sphere_has_no_sub_steps(self):
+        case = self.case('[case]\nname = "sphere"\n[time]\nend_ms = 2\nstep_ms = 1\n[[particle]]\n')
+        told = harness.snag(["check", case]).stdout
+        self.assertNotIn("inf", told.replace("info", ""))
+        self.assertIn("no sub-steps", told)
+        self.assertIn("each of 1 sub-step of the rags", told)
+
+    def test_assumed_cloth_is_said(self):
+        """Bonds and mass of the default cloth are named where a case changes a part of them only."""
+        rag = '[case]\nname = "a"\n[time]\nend_ms = 2\nstep_ms = 1\n[flow]\n{flow}\n[[rag]]\nlength_mm = 40\nwidth_mm = 20\nradius_mm = 2\n{rag}\n'
+        for flow, mass, words in (
+            ("", "mass_per_area_kg_m2 = 0.4", ["assumed: [[rag]] 1 has mass_per_area = 0.4 kg/m2", "bonds of the wet dust cloth"]),
+            ("density_kg_m3 = 1261", "", ["soaked with water of 998.2 kg/m3", "of 1261 kg/m3 it has 0.976"]),
+            ("", "", []),
+        ):
+            told = harness.snag(["check", self.case(rag.format(flow=flow, rag=mass))]).stdout
+            for part in words:
+                self.assertIn(part, told)
+            self.assertEqual("assumed:" in told, bool(words), told)
 
     def test_tutorials(self):
         for document in DOCUMENTS[1:]:

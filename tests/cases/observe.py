@@ -102,6 +102,13 @@ class Observe(harness.CaseTest):
         file.write_text(text)
         return file
 
+    def test_path_that_does_not_exist(self):
+        """It is said, with the name that was meant."""
+        (self.work / "demo" / "mode-two_way").mkdir(parents=True)
+        refused = self.snag_observe([self.work / "demo" / "two_way"], "seen", 6)
+        self.assertIn("two_way: does not exist", refused.stderr)
+        self.assertIn("mode-two_way", refused.stderr)
+
     def test_run_and_pictures(self):
         run = self.run_case(self.case(FALLING))
         seen = self.observe(run.folder, self.camera(CAMERA), "seen")

@@ -13,7 +13,7 @@ STUDY = """
 name = "sheets"
 case = "case.toml"
 set = ["time.end_s=0.008", "time.step_s=8e-4"]
-results = ["rags.0.particles", "rags.0.elongation_ratio", "rags.1.outcome", "no.such.key"]
+results = ["rags.0.particles", "rags.0.elongation_ratio", "rags.1.outcome", "rags.7.outcome"]
 {zip}
 [[vary]]
 key = "rag.0.radius_mm"
@@ -49,9 +49,12 @@ class Study(harness.CaseTest):
         self.assertEqual([row["length"] for row in rows], ["100 mm", "120 mm"] * 2)
         self.assertEqual([int(row["rags.0.particles"]) for row in rows], [50 * 40, 60 * 40, 40 * 32, 48 * 32])
         self.assertEqual({row["exit"] for row in rows}, {"0"})
-        self.assertEqual({row["no.such.key"] for row in rows}, {""})
+        self.assertEqual({row["rags.7.outcome"] for row in rows}, {""})
+        self.assertIn('no run has a value of "rags.7.outcome"', done.stdout, "an empty column is no secret")
         page = (done.folder / "study.html").read_text()
-        self.assertEqual(page.count("<svg"), 1)
+        self.assertGreaterEqual(page.count("<svg"), 2, "the plot that is asked for, and the runs over time")
+        for label in ("Radius [mm]", "Elongation ratio at the end", "Outcome, rag 1"):
+            self.assertIn(label, page)
         for name in NAMES:
             self.assertIn(f'href="{name}/report.html"', page)
         # The last of the four runs of one process is the run that it is by itself.
@@ -95,6 +98,12 @@ class Study(harness.CaseTest):
         self.assertNotEqual(rows[0]["exit"], "0", done.tail())
         self.assertEqual(done.code, int(rows[0]["exit"]))
 
+    def test_refused_value_does_not_stop_the_others(self):
+        """A radius for which the cloth is not calibrated: the other run is made, and the table says which one was refused."""
+        text = STUDY.format(zip="zip = true").replace("[1, 1.25]", "[3, 1.25]")
+        done = self.study(text, ranks=1, code=2)
+        self.assertEqual([row["exit"] for row in self.table()], ["2", "0"], done.tail())
+
     def written(self, text):
         self.case(TWO_SHEETS)
         (self.work / "study.toml").write_text(text)
@@ -106,6 +115,9 @@ class Study(harness.CaseTest):
             (("values = [1, 1.25]", "values = [1, 1]"), "two runs would be named"),
         ):
             self.assertIn(words, self.study(STUDY.replace(*change).format(zip=""), code=2, ranks=1).stderr)
+        unknown = self.study(STUDY.replace("rags.1.outcome", "rags.1.outcom").format(zip=""), code=2, ranks=1)
+        self.assertIn('"rags.1.outcom", which is no key of summary.json; did you mean "rags.0.outcome"', unknown.stderr)
+        self.assertIn("pump.head_m", unknown.stderr, "the known keys are named")
         self.assertIn("need as many", self.study(STUDY.replace("[1, 1.25]", "[1]").format(zip="zip = true"), code=2, ranks=1).stderr)
 
 

@@ -40,7 +40,7 @@ TEST(LinePlotFigure, CountsWhatALogarithmicAxisCannotShow) {
   EXPECT_LT(decades({"", "", "", {{"", {0, 1, 2}, {1e-6, 1, -1e-9}}}}), 0);
   EXPECT_LT(decades({"", "", "", {{"", {0, 1}, {0, 0}}}}), 0);
   const auto html = figure({"", "", "", {{"", {0, 1, 2, 3}, {1e-6, 0, 1, NAN}}}, true});
-  EXPECT_TRUE(holds(html, "1 values of zero or less")) << html;
+  EXPECT_TRUE(holds(html, "1 non-positive values are omitted")) << html;
   EXPECT_TRUE(holds(html, "1 values are not finite")) << html;
   EXPECT_TRUE(holds(html, "d=\"M64.0 220.0M")) << "a gap, not a line across it: " << html;
 }
@@ -88,6 +88,16 @@ TEST(LinePlotFigure, MarksEventsAndLevels) {
   EXPECT_TRUE(holds(html, "M64.0 212.5L468.0 119.0")) << "the level is inside the plot: " << html;
 }
 
+// The axis of y spans what follows the start-up: the rest is cut at the frame, and the page says how much that is.
+TEST(LinePlotFigure, ScalesToWhatFollowsTheStartUp) {
+  LinePlot plot{"", "time [s]", "", {{"", {0, 1, 2, 3}, {-27, 16, 2, 4}}}};
+  plot.scale_from = 2;
+  const auto html = figure(plot);
+  EXPECT_TRUE(holds(html, "L333.3 212.5L468.0 25.5\"")) << "2 and 4 span the axis: " << html;
+  EXPECT_TRUE(holds(html, "clip-path=\"url(#frame)\"")) << html;
+  EXPECT_TRUE(holds(html, "2 values up to 1 s lie outside it, between -27 and 16")) << html;
+}
+
 // Turns of a path are one line with gaps: one colour, one entry in the legend; given ticks span the axis.
 TEST(LinePlotFigure, ContinuesALineAfterAGap) {
   LinePlot plot{"", "", "", {{"path", {300, 360}, {1, 2}}, {"path", {0, 60}, {2, 3}}, {"means", {10, 30}, {2, 2}}}};
@@ -119,14 +129,25 @@ TEST(MonitorPlots, ShowEveryColumn) {
   const auto found = monitor_plots(monitors.folder);
   std::vector<std::string> titles;
   for (const auto& plot : found.plots) titles.push_back(plot.title + "|" + plot.y_label + "|" + std::to_string(plot.lines.size()));
-  EXPECT_EQ(titles,
-            (std::vector<std::string>{"Where the rag is: its centroid|[m]|6", "Flow rate through each part of the boundary|[m3/s]|2",
-                                      "Mean pressure on each part of the boundary|[Pa]|2", "probe: u|u [m/s]|3", "probe: p|p [Pa]|1",
-                                      "rags: own|own|2"}));
+  EXPECT_EQ(titles, (std::vector<std::string>{"Centroid of the rag|[m]|6", "Flow rate through each part of the boundary|[m3/s]|2",
+                                              "Mean pressure on each part of the boundary|[Pa]|2", "probe: u|u [m/s]|3",
+                                              "probe: p|p [Pa]|1", "rags: own|own|2"}));
   EXPECT_EQ(found.plots.back().lines[1].label, "rag 5");
   EXPECT_EQ(found.plots.back().lines[1].y, (std::vector<double>{4, 9}));
   EXPECT_EQ(found.problems, std::vector<std::string>{"empty.csv holds no record"});
   EXPECT_TRUE(monitor_plots(monitors.folder / "absent").plots.empty());
+}
+
+// Where the pump's start-up ends is read from the revolutions; lines have titles, not names of columns.
+TEST(MonitorPlots, LeaveTheStartUpOutOfTheScale) {
+  const Monitors monitors;
+  monitors.write("pump.csv", "time [s],head [m],head_total [m]\n0,-27,-20\n1,16,17\n2,3,4\n3,4,5\n");
+  monitors.write("revolutions.csv", "time [s],revolution [1],start_up [1]\n1.5,1,1\n2.5,2,0\n");
+  const auto found = monitor_plots(monitors.folder);
+  ASSERT_EQ(found.plots.size(), 1u);
+  EXPECT_EQ(found.plots[0].scale_from, 1.5);
+  EXPECT_EQ(found.plots[0].lines[0].label, "static head");
+  EXPECT_EQ(found.plots[0].lines[1].label, "total head");
 }
 
 // What never changes is a number, not a plot; columns of different units never share an axis.

@@ -65,6 +65,22 @@ void copy_state(const Pieces& from, Pieces& to) {
   for (std::size_t t = 0; t < from.tiles.size(); ++t) to.tiles[t]->values = from.tiles[t]->values;
 }
 
+// Contacts within a piece and between pieces are two switches: together they are all contacts.
+TEST(ContactSolver, ContactsWithinAndBetweenPieces) {
+  const auto count = [](bool within, bool between) {
+    Pieces pieces = stack(9, 7, 4);
+    ContactSettings settings;
+    settings.self_contact = within, settings.mutual_contact = between;
+    ContactSolver contacts(settings, pieces.rags, nullptr);
+    contacts.add_forces(pieces.owned(), {}, 1e-6);
+    return contacts.measures().n_contacts;
+  };
+  EXPECT_GT(count(true, false), 0);
+  EXPECT_GT(count(false, true), 0);
+  EXPECT_EQ(count(true, false) + count(false, true), count(true, true));
+  EXPECT_EQ(count(false, false), 0);
+}
+
 // All pairs that touch are found, and each force is the sum of the law over them: compared with a search through all pairs.
 TEST(ContactSolver, FindsEveryContact) {
   Pieces pieces = stack(9, 7, 4);
