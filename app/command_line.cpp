@@ -9,7 +9,7 @@
 
 #include "app/build_info.hpp"
 #include "app/command.hpp"
-#include "base/error.hpp"
+#include "base/explained.hpp"
 #include "base/log.hpp"
 #include "base/version.hpp"
 #include "base/words.hpp"
@@ -86,11 +86,10 @@ int run_command_line(int argc, char** argv, const Session& session) {
   ExitCode code = ExitCode::io;
   try {
     return parse_and_act(argc, argv, session);
-  } catch (const Error& failure) {
-    code = failure.code;
-    log::error(failure.what());
   } catch (const std::exception& failure) {
-    log::error(std::string("unexpected: ") + failure.what());
+    const Error error = explained(failure);
+    code = error.code;
+    log::error(error.what());
   }
   log::flush();
   leave_together(code);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/html.hpp"
+#include "app/report/links.hpp"
 #include "app/report/monitor_plots.hpp"
 #include "app/report/page.hpp"
 #include "app/report/passage_section.hpp"
@@ -142,6 +143,8 @@ std::string heading(const nlohmann::json& summary, const std::string& title, con
 }  // namespace
 
 void write_report(const std::filesystem::path& dir) {
+  if (!std::filesystem::is_directory(dir)) throw Error(ExitCode::io, dir.string() + ": is no folder; give the folder of --out");
+  require_no_outward_links(dir);
   const auto summary = nlohmann::json::parse(file_text(dir / "summary.json").value_or(""), nullptr, false);
   if (!summary.is_object() && !std::filesystem::exists(dir / "monitors") && !std::filesystem::exists(dir / "case.resolved.toml"))
     throw Error(ExitCode::io, dir.string() +
@@ -176,6 +179,7 @@ void write_report(const std::filesystem::path& dir) {
 }
 
 Film make_film(const std::filesystem::path& dir) {
+  require_no_outward_links(dir);
   const Pictures pictures = draw_film(dir);
   return {pictures.made.size(), pictures.problem};
 }

@@ -12,6 +12,7 @@
 #include "app/report/page.hpp"
 #include "app/report/pictures.hpp"
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
 
@@ -62,21 +63,14 @@ std::vector<std::string> columns_of(const Study& study) {
   return columns;
 }
 
-/// A field of a CSV file: quoted where it must be.
-std::string field(const json& value) {
-  if (value.is_null()) return "";
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
-  return '"' + text + '"';
-}
+std::string text_of(const json& value) { return value.is_null() ? "" : value.is_string() ? value.get<std::string>() : value.dump(); }
 
 std::string csv(const Study& study, const std::vector<Row>& rows) {
   std::string text = "run";
-  for (const std::string& column : columns_of(study)) text += "," + field(column);
+  for (const std::string& column : columns_of(study)) text += "," + csv_field(column);
   for (const Row& row : rows) {
-    text += "\n" + field(row.run.name);
-    for (const std::string& column : columns_of(study)) text += "," + field(value_of(study, row, column));
+    text += "\n" + csv_field(row.run.name);
+    for (const std::string& column : columns_of(study)) text += "," + csv_field(text_of(value_of(study, row, column)));
   }
   return text + "\n";
 }
@@ -90,7 +84,7 @@ std::string table(const Study& study, const std::vector<Row>& rows) {
     cells.push_back({"<a href=\"" + escaped(row.run.name) + "/report.html\">" + escaped(row.run.name) + "</a>"});
     for (const std::string& column : columns_of(study)) {
       const json value = value_of(study, row, column);
-      cells.back().push_back(value.is_number() ? html::number(value.get<double>()) : escaped(field(value)));
+      cells.back().push_back(value.is_number() ? html::number(value.get<double>()) : escaped(text_of(value)));
     }
   }
   return "<div class=\"scroll\">" + html::table(header, cells) + "</div>\n";
@@ -104,7 +98,7 @@ std::string side_by_side(const Study& study, const std::vector<Row>& rows) {
     columns.push_back({row.run.name});
     for (const std::string& key : study.settings.results) {
       const json value = value_of(study, row, key);
-      columns.back().push_back(value.is_null() ? "-" : value.is_number_float() ? words(value.get<double>()) : field(value));
+      columns.back().push_back(value.is_null() ? "-" : value.is_number_float() ? words(value.get<double>()) : text_of(value));
     }
   }
   std::string text;

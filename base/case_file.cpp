@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/parameter_reading.hpp"
 #include "base/parameter_text.hpp"
+#include "base/quotation.hpp"
 #include "base/sha256.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
@@ -104,7 +105,7 @@ void fill(CaseNode& node, const toml::table& table) {
 void apply_override(toml::table& root, const std::string& text) {
   const auto equals = text.find('=');
   const auto fail = [&](const std::string& why) {
-    return Error(ExitCode::usage, "--set " + text + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
+    return Error(ExitCode::usage, "--set " + shortened(text) + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
   };
   if (equals == std::string::npos || equals == 0) throw fail(equals == 0 ? "names no key" : "has no \"=\"");
   const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
@@ -129,7 +130,7 @@ void apply_override(toml::table& root, const std::string& text) {
       std::size_t index = 0;
       const auto [end, code] = std::from_chars(step.data(), step.data() + step.size(), index);
       if (code != std::errc() || end != step.data() + step.size() || index >= array->size())
-        throw fail("\"" + step + "\" is no index of the " + std::to_string(array->size()) + " tables there");
+        throw fail("\"" + shortened(step) + "\" is no index of the " + std::to_string(array->size()) + " tables there");
       at = array->get(index);
       if (last) throw fail("names a table, not a key");
       continue;
@@ -175,16 +176,17 @@ void reject_unread_in(const CaseNode& node) {
     const std::string where = place_of(node.file, value.line);
     if (node.name.empty()) {
       const bool section = std::find(node.table_order.begin(), node.table_order.end(), key) != node.table_order.end();
-      throw Error(ExitCode::usage, where + ": \"" + key + "\" stands outside of all sections" +
+      throw Error(ExitCode::usage, where + ": \"" + shortened(key) + "\" stands outside of all sections" +
                                        (section ? ", but is the name of one; write [" + key + "] and keys below it"
                                                 : "; put it below one of the sections " + joined(node.table_order)));
     }
-    std::string message = where + ": [" + node.name + "]: unknown key \"" + key + "\"";
+    std::string message = where + ": [" + node.name + "]: unknown key \"" + shortened(key) + "\"";
     const std::string near = nearest_name(key, node.known);
     if (!near.empty()) message += "; did you mean \"" + near + "\"?";
     message += node.known.empty() ? "; no key is read here" : "; known keys: " + joined(node.known);
     for (const std::string& known : node.known) {
-      if (key.starts_with(known + "_")) message += " (the ending \"" + key.substr(known.size() + 1) + "\" is no unit of " + known + ")";
+      if (key.starts_with(known + "_"))
+        message += " (the ending \"" + shortened(key.substr(known.size() + 1)) + "\" is no unit of " + known + ")";
     }
     throw Error(ExitCode::usage, message);
   }
@@ -193,7 +195,7 @@ void reject_unread_in(const CaseNode& node) {
     for (const auto& child : list) {
       if (!read) {
         const std::string near = nearest_name(key, node.table_order);
-        throw Error(ExitCode::usage, place_of(child->file, child->line) + ": unknown section [" + child->name + "]" +
+        throw Error(ExitCode::usage, place_of(child->file, child->line) + ": unknown section [" + shortened(child->name) + "]" +
                                          (near.empty() ? "" : "; did you mean [" + near + "]?") +
                                          "; known sections: " + joined(node.table_order));
       }
@@ -323,7 +325,7 @@ CaseFile CaseFile::parse(const std::string& text, const std::string& name, const
     made.root_->line = 0;
   } catch (const toml::parse_error& failure) {
     throw Error(ExitCode::usage,
-                name + ":" + std::to_string(failure.source().begin.line) + ": no valid TOML: " + std::string(failure.description()));
+                name + ":" + std::to_string(failure.source().begin.line) + ": no valid TOML: " + shortened(failure.description()));
   }
   return made;
 }

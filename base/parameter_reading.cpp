@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/parameter_text.hpp"
+#include "base/quotation.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
 
@@ -31,7 +32,7 @@ class Reading {
     if (node.is_floating_point()) return toml_text(*node.value<double>());
     std::ostringstream out;
     node.visit([&](const auto& concrete) { out << concrete; });
-    return out.str();
+    return shortened(out.str());
   }
 
   double number(const toml::node& node) const {
@@ -66,7 +67,7 @@ class Reading {
     if (parameter_.choices.empty() || std::find(parameter_.choices.begin(), parameter_.choices.end(), word) != parameter_.choices.end())
       return;
     const std::string near = nearest_name(word, parameter_.choices);
-    throw wrong("\"" + word + "\"",
+    throw wrong("\"" + shortened(word) + "\"",
                 "it must be one of " + joined(parameter_.choices) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
 

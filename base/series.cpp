@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/quotation.hpp"
 #include "base/words.hpp"
 
 namespace snag {
@@ -18,7 +20,7 @@ namespace {
 
 std::string header_line(const std::vector<std::string>& columns) {
   std::string line;
-  for (const auto& column : columns) line += (line.empty() ? "" : ",") + column;
+  for (const auto& column : columns) line += (line.empty() ? "" : ",") + csv_field(column);
   return line;
 }
 
@@ -43,12 +45,12 @@ std::string for_each_record(const std::filesystem::path& file, Record record) {
   if (!in) throw Error(ExitCode::io, file.string() + ": cannot be read; is this the folder of a run?");
   std::string header, line;
   if (!std::getline(in, header) || in.eof()) return "";
-  const auto n_columns = split(header, ',').size();
+  const auto n_columns = csv_fields(header).size();
   for (std::size_t number = 2; std::getline(in, line) && !in.eof(); ++number) {
     const auto values = numbers(line, n_columns);
     if (!values)
-      throw Error(ExitCode::io, file.string() + ":" + std::to_string(number) + ": \"" + line + "\" is not " + std::to_string(n_columns) +
-                                    " numbers separated by commas; repair or remove the line");
+      throw Error(ExitCode::io, file.string() + ":" + std::to_string(number) + ": \"" + shortened(line) + "\" is not " +
+                                    std::to_string(n_columns) + " numbers separated by commas; repair or remove the line");
     record(line, *values);
   }
   return header;
@@ -59,8 +61,9 @@ std::string for_each_record(const std::filesystem::path& file, Record record) {
 Series::Series(const std::filesystem::path& file, std::vector<std::string> columns, bool resume, double from_time)
     : path_(file), columns_(std::move(columns)) {
   for (const auto& column : columns_)
-    if (column.empty() || column.find_first_of(",\n") != std::string::npos)
-      throw Error(ExitCode::io, file.string() + ": column name \"" + column + "\" is empty or holds a comma; choose another name");
+    if (column.empty() || column.find_first_of("\n\r") != std::string::npos)
+      throw Error(ExitCode::io,
+                  file.string() + ": column name \"" + shortened(column) + "\" is empty or has several lines; choose another name");
   const std::string header = header_line(columns_);
   std::string kept = header + "\n";
   const bool found_before = std::filesystem::exists(file);
@@ -122,7 +125,7 @@ SeriesTable read_series(const std::filesystem::path& file) {
   SeriesTable table;
   const std::string header =
       for_each_record(file, [&](const std::string&, const std::vector<double>& values) { records.push_back(values); });
-  if (!header.empty()) table.columns = split(header, ',');
+  if (!header.empty()) table.columns = csv_fields(header);
   table.values.resize(table.columns.size());
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     for (const auto& record : records) table.values[i].push_back(record[i]);

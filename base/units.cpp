@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/quotation.hpp"
 #include "base/words.hpp"
 
 namespace snag {
@@ -139,7 +140,7 @@ std::string suffix_of_unit(std::string_view unit) {
 double quantity(std::string_view text, std::string_view si_unit, const std::string& where) {
   const std::string_view body = trimmed(text);
   const auto fail = [&](const std::string& why) {
-    return Error(ExitCode::usage, where + ": \"" + std::string(text) + "\" " + why + "; write a number and a unit of " +
+    return Error(ExitCode::usage, where + ": \"" + shortened(text) + "\" " + why + "; write a number and a unit of " +
                                       std::string(si_unit) + ", for instance \"1 " + std::string(si_unit) + "\"");
   };
   double value = 0;
@@ -148,9 +149,9 @@ double quantity(std::string_view text, std::string_view si_unit, const std::stri
   if (code != std::errc() || !std::isfinite(value)) throw fail("is no number with a unit");
   const std::string_view unit_text = trimmed(body.substr(end - body.data()));
   const auto unit = parse_unit(unit_text);
-  if (!unit) throw fail("has the unknown unit \"" + std::string(unit_text) + "\"");
+  if (!unit) throw fail("has the unknown unit \"" + shortened(unit_text) + "\"");
   if (unit->exponents != parse_unit(si_unit)->exponents || (unit_text.empty() && si_unit != "1"))
-    throw fail("has the wrong unit \"" + std::string(unit_text) + "\"");
+    throw fail("has the wrong unit \"" + shortened(unit_text) + "\"");
   return value * unit->factor;
 }
 

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/quotation.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
@@ -35,7 +38,7 @@ template <class Number>
 Number number(const std::string& text, const std::filesystem::path& file) {
   Number value{};
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size()) fail(file, "\"" + text + "\" is no number");
+  if (failure != std::errc() || end != text.data() + text.size()) fail(file, "\"" + shortened(text) + "\" is no number");
   return value;
 }
 
@@ -50,6 +53,8 @@ std::vector<std::string_view> elements(std::string_view part, const std::string&
   }
   return found;
 }
+
+constexpr std::uint64_t largest_ratio = 1032;  // of sizes before and after compression, https://www.zlib.net/zlib_tech.html
 
 class Reader {
  public:
@@ -82,7 +87,7 @@ class Reader {
     else if (type == "Int64")
       append<std::int64_t>(raw, array.values);
     else
-      fail(file_, "array \"" + array.name + "\" is of type \"" + type + "\", which Snag does not write");
+      fail(file_, "array \"" + shortened(array.name) + "\" is of type \"" + shortened(type) + "\", which Snag does not write");
     return array;
   }
 
@@ -105,7 +110,8 @@ class Reader {
   }
 
   std::uint64_t word(std::uint64_t at) const {
-    if (at + sizeof(std::uint64_t) > bytes_.size()) fail(file_, "ends within an array; was the run cut while it wrote?");
+    if (at > bytes_.size() || bytes_.size() - at < sizeof(std::uint64_t))
+      fail(file_, "ends within an array; was the run cut while it wrote?");
     std::uint64_t value;
     std::memcpy(&value, bytes_.data() + at, sizeof value);
     return value;
@@ -113,15 +119,17 @@ class Reader {
 
   std::string inflated(std::uint64_t offset) const {
     const std::uint64_t n_blocks = word(offset), size = word(offset + 8), last = word(offset + 16);
+    if (n_blocks > bytes_.size() / 8) fail(file_, "an array of " + std::to_string(n_blocks) + " blocks does not fit into the file");
     std::string raw;
     std::uint64_t at = offset + 8 * (3 + n_blocks);
     for (std::uint64_t b = 0; b < n_blocks; ++b) {
       const std::uint64_t compressed = word(offset + 8 * (3 + b));
       uLongf length = b + 1 == n_blocks && last > 0 ? last : size;
       const auto begin = raw.size();
-      raw.resize(begin + length);
-      if (at + compressed > bytes_.size() || uncompress(reinterpret_cast<Bytef*>(&raw[begin]), &length,
-                                                        reinterpret_cast<const Bytef*>(bytes_.data() + at), compressed) != Z_OK)
+      const bool fits = at <= bytes_.size() && compressed <= bytes_.size() - at && length / largest_ratio <= compressed;
+      if (fits) raw.resize(begin + length);
+      if (!fits || uncompress(reinterpret_cast<Bytef*>(&raw[begin]), &length, reinterpret_cast<const Bytef*>(bytes_.data() + at),
+                              compressed) != Z_OK)
         fail(file_, "block " + std::to_string(b) + " of an array cannot be unpacked");
       at += compressed;
     }
@@ -133,7 +141,29 @@ class Reader {
   std::string_view header_, bytes_;
 };
 
-std::vector<std::int64_t> whole(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+std::vector<std::int64_t> whole(const std::vector<double>& values, const std::filesystem::path& file) {
+  constexpr double largest = 9007199254740992;  // 2^53, up to which a double counts
+  for (const double value : values)
+    if (!(std::abs(value) <= largest)) fail(file, "a polygon has the number " + words(value) + ", which is none of a point");
+  return {values.begin(), values.end()};
+}
+
+/// Polygon i ends behind offsets[i] of the connectivity.
+void require_offsets(const VtkPiece& piece, const std::filesystem::path& file) {
+  std::int64_t before = 0;
+  for (const std::int64_t offset : piece.offsets) {
+    if (offset < before || offset > static_cast<std::int64_t>(piece.connectivity.size()))
+      fail(file, "a polygon ends at " + std::to_string(offset) + " of " + std::to_string(piece.connectivity.size()) + " corners");
+    before = offset;
+  }
+}
+
+void require_sizes(const VtkPiece& piece, const std::filesystem::path& file) {
+  for (const VtkArray& array : piece.point_arrays)
+    if (array.components < 1 || array.values.size() != piece.points.size() * static_cast<std::size_t>(array.components))
+      fail(file, "array \"" + shortened(array.name) + "\" has " + std::to_string(array.values.size()) + " values of " +
+                     std::to_string(array.components) + " components for " + std::to_string(piece.points.size()) + " points");
+}
 
 }  // namespace
 
@@ -144,8 +174,10 @@ VtkPiece read_polygons(const std::filesystem::path& file) {
   if (points.size() != 1 || polygons.size() != 2) fail(file, "has no points and polygons");
   const std::vector<double>& x = points[0].values;
   for (std::size_t i = 0; i + 2 < x.size(); i += 3) piece.points.push_back({x[i], x[i + 1], x[i + 2]});
-  piece.connectivity = whole(polygons[0].values), piece.offsets = whole(polygons[1].values);
+  piece.connectivity = whole(polygons[0].values, file), piece.offsets = whole(polygons[1].values, file);
   piece.point_arrays = reader.arrays("PointData");
+  require_offsets(piece, file);
+  require_sizes(piece, file);
   for (const std::int64_t node : piece.connectivity)
     if (node < 0 || node >= static_cast<std::int64_t>(piece.points.size()))
       fail(file, "a polygon names point " + std::to_string(node) + " of " + std::to_string(piece.points.size()));

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/words.hpp"
 #include "dem/passport.hpp"
 #include "dem/poses/folded.hpp"
@@ -26,17 +27,21 @@ const Passport& published_passport() {
   return passport;
 }
 
-// Beyond this many particles the counts of a lattice no longer fit, nor does its memory.
-constexpr double most_particles = 2e8;
+/// Of one piece: beyond it the counts of a lattice no longer fit, nor does its memory.
+double most_particles() {
+  constexpr double by_counts = 2e8, bytes_per_particle = 2e3;
+  return std::min(by_counts, physical_memory() / bytes_per_particle);
+}
 
 void check_size(const RagSettings& s, const std::string& where) {
   double n = 1;
   if (s.shape == Shape::rag) n = s.length * s.width / (4 * s.radius * s.radius);
   if (s.shape == Shape::disc) n = s.diameter * s.diameter / (4 * s.radius * s.radius);
   if (s.shape == Shape::fibre) n = s.n_points > 0 ? s.n_points : s.length / (2 * s.radius);
-  if (n > most_particles)
-    throw Error(ExitCode::usage, where + ": is a lattice of " + words(n) + " particles, must be at most " + words(most_particles) +
-                                     "; give a larger radius or a smaller piece");
+  if (n > most_particles())
+    throw Error(ExitCode::usage, where + ": is a lattice of " + words(n) + " particles of radius " + words(s.radius) +
+                                     " m, must be at most " + words(most_particles()) + " in the " + words(physical_memory() / 1e9) +
+                                     " GB of this machine; give a larger radius or a smaller piece");
 }
 
 int whole_particles(double length, double radius) { return std::max(1, static_cast<int>(std::lround(length / (2 * radius)))); }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/quotation.hpp"
 #include "base/sha256.hpp"
 #include "base/words.hpp"
 
@@ -81,9 +82,9 @@ class Reading {
       std::size_t k = 0;
       while (k < known.size() && known[k] != field) ++k;
       if (k == known.size())
-        throw wrong("unknown column \"" + columns_.back() +
+        throw wrong("unknown column \"" + shortened(columns_.back()) +
                     "\"; the columns are point,replicate,t_s,observable,value and perhaps censored, n, sd");
-      if (column_[k] >= 0) throw wrong("the column \"" + columns_.back() + "\" stands twice");
+      if (column_[k] >= 0) throw wrong("the column \"" + shortened(columns_.back()) + "\" stands twice");
       column_[k] = static_cast<int>(columns_.size()) - 1;
     }
     for (int k = 0; k < 5; ++k)
@@ -98,7 +99,7 @@ class Reading {
     std::vector<std::string> known;
     for (const auto& [name, i] : names) known.push_back(name);
     const std::string near = nearest_name(text, known);
-    throw wrong("unknown " + what + " \"" + std::string(text) + "\"" + (near.empty() ? "" : "; did you mean \"" + near + "\"?") +
+    throw wrong("unknown " + what + " \"" + shortened(text) + "\"" + (near.empty() ? "" : "; did you mean \"" + near + "\"?") +
                 "; DIAGNOSIS.toml has " + joined(known));
   }
 
@@ -109,24 +110,24 @@ class Reading {
     d.point = index(points_, field(0), "point");
     d.observable = index(observables_, field(3), "observable");
     const auto replicate = number<int>(field(1));
-    if (!replicate || *replicate < 0) throw wrong("replicate \"" + std::string(field(1)) + "\" must be a whole number, 0 or more");
+    if (!replicate || *replicate < 0) throw wrong("replicate \"" + shortened(field(1)) + "\" must be a whole number, 0 or more");
     d.replicate = *replicate;
     if (!field(2).empty()) {
       const auto time = number<double>(field(2));
       if (!time || !std::isfinite(*time))
-        throw wrong("t_s \"" + std::string(field(2)) + "\" must be a finite number of seconds, or empty for a scalar of the replicate");
+        throw wrong("t_s \"" + shortened(field(2)) + "\" must be a finite number of seconds, or empty for a scalar of the replicate");
       d.time = *time;
     }
     const auto value = number<double>(field(4));
     if (!value || !std::isfinite(*value))
-      throw wrong("value \"" + std::string(field(4)) + "\" of " + std::string(field(3)) +
+      throw wrong("value \"" + shortened(field(4)) + "\" of " + shortened(field(3)) +
                   " must be a finite number; leave out rows without one");
     d.value = *value;
     const std::string_view censored = field(5);
     if (censored == "1" || censored == "true")
       d.censored = true;
     else if (!censored.empty() && censored != "0" && censored != "false")
-      throw wrong("censored \"" + std::string(censored) + "\" must be 0 or 1");
+      throw wrong("censored \"" + shortened(censored) + "\" must be 0 or 1");
     return d;
   }
 
@@ -134,13 +135,13 @@ class Reading {
     if (!field(6).empty()) {
       constexpr int most = 1000000;
       const auto n = number<int>(field(6));
-      if (!n || *n < 1 || *n > most) throw wrong("n \"" + std::string(field(6)) + "\" must be a whole number of repeats, 1 to a million");
+      if (!n || *n < 1 || *n > most) throw wrong("n \"" + shortened(field(6)) + "\" must be a whole number of repeats, 1 to a million");
       row.n = *n;
     }
     if (field(7).empty()) return;
     const auto sd = number<double>(field(7));
     if (!sd || !std::isfinite(*sd) || *sd < 0)
-      throw wrong("sd \"" + std::string(field(7)) + "\" must be a standard deviation between repeats, 0 or more");
+      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 or more");
     if (row.n == 1) throw wrong("sd is given for one repeat, which has none; give their number n, or leave sd empty");
     row.sd = *sd;
   }

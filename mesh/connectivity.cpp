@@ -62,6 +62,15 @@ std::vector<Side> grouped(const std::vector<Side>& sides, std::size_t n_nodes) {
   return result;
 }
 
+/// Sides of the same face together.
+template <class Act>
+void for_each_group(const std::vector<Side>& sides, const Act& act) {
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].key == sides[begin].key) ++end;
+    act(std::span(sides).subspan(begin, end - begin));
+  }
+}
+
 /// Nodes of a face of a cell, out of the cell, from the node of lowest node_id.
 void take_nodes(const MeshParts& parts, int cell, int index, LocalFace& face) {
   const auto nodes = row(parts.cell_start, parts.cell_node, cell);
@@ -81,16 +90,18 @@ Vec3 middle(const MeshParts& parts, const std::array<int, 4>& key) {
   return total / n;
 }
 
+[[noreturn]] void throw_overlap(const MeshParts& parts, const Side& side, std::ptrdiff_t n_cells) {
+  throw Error(ExitCode::mesh, parts.source + ": a face at " + place(middle(parts, side.key)) + " belongs to " + std::to_string(n_cells) +
+                                  " cells, at most two may share it; mesh the volumes without overlap and without duplicate cells");
+}
+
 /// The face of one group of sides: cells in rising order behind the named faces. Owner -1 if no owned cell has it.
 LocalFace face_of(const MeshParts& parts, std::span<const Side> group) {
   const auto first_cell = std::find_if(group.begin(), group.end(), [](const Side& side) { return side.cell >= 0; });
   const auto n_cells = group.end() - first_cell;
   LocalFace face;
   if (n_cells == 0 || first_cell->cell >= parts.n_owned) return face;  // of ghosts only, or a name without a cell here
-  if (n_cells > 2)
-    throw Error(ExitCode::mesh, parts.source + ": a face at " + place(middle(parts, group[0].key)) + " belongs to " +
-                                    std::to_string(n_cells) +
-                                    " cells, at most two may share it; mesh the volumes without overlap and without duplicate cells");
+  if (n_cells > 2) throw_overlap(parts, group[0], n_cells);
   Side owner = *first_cell;
   if (n_cells == 2) {
     Side neighbour = first_cell[1];
@@ -108,6 +119,43 @@ LocalFace face_of(const MeshParts& parts, std::span<const Side> group) {
   return face;
 }
 
+void require_distinct_nodes(const MeshParts& parts) {
+  for (int c = 0; c < static_cast<int>(parts.shape.size()); ++c) {
+    const auto nodes = row(parts.cell_start, parts.cell_node, c);
+    std::vector<int> sorted(nodes.begin(), nodes.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice == sorted.end()) continue;
+    throw Error(ExitCode::mesh, parts.source + ": cell " + std::to_string(c + 1) + " of the file has the node at " +
+                                    place(parts.node[*twice]) + " twice, all corners of a cell must differ; mesh that volume again");
+  }
+}
+
+/// The node opposite to the first of the key: two quadrilaterals of the same nodes have the same cycle, either way round, if it agrees.
+int opposite_node(const MeshParts& parts, const Side& side) {
+  LocalFace face;
+  take_nodes(parts, side.cell, side.index, face);
+  const auto at = std::find(face.node.begin(), face.node.end(), side.key[0]) - face.node.begin();
+  return face.node[(at + 2) % 4];
+}
+
+void require_fitting_sides(const MeshParts& parts, std::span<const Side> group) {
+  const auto first_cell = std::find_if(group.begin(), group.end(), [](const Side& side) { return side.cell >= 0; });
+  const auto n_cells = group.end() - first_cell;
+  const Side& side = group[0];
+  if (n_cells == 0)
+    throw Error(ExitCode::mesh,
+                parts.source + ": a face of the surface \"" + parts.patches[side.index] + "\" at " + place(middle(parts, side.key)) +
+                    " is no face of a cell, it must be one; a cell is missing there or has its corners in a wrong order: mesh "
+                    "surfaces and volumes together");
+  if (n_cells > 2) throw_overlap(parts, side, n_cells);
+  if (n_cells == 2 && side.key[3] != none && opposite_node(parts, first_cell[0]) != opposite_node(parts, first_cell[1]))
+    throw Error(ExitCode::mesh,
+                parts.source + ": the face between cells " + std::to_string(first_cell[0].cell + 1) + " and " +
+                    std::to_string(first_cell[1].cell + 1) + " of the file at " + place(middle(parts, side.key)) +
+                    " has its corners in another cycle in each; one of the cells is twisted: write its corners in gmsh's order");
+}
+
 void require_names(const MeshParts& parts, const std::vector<LocalFace>& faces) {
   std::size_t n_unnamed = 0;
   const LocalFace* first = nullptr;
@@ -123,16 +171,20 @@ void require_names(const MeshParts& parts, const std::vector<LocalFace>& faces) 
 
 }  // namespace
 
+void require_fitting_cells(const MeshParts& parts) {
+  require_distinct_nodes(parts);
+  for_each_group(grouped(sides_of(parts), parts.node.size()), [&](std::span<const Side> group) { require_fitting_sides(parts, group); });
+}
+
 std::vector<LocalFace> connect(const MeshParts& parts) {
   std::vector<LocalFace> faces;
   together(parts.comm, [&] {
     const auto sides = grouped(sides_of(parts), parts.node.size());
     faces.reserve(sides.size() / 2);
-    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-      while (end < sides.size() && sides[end].key == sides[begin].key) ++end;
-      const LocalFace face = face_of(parts, std::span(sides).subspan(begin, end - begin));
+    for_each_group(sides, [&](std::span<const Side> group) {
+      const LocalFace face = face_of(parts, group);
       if (face.owner >= 0) faces.push_back(face);
-    }
+    });
     require_names(parts, faces);
   });
   return faces;

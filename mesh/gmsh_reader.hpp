@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -12,31 +11,16 @@
 
 namespace snag {
 
-/// Walks through the bytes of a file; every read past the end, or of something that is no number, is an Error(io).
+/// Walks through the bytes of a file; every read past the end, or of something that is no number, is an Error(io) with its place.
 class GmshReader {
  public:
-  explicit GmshReader(const std::filesystem::path& file) : name_(file.string()) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    if (!stream || !std::filesystem::is_regular_file(file))
-      throw Error(ExitCode::io, name_ + ": the mesh file cannot be opened; check the path and its permissions");
-    const auto size = stream.tellg();
-    text_.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    stream.seekg(0);
-    if (!stream.read(text_.data(), static_cast<std::streamsize>(text_.size())) || text_.empty())
-      throw Error(ExitCode::io, name_ + ": the mesh file cannot be read or is empty; check the path, it must be a gmsh .msh file");
-  }
+  /// Throws Error(io) for what is no file, Error(mesh) for a file of another format.
+  explicit GmshReader(const std::filesystem::path& file);
 
   /// Goes behind the line "$name"; false if there is none.
-  bool enter(const std::string& name) {
-    const std::size_t found = text_.find("$" + name, at_);
-    if (found == std::string::npos) return false;
-    at_ = found + name.size() + 1;
-    skip_line();
-    return true;
-  }
-  void expect(const std::string& name) {
-    if (!enter(name)) throw_damaged("section $" + name + " is missing");
-  }
+  bool enter(const std::string& name);
+  /// The same; throws Error(io) if there is none.
+  void expect(const std::string& name);
   std::string_view line() {
     const std::size_t begin = at_;
     skip_line();
@@ -47,6 +31,9 @@ class GmshReader {
   int integer() { return is_binary_ ? value<int>() : number<int>(); }
   std::int64_t size() { return is_binary_ ? value<std::int64_t>() : number<std::int64_t>(); }
   double real() { return is_binary_ ? value<double>() : number<double>(); }
+  /// A number of things that follow: an Error(io) if it is negative.
+  std::int64_t count(const char* what) { return checked_count(size(), what); }
+  std::int64_t checked_count(std::int64_t n, const char* what) const;
   bool is_binary() const { return is_binary_; }
 
   /// Next number of text.
@@ -55,7 +42,7 @@ class GmshReader {
     while (at_ < text_.size() && static_cast<unsigned char>(text_[at_]) <= ' ') ++at_;
     Number value{};
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc()) throw_damaged("a number is expected at byte " + std::to_string(at_));
+    if (error != std::errc()) throw_no_number(error == std::errc::result_out_of_range);
     at_ = static_cast<std::size_t>(end - text_.data());
     return value;
   }
@@ -63,9 +50,7 @@ class GmshReader {
     const std::size_t end = text_.find('\n', at_);
     at_ = end == std::string::npos ? text_.size() : end + 1;
   }
-  [[noreturn]] void throw_damaged(const std::string& what) const {
-    throw Error(ExitCode::io, name_ + ": not a sound gmsh mesh (" + what + "); write the mesh again, as MSH 2.2 or 4.1");
-  }
+  [[noreturn]] void throw_damaged(const std::string& what) const;
   const std::string& name() const { return name_; }
 
  private:
@@ -77,8 +62,10 @@ class GmshReader {
     at_ += sizeof(Value);
     return result;
   }
+  [[noreturn]] void throw_no_number(bool is_too_large) const;
+  std::string where() const;
 
-  std::string name_, text_;
+  std::string name_, section_, text_;
   std::size_t at_ = 0;
   bool is_binary_ = false;
 };

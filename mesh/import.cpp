@@ -1,35 +1,23 @@
-// gmsh file -> DMPlex on rank 0 -> PTScotch -> one layer of ghosts across faces -> MeshParts -> Mesh. The DMPlex lives only here.
-//
-// What PETSc 3.18 needs or would get wrong:
-//   hybrid 0     otherwise prisms beside tetrahedra get another order of nodes
-//   periodic 0   otherwise coordinates of joined ends do not close the cells; Snag joins periodic patches itself
-//   no regions   labels by name would also collect the *elementary* tags of MSH 2.2 files; the first tag of "Cell Sets" and "Face Sets"
-//                is the physical one
-//   cells        are numbered tetrahedra, hexahedra, prisms, pyramids, each in the order of the file: the outline gives back the file's
-//                numbers
+// gmsh file -> cells on rank 0 -> DMPlex -> PTScotch -> one layer of ghosts across faces -> MeshParts -> Mesh. The DMPlex lives only here
+// and in mesh/plex.hpp.
 #include "mesh/import.hpp"
 
 #include <petscdmplex.h>
 #include <petscsf.h>
 
 #include <algorithm>
-#include <map>
 
 #include "base/error.hpp"
-#include "mesh/gmsh_outline.hpp"
+#include "base/words.hpp"
+#include "mesh/gmsh_file.hpp"
 #include "mesh/partition.hpp"
 #include "mesh/parts.hpp"
+#include "mesh/plex.hpp"
 #include "mesh/shapes.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
 namespace {
-
-/// Names of the file, the same on every rank.
-struct Names {
-  std::vector<std::string> zones, patches;  // sorted
-  std::map<int, int> zone_of_tag, patch_of_tag;
-};
 
 /// Closes a DM when it goes out of scope.
 struct Plex {
@@ -57,56 +45,17 @@ Range vertices_of(DM dm) {
   return range;
 }
 
-/// Names by tag, from rank 0 to all.
-std::map<int, std::string> shared_names(MPI_Comm comm, const std::map<int, std::string>& names) {
+/// A list of words, from rank 0 to all.
+std::vector<std::string> shared_words(MPI_Comm comm, const std::vector<std::string>& words) {
   std::string packed;
-  for (const auto& [tag, name] : names) packed.append(std::to_string(tag)).append(" ").append(name).append("\n");
-  auto length = static_cast<std::int64_t>(packed.size());
-  MPI_Bcast(&length, 1, MPI_INT64_T, 0, comm);
+  for (const std::string& word : words) packed.append(word).append("\n");
+  auto length = static_cast<int>(packed.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
   packed.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(packed.data(), static_cast<int>(length), MPI_CHAR, 0, comm);
-  std::map<int, std::string> result;
-  for (std::size_t at = 0; at < packed.size();) {
-    const std::size_t space = packed.find(' ', at), end = packed.find('\n', at);
-    result[std::stoi(packed.substr(at, space - at))] = packed.substr(space + 1, end - space - 1);
-    at = end + 1;
-  }
+  MPI_Bcast(packed.data(), length, MPI_CHAR, 0, comm);
+  std::vector<std::string> result = split(packed, '\n');
+  result.pop_back();
   return result;
-}
-
-/// Sorted names without repetition, and where each tag's name is among them.
-std::map<int, int> sorted_names(const std::map<int, std::string>& name_of_tag, std::vector<std::string>& names) {
-  for (const auto& [tag, name] : name_of_tag) names.push_back(name);
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  std::map<int, int> index;
-  for (const auto& [tag, name] : name_of_tag)
-    index[tag] = static_cast<int>(std::lower_bound(names.begin(), names.end(), name) - names.begin());
-  return index;
-}
-
-Names names_of(MPI_Comm comm, const GmshOutline& outline) {
-  Names names;
-  names.zone_of_tag = sorted_names(shared_names(comm, outline.volumes), names.zones);
-  names.patch_of_tag = sorted_names(shared_names(comm, outline.surfaces), names.patches);
-  return names;
-}
-
-/// Number in the file of every cell of rank 0's DMPlex.
-std::vector<PetscInt> file_numbers(const GmshOutline& outline) {
-  std::map<CellShape, PetscInt> total;
-  for (const auto& [shape, count] : outline.cells) total[shape] += count;
-  std::map<CellShape, PetscInt> next;
-  PetscInt begin = 0;
-  for (const CellShape shape : {CellShape::tetrahedron, CellShape::hexahedron, CellShape::prism, CellShape::pyramid}) {
-    next[shape] = begin;
-    begin += total[shape];
-  }
-  std::vector<PetscInt> number(static_cast<std::size_t>(begin));
-  PetscInt in_file = 0;
-  for (const auto& [shape, count] : outline.cells)
-    for (int i = 0; i < count; ++i) number[next[shape]++] = in_file++;
-  return number;
 }
 
 /// Rank of every cell of the file, by the graph of cells that share a face; all cells are on rank 0. Collective; empty on the other ranks.
@@ -192,7 +141,7 @@ class Closure {
   PetscInt* points_ = nullptr;
 };
 
-void take_nodes(const Plex& plex, const std::vector<PetscInt>& origin, double scale, MeshParts& parts) {
+void take_nodes(const Plex& plex, const std::vector<PetscInt>& origin, MeshParts& parts) {
   Vec coordinates = nullptr;
   PetscSection section = nullptr;
   const PetscScalar* x = nullptr;
@@ -203,7 +152,7 @@ void take_nodes(const Plex& plex, const std::vector<PetscInt>& origin, double sc
   for (PetscInt v = vertices.begin; v < vertices.end; ++v) {
     PetscInt offset = 0;
     PetscSectionGetOffset(section, v, &offset);
-    parts.node.push_back(scale * Vec3{x[offset], x[offset + 1], x[offset + 2]});
+    parts.node.push_back({x[offset], x[offset + 1], x[offset + 2]});
     parts.node_id.push_back(origin[v]);
   }
   VecRestoreArrayRead(coordinates, &x);
@@ -224,7 +173,7 @@ void take_cell(const Plex& plex, PetscInt cell, Closure& closure, MeshParts& par
 }
 
 /// Cells, owned first: what the point SF does not name as a copy is owned.
-void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, const Names& names, MeshParts& parts) {
+void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, MeshParts& parts) {
   const Range cells = cells_of(plex.dm);
   PetscSF shared = nullptr;
   PetscInt n_roots = 0, n_leaves = 0, chart_end = 0;
@@ -238,7 +187,7 @@ void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, const Nam
 
   std::vector<PetscInt> position(static_cast<std::size_t>(chart_end), -1);
   DMLabel zones = nullptr;
-  check_petsc(DMGetLabel(plex.dm, "Cell Sets", &zones), "DMGetLabel");
+  check_petsc(DMGetLabel(plex.dm, zone_label, &zones), "DMGetLabel");
   Closure closure(plex.dm);
   for (const bool ghosts : {false, true}) {
     for (PetscInt c = cells.begin; c < cells.end; ++c) {
@@ -246,10 +195,9 @@ void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, const Nam
       if (!ghosts) position[c] = static_cast<PetscInt>(parts.cell_id.size());
       take_cell(plex, c, closure, parts);
       parts.cell_id.push_back(origin[c]);
-      PetscInt tag = -1;
-      if (zones) DMLabelGetValue(zones, c, &tag);
-      const auto zone = names.zone_of_tag.find(static_cast<int>(tag));
-      parts.zone.push_back(zone == names.zone_of_tag.end() ? -1 : zone->second);
+      PetscInt zone = -1;
+      if (zones) DMLabelGetValue(zones, c, &zone);
+      parts.zone.push_back(static_cast<int>(zone));
       if (ghosts) parts.ghost_rank.push_back(rank[c]), parts.ghost_index.push_back(static_cast<int>(c));
     }
     if (!ghosts) parts.n_owned = static_cast<int>(parts.cell_id.size());
@@ -261,18 +209,18 @@ void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, const Nam
   for (int& index : parts.ghost_index) index = static_cast<int>(at_owner[index]);
 }
 
-void take_boundary(const Plex& plex, const Names& names, MeshParts& parts) {
+void take_boundary(const Plex& plex, MeshParts& parts) {
   DMLabel label = nullptr;
-  check_petsc(DMGetLabel(plex.dm, "Face Sets", &label), "DMGetLabel");
+  check_petsc(DMGetLabel(plex.dm, patch_label, &label), "DMGetLabel");
   if (!label) return;
   Closure closure(plex.dm);
   std::array<PetscInt, 8> plex_node{};
   std::array<int, 8> node{};
-  for (const auto& [tag, patch] : names.patch_of_tag) {
+  for (int patch = 0; patch < static_cast<int>(parts.patches.size()); ++patch) {
     IS stratum = nullptr;
     PetscInt n_faces = 0;
     const PetscInt* faces = nullptr;
-    check_petsc(DMLabelGetStratumIS(label, tag, &stratum), "DMLabelGetStratumIS");
+    check_petsc(DMLabelGetStratumIS(label, patch, &stratum), "DMLabelGetStratumIS");
     if (!stratum) continue;
     ISGetLocalSize(stratum, &n_faces), ISGetIndices(stratum, &faces);
     for (PetscInt i = 0; i < n_faces; ++i) {
@@ -304,16 +252,16 @@ void require_partition(const std::vector<int>& partition, std::int64_t n_cells, 
                                     std::to_string(size) + " ranks are needed; import without it");
 }
 
-/// Reads on rank 0; the outline stays empty elsewhere.
-void read(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options, Plex& plex, GmshOutline& outline) {
+/// The whole mesh on rank 0, empty elsewhere but for the names.
+MeshParts read(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options) {
+  MeshParts whole;
   together(comm, [&] {
     if (rank_of(comm) != 0) return;
-    outline = gmsh_outline(file);
-    if (options.partition) require_partition(*options.partition, outline.n_cells(), size_of(comm), file.string());
+    whole = read_gmsh(file, options.scale);
+    if (options.partition) require_partition(*options.partition, whole.n_owned, size_of(comm), file.string());
   });
-  for (const char* option : {"-dm_plex_gmsh_hybrid", "-dm_plex_gmsh_periodic", "-dm_plex_gmsh_use_regions"})
-    check_petsc(PetscOptionsSetValue(nullptr, option, "0"), "PetscOptionsSetValue");
-  check_petsc(DMPlexCreateFromFile(comm, file.c_str(), "mesh", PETSC_TRUE, &plex.dm), "DMPlexCreateFromFile");
+  whole.zones = shared_words(comm, whole.zones), whole.patches = shared_words(comm, whole.patches);
+  return whole;
 }
 
 }  // namespace
@@ -325,17 +273,19 @@ Mesh import_gmsh(const std::filesystem::path& file, MPI_Comm comm, const ImportO
   parts.periodic = options.periodic;
   {
     Plex plex;
-    GmshOutline outline;
-    read(file, comm, options, plex, outline);
-    const Names names = names_of(comm, outline);
-    parts.zones = names.zones, parts.patches = names.patches;
-    const std::vector<PetscInt> number = file_numbers(outline);
+    std::vector<PetscInt> number;
+    {
+      const MeshParts whole = read(file, comm, options);
+      parts.zones = whole.zones, parts.patches = whole.patches;
+      number = plex_order(whole);
+      plex.dm = plex_of(whole, number, comm);
+    }
     const Range cells = cells_of(plex.dm), vertices = vertices_of(plex.dm);
     distribute(comm, plex, options, number);
     const std::vector<PetscInt> origin = origins(plex, cells, vertices, number);
-    take_nodes(plex, origin, options.scale, parts);
-    take_cells(plex, origin, names, parts);
-    take_boundary(plex, names, parts);
+    take_nodes(plex, origin, parts);
+    take_cells(plex, origin, parts);
+    take_boundary(plex, parts);
   }
   require_zones(parts);
   return build_mesh(std::move(parts));

@@ -23,7 +23,11 @@ bool is_picture(const std::filesystem::path& file) {
 }  // namespace
 
 GreyPicture read_picture(const std::filesystem::path& file) {
-  const cv::Mat read = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  cv::Mat read;
+  try {
+    if (std::filesystem::is_regular_file(file)) read = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
+  } catch (const cv::Exception&) {  // a width or height beyond what OpenCV takes
+  }
   if (read.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read as a picture; give PNG, JPEG, TIFF, BMP or PGM");
   GreyPicture picture{read.cols, read.rows, {}};
   for (int row = 0; row < read.rows; ++row) picture.level.insert(picture.level.end(), read.ptr(row), read.ptr(row) + read.cols);

@@ -6,7 +6,9 @@
 #include <map>
 
 #include "base/atomic_file.hpp"
+#include "base/csv.hpp"
 #include "base/error.hpp"
+#include "base/quotation.hpp"
 #include "base/words.hpp"
 #include "observe/repeats.hpp"
 
@@ -20,7 +22,7 @@ std::string trimmed(const std::string& text) {
 }
 
 std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields = split(line, ',');
+  std::vector<std::string> fields = csv_fields(line);
   for (std::string& field : fields) field = trimmed(field);
   return fields;
 }
@@ -57,11 +59,11 @@ class Reading {
     columns_ = fields;
     for (const std::string& column : columns_) {
       if (column.empty()) refuse("a column has no name");
-      if (std::count(columns_.begin(), columns_.end(), column) > 1) refuse("the column \"" + column + "\" stands twice");
+      if (std::count(columns_.begin(), columns_.end(), column) > 1) refuse("the column \"" + shortened(column) + "\" stands twice");
       if (column == "group" || column == "rag") continue;
       repeats_.quantities.push_back(quantity_of(column));
       if (repeats_.quantities.back().is_axis() && repeats_.quantities.back().unit != "deg")
-        refuse("the column \"" + column + "\" must be in degrees; write orientation [deg]");
+        refuse("the column \"" + shortened(column) + "\" must be in degrees; write orientation [deg]");
     }
     if (std::find(columns_.begin(), columns_.end(), "group") == columns_.end())
       refuse("there is no column \"group\" (" + joined(columns_) + "); name the operating point of each row");
@@ -88,7 +90,7 @@ class Reading {
     double number = 0;
     const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), number);
     if (code != std::errc() || end != field.data() + field.size() || !std::isfinite(number))
-      refuse(column + " \"" + field + "\" must be a finite number; leave out rows without one");
+      refuse(shortened(column) + " \"" + shortened(field) + "\" must be a finite number; leave out rows without one");
     return number;
   }
 
@@ -131,8 +133,9 @@ std::string groups_csv(const std::vector<GroupComparison>& comparisons, const Re
   std::string text = "quantity,unit,group,mean,sigma,n,n_eff\n";
   for (const GroupComparison& c : comparisons)
     for (std::size_t g = 0; g < c.groups.size(); ++g)
-      text += c.quantity.name + "," + c.quantity.unit + "," + repeats.groups[g] + "," + number(c.groups[g].values.mean) + "," +
-              number(c.groups[g].values.sigma) + "," + number(c.groups[g].n) + "," + number(c.groups[g].n_independent) + "\n";
+      text += csv_field(c.quantity.name) + "," + csv_field(c.quantity.unit) + "," + csv_field(repeats.groups[g]) + "," +
+              number(c.groups[g].values.mean) + "," + number(c.groups[g].values.sigma) + "," + number(c.groups[g].n) + "," +
+              number(c.groups[g].n_independent) + "\n";
   return text;
 }
 
@@ -140,8 +143,8 @@ std::string anova_csv(const std::vector<GroupComparison>& comparisons) {
   std::string text = "quantity,F,p,F_eff,p_eff,dependence,correlation\n";
   for (const GroupComparison& c : comparisons) {
     const Anova eff = c.by_independent.value_or(Anova{std::nan(""), std::nan("")});
-    text += c.quantity.name + "," + number(c.by_count.F) + "," + number(c.by_count.p) + "," + number(eff.F) + "," + number(eff.p) + "," +
-            name(c.dependence) + "," + number(c.correlation) + "\n";
+    text += csv_field(c.quantity.name) + "," + number(c.by_count.F) + "," + number(c.by_count.p) + "," + number(eff.F) + "," +
+            number(eff.p) + "," + name(c.dependence) + "," + number(c.correlation) + "\n";
   }
   return text;
 }

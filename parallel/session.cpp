@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "base/error.hpp"
+#include "base/explained.hpp"
 
 namespace snag {
 
@@ -43,10 +43,8 @@ void together(MPI_Comm comm, const std::function<void()>& work) {
   std::optional<Error> caught;
   try {
     work();
-  } catch (const Error& error) {
-    caught = error;
   } catch (const std::exception& error) {
-    caught = Error(ExitCode::io, std::string("unexpected: ") + error.what());
+    caught = explained(error);
   }
   const int mine = caught ? rank : size;
   int failing = size;

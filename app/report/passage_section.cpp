@@ -40,7 +40,7 @@ std::string brief_percent(double value) {
 std::string name_of(const RagPassage& passage, bool is_alone) {
   if (is_alone) return "The rag";
   const auto& name = passage.summary;
-  return name.is_object() && name.contains("name") && name["name"].is_string() ? name["name"].get<std::string>()
+  return name.is_object() && name.contains("name") && name["name"].is_string() ? escaped(name["name"].get<std::string>())
                                                                                : "Rag number " + std::to_string(passage.id);
 }
 

@@ -30,6 +30,27 @@ std::vector<Picture> listed(const std::filesystem::path& folder, const char* lis
   return pictures;
 }
 
+/// The results may be a stranger's: python reads no module and no start-up file of theirs (-I), nor does a program that looks into its
+/// working directory.
+std::vector<std::string> drawing_command(const std::filesystem::path& dir, const std::filesystem::path& folder, const char* limit) {
+  const auto absolute = [](const std::filesystem::path& path) { return std::filesystem::absolute(path).string(); };
+  return {"env",
+          "--chdir=/",
+          "timeout",
+          "--kill-after=10",
+          limit,
+          "xvfb-run",
+          "-a",
+          "-s",
+          "-screen 0 1280x1024x24",
+          "/usr/bin/python3",
+          "-I",
+          absolute(folder / "render.py"),
+          absolute(dir),
+          "--out",
+          absolute(folder)};
+}
+
 /// Lets the script draw into DIR/pictures; what it listed there, and why it stopped early if it did.
 Pictures drawn(const std::filesystem::path& dir, const char* list, const char* limit, const std::vector<std::string>& options) {
   Pictures pictures;
@@ -39,18 +60,7 @@ Pictures drawn(const std::filesystem::path& dir, const char* list, const char* l
   std::filesystem::remove(folder / list, failure);
   try {
     write_atomically(folder / "render.py", render_script);
-    std::vector<std::string> command = {"timeout",
-                                        "--kill-after=10",
-                                        limit,
-                                        "xvfb-run",
-                                        "-a",
-                                        "-s",
-                                        "-screen 0 1280x1024x24",
-                                        "/usr/bin/python3",
-                                        (folder / "render.py").string(),
-                                        dir.string(),
-                                        "--out",
-                                        folder.string()};
+    std::vector<std::string> command = drawing_command(dir, folder, limit);
     command.insert(command.end(), options.begin(), options.end());
     const int exit_code = run_command(command, output, "install coreutils");
     pictures.made = listed(folder, list);

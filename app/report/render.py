@@ -40,6 +40,7 @@ VTK_FONT_FILE = 4       # of vtkTextProperty.h
 N_INSTANTS = 9
 N_EVENTS = 2            # that a picture names
 FILM_HOLD = 12          # pictures of a film that an event stays in: half a second
+ROOT = None             # folder of the results
 BARS, TIME = 76, 40     # pixels at the lower and upper edge of a picture for colour bars and time
 # Anchors of two colour scales that print well and do not rely on red and green: light to dark blue, light yellow to dark red.
 BLUES = ["#f3f8fd", "#c8dcf0", "#8fbfe0", "#4f9bcb", "#2070b4", "#08306b"]
@@ -59,11 +60,21 @@ def colour_table(anchors, low, high):
     return table
 
 
+def is_inside(file):
+    """Files name others: of those only what lies in the folder of the results is read."""
+    return ROOT is None or file.resolve().is_relative_to(ROOT)
+
+
+def pieces_of(file):
+    """Files that a .pvtu or .pvtp names."""
+    return [file.parent / piece.get("Source", "") for piece in ElementTree.parse(file).iter("Piece")] if file.suffix.startswith(".pvt") else []
+
+
 def read(file):
     """A data set from a VTK XML file, or None if it is not there or cannot be read."""
     readers = {".vtu": vtkXMLUnstructuredGridReader, ".pvtu": vtkXMLPUnstructuredGridReader, ".vtp": vtkXMLPolyDataReader,
                ".pvtp": vtkXMLPPolyDataReader}
-    if not file.exists() or file.suffix not in readers:
+    if not file.exists() or file.suffix not in readers or not all(is_inside(f) for f in (file, *pieces_of(file))):
         return None
     reader = readers[file.suffix]()
     reader.SetFileName(str(file))
@@ -807,6 +818,8 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the pictures")
     parser.add_argument("--film", action="store_true", help="only the pictures of a film")
     options = parser.parse_args()
+    global ROOT
+    ROOT = options.folder.resolve()
     options.out.mkdir(parents=True, exist_ok=True)
     run = Run(options.folder)
     if run.domain is None:

@@ -163,7 +163,19 @@ TEST_F(SeriesFile, FindsColumnsByName) {
     EXPECT_NE(std::string(error.what()).find("time [s],head [m],head_static [m]"), std::string::npos);
   }
   EXPECT_THROW(series.add({1, 2}), Error);
-  EXPECT_THROW(Series(file, {"time [s]", "a,b"}), Error);
+  EXPECT_THROW(Series(file, {"time [s]", "a\nb"}), Error);
+}
+
+// A patch may be called anything that stands on one line.
+TEST_F(SeriesFile, KeepsNamesWithCommasAndQuotes) {
+  const std::vector<std::string> columns{"time [s]", "a,b_flow [m3/s]", "\"c\"_flow [m3/s]"};
+  {
+    Series series(file, columns);
+    series.add({1, 2, 3});
+  }
+  Series resumed(file, columns, true, 1);
+  EXPECT_EQ(read_series(file).columns, columns);
+  EXPECT_EQ(read_series(file).column("a,b_flow").at(0), 2);
 }
 
 }  // namespace

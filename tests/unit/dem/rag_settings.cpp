@@ -39,6 +39,17 @@ TEST(RagSettings, PublishedClothHasItsParticlesAndBonds) {
   EXPECT_EQ(rag.name, "rag 1");
 }
 
+TEST(RagSettings, APieceBeyondTheMemoryIsRefused) {
+  // Requirement: a slip of the unit ends with the number of particles, before they are made.
+  try {
+    piece_of("[[rag]]\nlength = \"20 km\"\nwidth = \"40 mm\"\nradius_mm = 1");
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("2e+08 particles"), std::string::npos) << error.what();
+  }
+}
+
 TEST(RagSettings, SoakedClothWeighsWhatItIsMeasuredToWeigh) {
   // Requirement: by default the mass of all particles is 0.785 kg/m2 times the area, whatever the particle radius.
   for (const char* radius : {"1.0", "1.5", "2.0"}) {

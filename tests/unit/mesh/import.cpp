@@ -180,7 +180,8 @@ TEST(Import, JoinsPeriodicPatches) {
 
 // A missing file, or one cut off, is an input error that names the file, on every rank.
 TEST(Import, RefusesMissingAndCutOffFiles) {
-  EXPECT_NE(failure("no/such/mesh.msh", ExitCode::io).find("no/such/mesh.msh"), std::string::npos);
+  EXPECT_NE(failure("no/such/mesh.msh", ExitCode::io).find("no/such/mesh.msh: the mesh file does not exist"), std::string::npos);
+  EXPECT_NE(failure("/dev/zero", ExitCode::io).find("device"), std::string::npos);
   for (const Format format : {Format::ascii22, Format::binary22, Format::ascii41, Format::binary41})
     for (const double part : {0.0, 0.02, 0.5, 0.97}) {
       const test::TemporaryFile file(test::mixed_units(3), format);
@@ -192,25 +193,95 @@ TEST(Import, RefusesMissingAndCutOffFiles) {
     }
 }
 
-// Damage inside a file is found before PETSc reads it on rank 0 alone: every rank gets the same error.
+/// Puts `by` in the place of `what` in a file.
+void replace_in(const std::filesystem::path& file, const std::string& what, const std::string& by) {
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    std::ostringstream content;
+    content << std::ifstream(file).rdbuf();
+    std::string text = content.str();
+    const std::size_t at = text.find(what);
+    if (at != std::string::npos) text.replace(at, what.size(), by);
+    std::ofstream(file) << text;
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+// Damage inside a file is found on rank 0 alone: every rank gets the same error, with the line.
 TEST(Import, RefusesDamagedFiles) {
   const auto damaged = [](const std::string& what, const std::string& by) {
     const test::TemporaryFile file(test::mixed_units(2), Format::ascii22);
-    if (rank_of(MPI_COMM_WORLD) == 0) {
-      std::ostringstream content;
-      content << std::ifstream(file.path()).rdbuf();
-      std::string text = content.str();
-      const std::size_t at = text.find(what);
-      if (at != std::string::npos) text.replace(at, what.size(), by);
-      std::ofstream(file.path()) << text;
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
+    replace_in(file.path(), what, by);
     return failure(file.path(), ExitCode::io);
   };
+  EXPECT_NE(damaged("\n3 0 0 1", "\n3 0 zero 1").find("line 17, section $Nodes: a number is expected, found \"zero\""), std::string::npos);
   EXPECT_NE(damaged("\n3 0 0 1", "\n3 0 zero 1").find("number is expected"), std::string::npos);
   EXPECT_NE(damaged("\n3 0 0 1", "\n3 0 nan 1").find("not finite"), std::string::npos);
   EXPECT_NE(damaged("\n3 0 0 1", "\n4 0 0 1").find("node number 4 occurs twice"), std::string::npos);
   EXPECT_NE(damaged("1 3 2 1 2 1 2", "1 3 2 1 2 1 222").find("node 222"), std::string::npos);
+}
+
+// Groups that no gmsh writes: each ends with an error or is read, never with a crash.
+TEST(Import, RefusesImpossibleGroups) {
+  const auto damaged = [](const std::string& what, const std::string& by, ExitCode code) {
+    const test::TemporaryFile file(test::mixed_units(2), Format::ascii41);
+    replace_in(file.path(), what, by);
+    return failure(file.path(), code);
+  };
+  const std::string surface = "\n11 0 0 0 9 9 9 1 1 0", counts = "\n0 0 4 2";
+  EXPECT_NE(damaged(surface, "\n11 0 0 0 9 9 9 -1 1 0", ExitCode::io).find("physical tags is -1"), std::string::npos);
+  EXPECT_NE(damaged(surface, "\n2147483648 0 0 0 9 9 9 1 1 0", ExitCode::io).find("2147483648 is too large"), std::string::npos);
+  EXPECT_NE(damaged(surface, "\n11 0 0 0 9 9 9 1000000000 1 0", ExitCode::io).find("number is expected"), std::string::npos);
+  EXPECT_NE(damaged(counts, "\n0 0 1000000000 2", ExitCode::io).find("section $Entities"), std::string::npos);
+  EXPECT_NE(damaged(surface, "\n-5 0 0 0 9 9 9 1 1 0", ExitCode::mesh).find("have no name"), std::string::npos);
+  EXPECT_NE(damaged("\"front\"", "\"" + std::string(5000, 'f') + "\"", ExitCode::io).find("ffff...\" has 5000 bytes"), std::string::npos);
+}
+
+// Words of any length may stand where no number or name is read.
+TEST(Import, PassesOverLongComments) {
+  const test::TemporaryFile file(test::mixed_units(2), Format::ascii22);
+  replace_in(file.path(), "$PhysicalNames", "$Comments\n" + std::string(5000, 'c') + "\n$EndComments\n$PhysicalNames");
+  EXPECT_NEAR(test::volume(import_gmsh(file.path(), MPI_COMM_WORLD)), 4, 1e-13);
+}
+
+// Cells that do not fit together: exit code 3 and the place on every rank.
+TEST(Import, RefusesCellsThatDoNotFit) {
+  auto twisted = test::mixed_units(3);
+  std::swap(twisted.element[6].node[2], twisted.element[6].node[3]);
+  EXPECT_NE(failure(twisted, ExitCode::mesh).find("at (0.5, 0.5, 1) m has its corners in another cycle"), std::string::npos);
+  auto crossed = test::mixed_units(3);
+  std::swap(crossed.element[4].node[2], crossed.element[4].node[3]);
+  EXPECT_NE(failure(crossed, ExitCode::mesh).find("is no face of a cell"), std::string::npos);
+  auto gap = test::mixed_units(3);
+  std::erase_if(gap.element, [](const auto& element) { return element.type == 7 && element.node[0] == 2; });
+  EXPECT_NE(failure(gap, ExitCode::mesh).find("is no face of a cell"), std::string::npos);
+  auto folded = test::mixed_units(3);
+  folded.element[4].node[7] = folded.element[4].node[6];
+  EXPECT_NE(failure(folded, ExitCode::mesh).find("twice"), std::string::npos);
+}
+
+// What is not a gmsh file is named, with the way to make it one.
+TEST(Import, NamesOtherFormats) {
+  const auto refused = [](const std::string& ending, const std::string& content) {
+    const test::TemporaryFile file(ending);
+    if (rank_of(MPI_COMM_WORLD) == 0) std::ofstream(file.path()) << content;
+    MPI_Barrier(MPI_COMM_WORLD);
+    return failure(file.path(), ExitCode::mesh);
+  };
+  const std::vector<std::array<std::string, 3>> formats{{".step", "ISO-10303-21;\nHEADER;", "STEP"},
+                                                        {".msh", "solid pump\nfacet normal 0 0 1\n", "STL"},
+                                                        {".vtk", "# vtk DataFile Version 3.0\n", "VTK"},
+                                                        {".vtu", "<?xml version=\"1.0\"?>\n<VTKFile>", "VTK"},
+                                                        {".unv", "    -1\n  2411\n", "UNV"},
+                                                        {".msh", "(0 \"Fluent\")\n(2 3)\n", "Fluent"},
+                                                        {".cgns", "\x89HDF\r\n", "HDF5"},
+                                                        {".msh", "FoamFile\n{ version 2.0; class vectorField; }", "OpenFOAM"},
+                                                        {".bdf", "GRID,1,,0.,0.,0.\n", "Nastran"}};
+  for (const auto& [ending, content, name] : formats) {
+    const std::string message = refused(ending, content);
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+    EXPECT_NE(message.find("gmsh"), std::string::npos) << message;
+  }
+  EXPECT_NE(refused(".msh", "hello").find("begins with \"hello\""), std::string::npos);
 }
 
 // Meshes that Snag cannot use are refused with the place or the remedy.
