@@ -76,7 +76,7 @@ class Examples(harness.CaseTest):
         """The pipe of the tutorial turns by a right angle: its inlet does not look along its main leg."""
         text = (harness.SOURCE_DIR / "docs" / "tutorial-own-mesh.md").read_text()
         words = next(words for words in printed_commands(text) if words[:2] == ["mesh", "pipe"])
-        self.assertIn("bend_angle_deg=90", words, "a pipe is straight unless it is told to bend")
+        self.assertIn("bend_angle_deg=90", words, "a pipe is straight without bend_angle")
 
     def test_tutorial_script_for_gmsh(self):
         """The script that the tutorial prints makes a mesh that Snag finds fit; gmsh by its library."""
