@@ -25,6 +25,7 @@ struct CaseNode {
   std::string file;  // for messages
   int line = 0;
   bool present = false;
+  bool presence_asked = false;  // that it is there says something by itself
   std::map<std::string, std::vector<std::unique_ptr<CaseNode>>> tables;
   struct Value {
     std::shared_ptr<toml::node> node;
@@ -35,7 +36,7 @@ struct CaseNode {
   std::vector<std::string> known;  // keys that reading asked for
   struct Resolved {
     std::string key, value;  // as TOML; a file with its whole path
-    std::string identity;    // what the fingerprint takes for the value: of a file its content, wherever it lies
+    std::string identity;    // what the fingerprint takes for the value: of a file its content, wherever it lies; empty for a default
     std::string fixed;       // the same, empty where a resumed run may have another value
   };
   std::vector<Resolved> resolved;        // in the order of reading
@@ -61,10 +62,11 @@ std::filesystem::path beside(const std::filesystem::path& case_file, const std::
   return given.is_absolute() ? given : case_file.parent_path() / given;
 }
 
-CaseNode::Resolved resolved_entry(const std::string& key, const Parameter& parameter, const std::string& case_file) {
+CaseNode::Resolved resolved_entry(const std::string& key, const Parameter& parameter, const std::string& at_default,
+                                  const std::string& case_file) {
   const std::string text = toml_text(parameter.target);
   const auto* file = std::get_if<std::string*>(&parameter.target);
-  if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text, parameter.may_move ? "" : text};
+  if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text == at_default ? "" : text, parameter.may_move ? "" : text};
   const auto path = std::filesystem::absolute(beside(case_file, **file)).lexically_normal();
   const auto content = file_text(path);
   const std::string identity = content ? snag::sha256(*content) : text;
@@ -205,7 +207,10 @@ void reject_unread_in(const CaseNode& node) {
 }
 
 void write_resolved(const CaseNode& node, bool repeated, std::string CaseNode::Resolved::*shown, std::string& out) {
-  if (!node.name.empty()) out += (repeated ? "\n[[" + node.name + "]]\n" : "\n[" + node.name + "]\n");
+  const bool any =
+      std::any_of(node.resolved.begin(), node.resolved.end(), [&](const CaseNode::Resolved& entry) { return !(entry.*shown).empty(); });
+  if (!node.name.empty() && (any || repeated || (node.present && node.presence_asked)))
+    out += (repeated ? "\n[[" + node.name + "]]\n" : "\n[" + node.name + "]\n");
   for (const CaseNode::Resolved& entry : node.resolved)
     if (!(entry.*shown).empty()) out += entry.key + " = " + entry.*shown + "\n";
   for (const std::string& key : node.table_order) {
@@ -220,13 +225,19 @@ void write_resolved(const CaseNode& node, bool repeated, std::string CaseNode::R
 
 }  // namespace
 
-bool Table::present() const { return node_->present; }
+bool Table::present() const {
+  node_->presence_asked = true;
+  return node_->present;
+}
 
 bool Table::has(std::string_view key) const {
   const std::string name(key);
   if (node_->values.contains(name)) return true;
   const auto sub = node_->tables.find(name);
-  if (sub != node_->tables.end() && sub->second.front()->present) return true;
+  if (sub != node_->tables.end()) {
+    sub->second.front()->presence_asked = true;
+    if (sub->second.front()->present) return true;
+  }
   return std::any_of(node_->values.begin(), node_->values.end(), [&](const auto& entry) {
     return entry.first.starts_with(name + "_") && parse_unit(unit_of_suffix(entry.first.substr(name.size() + 1)));
   });
@@ -263,6 +274,7 @@ void Table::read(const std::vector<Parameter>& parameters) const {
     const bool overridden = std::any_of(node_->values.begin(), node_->values.end(), [&](const auto& entry) {
       return entry.second.line == line_of_override && unit_in_key(entry.first, parameter);
     });
+    const std::string at_default = parameter.required ? "" : toml_text(parameter.target);
     std::string found_key;
     for (const auto& [key, value] : node_->values) {
       const auto unit = unit_in_key(key, parameter);
@@ -281,7 +293,7 @@ void Table::read(const std::vector<Parameter>& parameters) const {
     if (found_key.empty() && parameter.required)
       throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
     if (again) continue;
-    auto entry = resolved_entry(known_spelling(parameter), parameter, node_->file);
+    auto entry = resolved_entry(known_spelling(parameter), parameter, at_default, node_->file);
     if (!entry.value.empty()) node_->resolved.push_back(std::move(entry));
   }
 }

@@ -146,6 +146,26 @@ TEST(CaseFile, ResolvedCaseIsTheSameCase) {
   EXPECT_NE(read("[[rag]]\nradius = \"0.2 mm\"", u).second, hash);
 }
 
+// A table of runs of an earlier version stays of use: a key or a section that is new there, at its default, is nothing the case says.
+TEST(CaseFile, NewKeysLeaveTheHashAsItIs) {
+  const auto hash_of = [](const std::string& text, bool later_version) {
+    const auto file = CaseFile::parse(text);
+    double step = 1, factor = 2, width = 3;
+    std::vector<Parameter> known{{"step", &step, "s", 0, 10, Basis::assumed, "Step."}};
+    if (later_version) known.push_back({"factor", &factor, "1", 0, 10, Basis::assumed, "Factor."});
+    file.root().table("time").read(known);
+    if (later_version) file.root().table("water").read({{"width", &width, "m", 0, 10, Basis::assumed, "Width."}});
+    const Table pump = file.root().table("pump");
+    if (pump.present()) pump.read({{"speed", &factor, "1", 0, 10, Basis::assumed, "Speed."}});
+    return file.sha256();
+  };
+  const std::string text = "[time]\nstep_s = 0.1\n";
+  EXPECT_EQ(hash_of(text, false), hash_of(text, true));
+  EXPECT_EQ(hash_of(text, true), hash_of(text + "factor = 2\n[water]\nwidth_m = 3\n", true));
+  EXPECT_NE(hash_of(text, true), hash_of(text + "factor = 2.5\n", true));
+  EXPECT_NE(hash_of(text, true), hash_of(text + "[pump]\n", true));
+}
+
 // An override replaces the value of the file whatever unit stands in either key; two overrides of one value contradict each other.
 TEST(CaseFile, OverridesInAnotherUnit) {
   const auto file = CaseFile::parse("[rag]\nradius = \"1 mm\"\n", "case", {"rag.radius_m=0.002"});
