@@ -1,7 +1,9 @@
 #include "app/outputs.hpp"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "app/checks.hpp"
 #include "base/log.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "parallel/checkpoint.hpp"
@@ -49,6 +51,19 @@ std::vector<std::string> wall_columns(const Mesh& mesh, const std::vector<int>& 
   for (const int p : walls)
     for (const char* end : {"_y_plus_min [1]", "_y_plus_mean [1]", "_y_plus_max [1]"}) columns.push_back(mesh.patches[p].name + end);
   return columns;
+}
+
+/// The code of a run: that of the first check that fails where all else went well. Says which.
+ExitCode judged(const Summary& summary, ExitCode exit) {
+  if (exit != ExitCode::ok) return exit;
+  for (const CheckedValue& one : checked(summary_json(summary))) {
+    if (!one.fails()) continue;
+    log::error("a check failed: " + failure_in_words(one));
+    if (exit == ExitCode::ok) exit = one.check.code;
+  }
+  int code = static_cast<int>(exit);  // some of the summary is known on rank 0 only
+  MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return static_cast<ExitCode>(code);
 }
 
 RotorState rotor_state(const RotatingZone& zone, double time) {
@@ -215,7 +230,8 @@ void Outputs::write_water_monitors() {
     patches.insert(patches.end(), {rate, mean_pressure(flow, p), force.x, force.y, force.z});
     through += std::abs(rate) / 2;
   }
-  if (through > 0) largest_imbalance_ = std::max(largest_imbalance_, std::abs(report.continuity_global) / through);
+  largest_through_ = std::max(largest_through_, through);
+  if (!report.outer.empty()) largest_imbalance_ = std::max(largest_imbalance_, report.outer.back().continuity.final);
   if (rank_of(MPI_COMM_WORLD) != 0) return;
   patches_.add(patches);
   if (report.outer.empty()) return;
@@ -241,7 +257,7 @@ void Outputs::write_rotor_monitors() {
 }
 
 void Outputs::save(CheckpointWriter& writer) const {
-  writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_});
+  writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_, largest_through_});
   const Effort spent = effort();
   writer.shared("effort", std::vector<double>{spent.wall, spent.flow, spent.rags, spent.coupling, spent.output, spent.particle_steps});
   if (rag_monitors_) {
@@ -256,7 +272,7 @@ void Outputs::save(CheckpointWriter& writer) const {
 
 void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
-  largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2];
+  largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2], largest_through_ = kept[3];
   const std::vector<double> spent = reader.shared("effort");
   effort_before_ = {spent[0], spent[1], spent[2], spent[3], spent[4], spent[5]};
   if (rag_monitors_) {
@@ -271,6 +287,7 @@ void Outputs::summarise_rags(Summary& summary) const {
   if (!simulation_.rags) return;
   const RagSystem& rags = *simulation_.rags;
   const RagCounts left = rags.count();
+  summary.conservation.particles_lost = summary.conservation.bonds_lost = 0;
   for (std::size_t r = 0; r < rags.rags().size(); ++r) {
     const Rag& rag = rags.rags()[r];
     RagSummary one;
@@ -286,8 +303,8 @@ void Outputs::summarise_rags(Summary& summary) const {
     one.bond_strain_p99 = rag_monitors_->max_bond_strain_p99(r), one.elongation_ratio_at_start = elongation_at_start_[r];
     summary.rags.push_back(one);
     if (rags.presence(static_cast<int>(r)) == RagSystem::Presence::waiting) continue;
-    summary.conservation.particles_lost += rag.n_particles - one.particles;
-    summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
+    *summary.conservation.particles_lost += rag.n_particles - one.particles;
+    *summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
   }
 }
 
@@ -297,11 +314,25 @@ void Outputs::write_phase() const {
   });
 }
 
-void Outputs::finish(ExitCode exit) {
+void Outputs::summarise_checks(Summary& s) const {
+  if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
+    s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps()};
+    if (largest_through_ > 0) s.conservation.mass_imbalance = largest_imbalance_ / largest_through_;
+    if (const RotatingZone* zone = water->flow.rotating_zone) {
+      s.mesh.facets = zone->mesh().n_facets_global();
+      s.conservation.interface_closure = largest_closure_;
+    }
+  }
+  if (simulation_.coupled && simulation_.water && simulation_.coupled->coupling().settings.two_way())
+    s.conservation.momentum_exchange = largest_exchange_;
+  if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
+}
+
+ExitCode Outputs::finish(ExitCode exit, const std::string& error) {
   Summary s;
   s.case_name = simulation_.case_settings.name;
   s.case_sha256 = file_.sha256();
-  s.ranks = size_of(MPI_COMM_WORLD), s.exit = static_cast<int>(exit);
+  s.ranks = size_of(MPI_COMM_WORLD), s.error = error;
   s.simulated = simulation_.time(), s.time_steps = simulation_.time_step();
   if (simulation_.mesh)
     s.mesh = {simulation_.mesh->n_cells_global, simulation_.mesh->n_interior_global, 0, simulation_.mesh_quality.min_quality};
@@ -311,21 +342,18 @@ void Outputs::finish(ExitCode exit) {
   s.performance = {spent.flow, spent.rags, spent.coupling, spent.output, 0, spent.particle_steps, peak_memory()};
   if (simulation_.mesh)
     s.performance.cell_steps = static_cast<double>(simulation_.time_step()) * static_cast<double>(simulation_.mesh->n_cells_global);
-  s.conservation.mass_imbalance = largest_imbalance_;
-  s.conservation.momentum_exchange = largest_exchange_;
-  if (const RotatingZone* zone = simulation_.water ? simulation_.water->flow.rotating_zone : nullptr) {
-    s.mesh.facets = zone->mesh().n_facets_global();
-    s.conservation.interface_closure = largest_closure_;
-  }
+  summarise_checks(s);
   if (pump_) {
     s.pump = pump_->summary();
     write_phase();
   }
-  if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
+  const ExitCode code = judged(s, exit);
+  s.exit = static_cast<int>(code);
   together(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
   });
   if (const std::string results = results_in_words(s); !results.empty()) log::info(results);
+  return code;
 }
 
 }  // namespace snag

@@ -32,8 +32,9 @@ class Outputs {
   void after_step();
   /// State before the first step. Collective.
   void initial();
-  /// summary.json. Collective.
-  void finish(ExitCode exit);
+  /// summary.json, with what ended the run early; returns the code of the run: that of a check that fails where all else went well.
+  /// Collective.
+  ExitCode finish(ExitCode exit, const std::string& error = "");
   /// The disk has all monitors. Collective; throws Error(io).
   void sync() const;
   /// What a resume needs of the past of this run. Collective.
@@ -56,6 +57,7 @@ class Outputs {
   void write_wall_monitors();
   void write_rags();
   void summarise_rags(Summary& summary) const;
+  void summarise_checks(Summary& summary) const;
   bool due(double interval) const;
 
   std::filesystem::path folder_;
@@ -75,8 +77,8 @@ class Outputs {
   Effort effort_before_;                            // up to the checkpoint that was resumed
   std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
 
-  // over the whole run, kept by checkpoints
-  double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0;
+  // over the whole run, kept by checkpoints: relative, m3/s, relative, m3/s
+  double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0, largest_through_ = 0;
 };
 
 }  // namespace snag

@@ -166,7 +166,7 @@ void write_report(const std::filesystem::path& dir) {
   if (is_passage) page += section("The rag's way through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
   page += section("Rags", rag_tables(summary));
-  page += section("Conservation and sanity checks", conservation_table(summary));
+  page += section("Conservation and sanity checks", check_table(summary));
   page += section("Pictures", (is_passage ? "" : drawn.instants) + drawn.others + drawn.unreadable + missing(pictures));
   page += section("Over time", plot_section(monitor_plots(dir / "monitors", passages.shown)));
   page += section("Computing cost", cost_table(summary));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 
+#include "app/forecast.hpp"
 #include "app/outputs.hpp"
 #include "app/rag_assumptions.hpp"
 #include "app/report.hpp"
@@ -15,6 +16,7 @@
 #include "base/version.hpp"
 #include "base/words.hpp"
 #include "parallel/checkpoint.hpp"
+#include "parallel/checkpoint_slots.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -132,7 +134,8 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   if (simulation.poses)
     for (const std::string& line : simulation.poses->lines()) log::info(line);
   if (simulation.coupled && simulation.mesh) {
-    for (const std::string& warning : kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh))
+    for (const std::string& warning :
+         kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))
       log::warning(warning);
   }
 }
@@ -184,6 +187,12 @@ void begin(Simulation& simulation, const CaseFile& file, const std::filesystem::
   load(simulation, *reader);
 }
 
+/// What a run does before its first step, and what it refuses there. Collective; throws Error(usage).
+void begin_as_a_run(Simulation& simulation) {
+  if (simulation.water) simulation.water->start(simulation.water->flow.time);
+  if (simulation.pump) PumpMonitor(simulation.water->flow, *simulation.pump);
+}
+
 void report(const std::filesystem::path& folder) {
   together(world, [&] {
     if (rank_of(world) == 0) write_report(folder);
@@ -191,10 +200,21 @@ void report(const std::filesystem::path& folder) {
   log::info("report: " + (folder / "report.html").string());
 }
 
-/// What was reached is still told; the error that ended the run goes on to the command line.
-void summarise_failed(Outputs& outputs, ExitCode code) {
+/// From where a run that failed can be repeated, as the end of its message. Collective.
+std::string last_checkpoint(const std::filesystem::path& folder) {
+  const auto slots = checkpoint_slots(world, folder / "checkpoint");
+  const int slot = newest(slots);
+  if (slot < 0) return "; no checkpoint was written before";
+  return "; the last checkpoint is that of t = " + words(slots[static_cast<std::size_t>(slot)].stamp.time) + " s, " +
+         slots[static_cast<std::size_t>(slot)].file.string() + ": a case with other settings takes its water by [start] from = \"" +
+         folder.string() + "\"";
+}
+
+/// Summary and, with a folder, the report of what was reached; the error that ended the run goes on to the command line.
+void summarise_failed(Outputs& outputs, ExitCode code, const std::string& message, const std::filesystem::path& folder) {
   try {
-    outputs.finish(code);
+    outputs.finish(code, message);
+    if (!folder.empty()) report(folder);
   } catch (const Error& second) {
     log::warning(std::string("no summary of the failed run: ") + second.what());
   }
@@ -239,11 +259,13 @@ ExitCode run_case(const RunOptions& options) {
   try {
     code = Run{file, folder, simulation, outputs}.steps();
   } catch (const Error& failure) {
-    summarise_failed(outputs, failure.code);
-    throw;
+    const bool of_the_computation = failure.code == ExitCode::diverged || failure.code == ExitCode::invariant;
+    const std::string message = failure.what() + (of_the_computation ? last_checkpoint(folder) : "");
+    summarise_failed(outputs, failure.code, message, of_the_computation && simulation.output_settings.report ? folder : "");
+    throw Error(failure.code, message);
   }
-  outputs.finish(code);
-  if (code == ExitCode::ok && simulation.output_settings.report) report(folder);
+  code = outputs.finish(code);
+  if (code != ExitCode::stopped && simulation.output_settings.report) report(folder);
   log::info("done after " + duration(MPI_Wtime() - begun) + ": " + folder.string());
   return code;
 }
@@ -253,37 +275,17 @@ ExitCode check_case(const RunOptions& options) {
   Simulation simulation(file, world);
   const std::string start = simulation.start();
   simulation.insert_rags();
+  begin_as_a_run(simulation);
   log_heading(simulation, file);
   if (!start.empty()) log::info(start);
   if (simulation.mesh) {
     const std::string table = quality_table(*simulation.mesh, simulation.mesh_quality);
     log::info(table);
   }
-  const std::int64_t n_steps = simulation.time_settings.n_steps();
-  std::ostringstream text;
-  text.precision(3);
-  text << n_steps << " steps of " << simulation.time_settings.step << " s";
-  if (simulation.rags)
-    text << ", each of "
-         << counted(std::max<std::int64_t>(
-                        1, static_cast<std::int64_t>(std::ceil(simulation.time_settings.step / simulation.rags->stable_step()))),
-                    "sub-step")
-         << " of the rags";
-  // Orders of magnitude on one core of a present workstation, measured by `snag run` itself: see timing.csv of a run for this machine's.
-  constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 6e3, bytes_per_particle = 2e3;
-  double cost = 0, memory = 1e8;
-  if (simulation.mesh) {
-    cost += static_cast<double>(n_steps * simulation.mesh->n_cells_global) * seconds_per_cell_step;
-    memory += static_cast<double>(simulation.mesh->n_cells_global) * bytes_per_cell;
-  }
-  if (simulation.rags) {
-    cost += static_cast<double>(simulation.rags->n_particles()) * simulation.time_settings.end / simulation.rags->stable_step() *
-            seconds_per_particle_step;
-    memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
-  }
-  text << "\ncost: about " << duration(cost / size_of(world)) << " on " << counted(size_of(world), "rank") << ", " << memory / 1e9
-       << " GB\nthe case is ready to run";
-  log::info(text.str());
+  const Forecast ahead = forecast(simulation);
+  log::info(ahead.text);
+  for (const std::string& warning : ahead.warnings) log::warning(warning);
+  log::info("the case is ready to run");
   return ExitCode::ok;
 }
 

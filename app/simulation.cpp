@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include "app/coupling_remedy.hpp"
+#include "app/forecast.hpp"
 #include "app/mesh_generator.hpp"
 #include "app/rag_release.hpp"
 #include "app/start_check.hpp"
@@ -122,6 +124,7 @@ void Simulation::build_water(const CaseFile& file) {
     throw Error(ExitCode::usage, "[start] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
   auto boundaries = read_boundaries(file.root());
   auto turbulence = read_turbulence(file.root());
+  laminar_asked_ = file.root().has("turbulence");
   if (store_ && start_settings_.frozen) {
     std::string conditions;
     for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
@@ -132,6 +135,8 @@ void Simulation::build_water(const CaseFile& file) {
   }
   if (!water) water = std::make_shared<FlowSolver>(*mesh, settings, std::move(boundaries), std::move(turbulence), std::move(zone));
   if (stored_water_) stored_water_->solver = water;
+  check_turn(*water, time_settings.step);
+  if (!start_settings_.frozen) water->foresee(time_settings.end);
 }
 
 void Simulation::read_pump(const Table& root) {
@@ -183,13 +188,26 @@ void Simulation::couple(const CaseFile& file) {
     rags->set_gravity(acceleration);
   }
   if (coupled) coupled->set_walls(walls);
+  speed_bounds_ = std::make_unique<SpeedBounds>(file.root(), mesh.get(), walls, rags->pieces());
+  if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
+}
+
+/// Particles that were just moved.
+void Simulation::bound_speeds() {
+  check_speeds(*rags, speed_bounds_->at(rags->time(), water.get(), prescribed_ ? &*prescribed_ : nullptr, *rags),
+               coupled ? &coupled->coupling() : nullptr);
 }
 
 void Simulation::move_water(double dt) {
-  if (start_settings_.frozen)
-    water->hold(dt);
-  else
+  if (rags) bound_speeds();  // before the water feels what has diverged
+  if (start_settings_.frozen) return water->hold(dt);
+  try {
     flow_report = water->advance(dt);
+  } catch (const Error& failure) {
+    const std::string remedy = coupling_remedy(coupled ? &coupled->coupling() : nullptr);
+    if (failure.code != ExitCode::diverged || remedy.empty()) throw;
+    throw Error(failure.code, std::string(failure.what()) + "; particles act on this water: " + remedy);
+  }
 }
 
 void Simulation::step() {
@@ -204,6 +222,7 @@ void Simulation::step() {
     rags->migrate();
     rags->advance(time_settings.step);
   }
+  if (!water) bound_speeds();
   if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
   check_inside();
   ++time_step_;

@@ -7,6 +7,7 @@
 #include "app/passage.hpp"
 #include "app/rag_poses.hpp"
 #include "app/settings.hpp"
+#include "app/speed_bounds.hpp"
 #include "app/start_flow.hpp"
 #include "app/water_store.hpp"
 #include "base/case_file.hpp"
@@ -45,6 +46,8 @@ class Simulation {
   std::string start();
   /// The water stays as [start] gives it.
   bool frozen() const { return start_settings_.frozen; }
+  /// The case says that the water is laminar; it is not only for want of a model.
+  bool laminar_asked() const { return laminar_asked_; }
   /// Puts in the rags whose time has come, and checks them; to be called once before the first step, later ones do it themselves.
   /// Collective; throws Error(usage).
   void insert_rags();
@@ -82,6 +85,7 @@ class Simulation {
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
   void move_water(double dt);
+  void bound_speeds();
   void push_with_water(int rag);
   void remove_rags();
   void check_inside();
@@ -95,9 +99,10 @@ class Simulation {
   StoredWater* stored_water_ = nullptr;  // of the store, for frozen water
   std::string mesh_key_;                 // of the store
   std::optional<PrescribedFlow> prescribed_;
+  std::unique_ptr<SpeedBounds> speed_bounds_;  // of the rags
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling
-  bool periodic_ = false, strays_told_ = false;
+  bool laminar_asked_ = false, periodic_ = false, strays_told_ = false;
 };
 
 }  // namespace snag

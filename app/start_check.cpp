@@ -1,5 +1,10 @@
 #include "app/start_check.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
@@ -63,6 +68,57 @@ void check_contacts(RagSystem& rags, const std::vector<int>& which, double crowd
   rags.contacts()->reset_measures();
 }
 
+/// True if every edge of the triangles is one of two of them, in opposite senses.
+bool is_closed(const WallBody& body) {
+  std::map<std::pair<int, int>, int> sense;  // by edge: triangles that run it forward less those that run it back
+  for (const WallTriangle& triangle : body.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int from = triangle.node_index[i], to = triangle.node_index[(i + 1) % 3];
+      sense[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  return !sense.empty() && std::all_of(sense.begin(), sense.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Times that a closed surface winds about a point: 1 inside of one whose normals point outwards. Source: solid angle of a triangle, Van
+/// Oosterom and Strackee (1983), IEEE Trans. Biomed. Eng. 30, 125-126.
+double winding(const WallBody& body, const Vec3& x) {
+  double angle = 0;
+  for (const WallTriangle& triangle : body.triangles) {
+    const Vec3 a = triangle.node[0] - x, b = triangle.node[1] - x, c = triangle.node[2] - x;
+    const double A = norm(a), B = norm(b), C = norm(c);
+    angle += 2 * std::atan2(dot(a, cross(b, c)), A * B * C + dot(a, b) * C + dot(b, c) * A + dot(c, a) * B);
+  }
+  return angle / (4 * std::numbers::pi);
+}
+
+double enclosed_volume(const WallBody& body) {
+  double volume = 0;
+  for (const WallTriangle& triangle : body.triangles) volume += dot(triangle.node[0], cross(triangle.node[1], triangle.node[2])) / 6;
+  return volume;
+}
+
+/// Contacts act on one side of a triangle only: a rag on the other side of a closed wall would not feel it.
+void check_sides(const Simulation& simulation, const std::vector<int>& which) {
+  for (const WallBody& body : simulation.walls.bodies()) {
+    if (!is_closed(body)) continue;
+    const bool water_inside = enclosed_volume(body) > 0;
+    const WallPose pose = wall_pose(body.motion, simulation.time());
+    for (const int r : which) {
+      const Rag& rag = simulation.rags->rags()[static_cast<std::size_t>(r)];
+      together(simulation.rags->comm(), [&] {
+        const std::vector<Vec3> centres = centres_of_particles(*simulation.rags, r);
+        if (centres.empty()) return;
+        const bool is_inside = std::abs(winding(body, pose.in_wall(centres.front()))) > 0.5;
+        if (is_inside != water_inside)
+          throw refused(rag,
+                        std::string("it lies ") + (is_inside ? "inside" : "outside") + " of the closed [[wall]] \"" + body.name +
+                            "\", whose normals say that the water is " + (water_inside ? "inside" : "outside"),
+                        "must be on the side of the water; correct the place of the piece, or normals_into_fluid of the wall");
+      });
+    }
+  }
+}
+
 }  // namespace
 
 void check_waiting(const Simulation& simulation, int rag) {
@@ -100,6 +156,7 @@ double overlap_of_particles(RagSystem& rags) {
 void check_start(const Simulation& simulation, const std::vector<int>& which, double crowding) {
   if (which.empty()) return;
   if (simulation.mesh) check_in_water(*simulation.rags, which, *simulation.mesh);
+  check_sides(simulation, which);
   check_contacts(*simulation.rags, which, crowding);
 }
 

@@ -73,7 +73,6 @@ nlohmann::ordered_json rag_json(const RagSummary& rag) {
           {"bond_strain_p99", rag.bond_strain_p99},
           {"max_bond_tension_N", verdict.max_tension},
           {"max_bond_tension_at", tension_json(verdict)},
-          {"corrected_positions", rag.corrected_positions},
           {"volute", volute_json(verdict)},
           {"events", events_json(verdict)}};
 }
@@ -88,12 +87,37 @@ nlohmann::ordered_json pump_json(const PumpSummary& pump) {
           {"revolutions", pump.revolutions}};
 }
 
+nlohmann::ordered_json water_json(const WaterSummary& water) {
+  return {{"speed_scale_m_s", water.speed_scale},
+          {"max_speed_over_scale", water.max_speed_over_scale},
+          {"unsolved_steps", water.unsolved_steps}};
+}
+
+/// A summary in which nothing is missing.
+Summary full_summary() {
+  Summary full;
+  full.pump.emplace();
+  full.water.emplace();
+  full.error = "none";
+  RagVerdict& rag = full.rags.emplace_back().verdict;
+  rag.volute.emplace(), rag.max_tension_time = 0;
+  rag.events.push_back({});
+  return full;
+}
+
+}  // namespace
+
+bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
+  const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
+  const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
+  return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
+}
+
 nlohmann::ordered_json summary_json(const Summary& s) {
   nlohmann::ordered_json rags = nlohmann::ordered_json::array();
   for (const RagSummary& rag : s.rags) rags.push_back(rag_json(rag));
   const auto& p = s.performance;
-  nlohmann::ordered_json closure;  // null without an interface
-  if (s.conservation.interface_closure) closure = *s.conservation.interface_closure;
+  const auto& kept = s.conservation;
   nlohmann::ordered_json json = {{"version", version_number},
                                  {"git", version_git},
                                  {"case", s.case_name},
@@ -118,34 +142,18 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                    {"peak_memory_bytes", p.peak_memory}}},
                                  {"pump", s.pump ? pump_json(*s.pump) : nlohmann::ordered_json()},
                                  {"rags", rags},
+                                 {"water", s.water ? water_json(*s.water) : nlohmann::ordered_json()},
                                  {"conservation",
-                                  {{"mass_imbalance_rel", s.conservation.mass_imbalance},
-                                   {"momentum_exchange_rel", s.conservation.momentum_exchange},
-                                   {"interface_closure_rel", closure},
-                                   {"particles_lost", s.conservation.particles_lost},
-                                   {"bonds_lost", s.conservation.bonds_lost},
-                                   {"particles_beyond_walls", s.conservation.particles_beyond_walls}}}};
+                                  {{"mass_imbalance_rel", or_null(kept.mass_imbalance)},
+                                   {"momentum_exchange_rel", or_null(kept.momentum_exchange)},
+                                   {"interface_closure_rel", or_null(kept.interface_closure)},
+                                   {"particles_lost", or_null(kept.particles_lost)},
+                                   {"bonds_lost", or_null(kept.bonds_lost)},
+                                   {"particles_beyond_walls", or_null(kept.particles_beyond_walls)}}}};
   if (!s.pump) json.erase("pump");
+  if (!s.water) json.erase("water");
+  if (!s.error.empty()) json["error"] = s.error;
   return json;
-}
-
-/// A summary in which nothing is missing.
-Summary full_summary() {
-  Summary full;
-  full.pump.emplace();
-  full.conservation.interface_closure = 0;
-  RagVerdict& rag = full.rags.emplace_back().verdict;
-  rag.volute.emplace(), rag.max_tension_time = 0;
-  rag.events.push_back({});
-  return full;
-}
-
-}  // namespace
-
-bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
-  const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
-  const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
-  return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
 }
 
 void write_summary(const std::filesystem::path& file, const Summary& summary) {

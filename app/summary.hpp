@@ -2,6 +2,7 @@
 // summary.json: what came out of a run, for people, scripts and the report. Keys are stable, numbers in SI.
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,11 @@ struct RagSummary {
   RagVerdict verdict;
   double elongation_ratio_at_start = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0,
          max_overlap_over_radius = 0, bond_strain_p99 = 0;
-  std::int64_t corrected_positions = 0;
+};
+
+struct WaterSummary {
+  double speed_scale = 0, max_speed_over_scale = 0;  // m/s; 1
+  int unsolved_steps = 0;                            // most in a row
 };
 
 struct Summary {
@@ -37,16 +42,19 @@ struct Summary {
   } performance;
   std::optional<PumpSummary> pump;  // of a case with [pump]
   std::vector<RagSummary> rags;
+  std::string error;                  // what ended the run early, empty if nothing did
+  std::optional<WaterSummary> water;  // where it is computed
+  // relative; none where there is nothing to measure: no flow through, no two-way coupling, no interface, no rags
   struct {
-    double mass_imbalance = 0, momentum_exchange = 0;  // relative
-    std::optional<double> interface_closure;           // relative; none without an interface
-    std::int64_t particles_lost = 0, bonds_lost = 0, particles_beyond_walls = 0;
+    std::optional<double> mass_imbalance, momentum_exchange, interface_closure;
+    std::optional<std::int64_t> particles_lost, bonds_lost, particles_beyond_walls;
   } conservation;
 };
 
 /// The summary in this file is that of a run of this case that ended as planned after this number of steps.
 bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps);
 
+nlohmann::ordered_json summary_json(const Summary& summary);
 /// Throws Error(io).
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 

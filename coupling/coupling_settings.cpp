@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "coupling/kernel.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -16,8 +17,8 @@ const std::string gravity = "gravity";
 
 // Below this width over diameter the averaged velocity holds most of the particle's own wake.
 constexpr double least_width_over_diameter = 1;
-// Below this width over cell size the kernel is the nearest cell in effect.
-constexpr double least_width_over_cell = 0.5;
+// A Gaussian of width delta shares a force out over (4 pi)^(3/2) (delta/h)^3 cells of the size h, 1/sum w^2: 1.2 of them at 0.3.
+constexpr double least_width_over_cell = 0.3;
 // Above this many cells a particle the transfers cost more than the flow.
 constexpr double most_cells_per_particle = 3000;
 
@@ -100,13 +101,28 @@ std::vector<Section> coupling_sections() {
   return sections;
 }
 
-std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh) {
-  double least_volume = infinity;
-  for (int c = 0; c < mesh.n_cells; ++c) least_volume = std::min(least_volume, mesh.cell_volume[c]);
-  const double total_volume = sum(mesh.comm, std::span(mesh.cell_volume.data(), mesh.n_cells));
-  const double mean_size = std::cbrt(total_volume / static_cast<double>(mesh.n_cells_global));
-  const double least_size = std::cbrt(minimum(mesh.comm, least_volume));
+namespace {
+
+/// Mean size V^(1/3) of the cells that hold the places of all ranks, m; 0 without places. Collective.
+double mean_cell_size(const Mesh& mesh, std::span<const Vec3> places) {
+  const auto shape = kernel_shapes().make("cell", "[coupling]");
+  Kernel holder(*shape, 1, mesh);
+  holder.locate(places);
+  std::vector<double> size(static_cast<std::size_t>(mesh.n_cells));
+  for (int c = 0; c < mesh.n_cells; ++c) size[c] = std::cbrt(mesh.cell_volume[c]);
+  const CellField field{size.data(), 1};
+  const std::vector<double> at_places = holder.average(std::span(&field, 1));
+  const auto n = static_cast<double>(sum(mesh.comm, static_cast<std::int64_t>(places.size())));
+  return n > 0 ? sum(mesh.comm, at_places) / n : 0;
+}
+
+}  // namespace
+
+std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh,
+                                         std::span<const Vec3> places) {
   const double d = largest_diameter(rags), width = coupling.kernel_width(rags), support = coupling.shape->support_radius(width);
+  const double size = mean_cell_size(mesh, places);
+  if (size == 0) return {};  // no particle is known yet
 
   std::vector<std::string> warnings;
   const auto warn = [&](auto&&... words) {
@@ -117,22 +133,21 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
   };
   const bool two_way = coupling.settings.two_way();
   if (support == 0) {
-    if (two_way && d > 0 && d > mean_size)
-      warn(
-          "[coupling] kernel \"cell\": particles of ", d * 1e3, " mm are larger than cells of ", mean_size * 1e3,
-          " mm (mean), so that what they feel is mostly their own wake and depends on the mesh; use kernel = \"gaussian\" or \"wendland\"");
+    if (two_way && d > size)
+      warn("[coupling] kernel \"cell\": particles of ", d * 1e3, " mm are larger than the cells where they are (mean ", size * 1e3,
+           " mm), so that what they feel is mostly their own wake and depends on the mesh; use kernel = \"gaussian\" or \"wendland\"");
     return warnings;
   }
   if (two_way && width < least_width_over_diameter * d)
     warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / d, " of the particle diameter (", d * 1e3, " mm), advised at least ",
          least_width_over_diameter, ": below it particles feel their own wake; widen the kernel");
-  if (width < least_width_over_cell * mean_size)
-    warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / mean_size, " of the cell size (mean ", mean_size * 1e3,
+  if (width < least_width_over_cell * size)
+    warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / size, " of the cells where the particles are (mean ", size * 1e3,
          " mm), advised at least ", least_width_over_cell,
          ": below it the kernel is the nearest cell; widen the kernel or refine the mesh");
-  const double most_cells = 4.0 / 3.0 * std::numbers::pi * std::pow(support / least_size, 3);
+  const double most_cells = 4.0 / 3.0 * std::numbers::pi * std::pow(support / size, 3);
   if (most_cells > most_cells_per_particle)
-    warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the smallest cells (", least_size * 1e3,
+    warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the cells (mean ", size * 1e3,
          " mm) around a particle, advised at most ", most_cells_per_particle, ": transfers will be slow; narrow the kernel");
   return warnings;
 }

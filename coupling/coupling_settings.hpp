@@ -1,6 +1,7 @@
 #pragma once
 // What a case says of the coupling: [coupling] with a table for each force, and [gravity].
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,9 @@ Coupling read_coupling(const Table& root, bool two_way_possible = true);
 /// For the manual: [coupling], [gravity], and a table for each force and kernel that has parameters.
 std::vector<Section> coupling_sections();
 
-/// Remarks on the kernel width beside particle diameters and cell sizes, with numbers; empty if it fits. Collective, the same on every
-/// rank.
-std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh);
+/// Remarks on the kernel width against particle diameters and the cells where particles are, with numbers; empty if it fits. `places`: of
+/// particles, on any rank, m. Collective, the same on every rank.
+std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh,
+                                         std::span<const Vec3> places);
 
 }  // namespace snag

@@ -88,6 +88,18 @@ double cell_quality(CellShape shape, std::span<const Vec3> x) {
   return least;
 }
 
+struct FaceShape {
+  double angle_deg, skewness;
+};
+
+FaceShape shape_of_face(const Mesh& mesh, int f) {
+  const Vec3 &S = mesh.face_vector[f], &delta = mesh.delta[f];
+  const double distance = norm(delta);
+  const Vec3 d = delta / distance, to_face = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]];
+  return {.angle_deg = std::acos(std::clamp(dot(S, delta) / (norm(S) * distance), -1.0, 1.0)) * 180 / std::numbers::pi,
+          .skewness = norm(to_face - dot(to_face, d) * d) / distance};
+}
+
 /// Connected regions of cells: the lowest cell_id of a region spreads through it, within a rank at once, across ranks by halo.
 std::int64_t count_regions(const Mesh& mesh) {
   std::vector<int> parent(static_cast<std::size_t>(mesh.n_all_cells()));
@@ -165,14 +177,11 @@ void see_faces(const Mesh& mesh, MeshQuality& q, Places& places) {
   for (int f = 0; f < mesh.n_interior; ++f) {
     const int P = mesh.owner[f];
     if (P >= mesh.n_cells) continue;  // seen by the rank of its owner
-    const Vec3 &S = mesh.face_vector[f], &delta = mesh.delta[f];
-    const double distance = norm(delta);
-    const double angle = std::acos(std::clamp(dot(S, delta) / (norm(S) * distance), -1.0, 1.0)) * 180 / std::numbers::pi;
-    const Vec3 d = delta / distance, to_face = mesh.face_centre[f] - mesh.cell_centre[P];
-    angles.push_back(angle);
-    places.non_orthogonality.see(angle, mesh.cell_id[P], mesh.face_centre[f]);
-    skewness = std::max(skewness, norm(to_face - dot(to_face, d) * d) / distance);
-    spacing = std::min(spacing, distance);
+    const FaceShape shape = shape_of_face(mesh, f);
+    angles.push_back(shape.angle_deg);
+    places.non_orthogonality.see(shape.angle_deg, mesh.cell_id[P], mesh.face_centre[f]);
+    skewness = std::max(skewness, shape.skewness);
+    spacing = std::min(spacing, norm(mesh.delta[f]));
   }
   q.n_interior = mesh.n_interior_global;
   q.n_boundary = sum(mesh.comm, std::int64_t{mesh.n_faces - mesh.n_interior});
@@ -205,6 +214,19 @@ void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
 std::string words_above_round_off(double value) { return value < 1e-12 ? "below 1e-12" : words(value); }
 
 }  // namespace
+
+CellQuality quality_of_cell(const Mesh& mesh, int cell) {
+  std::array<Vec3, 8> points;
+  CellQuality found{.quality =
+                        cell_quality(mesh.cell_shape[cell], positions(mesh.node, row(mesh.cell_node_start, mesh.cell_node, cell), points))};
+  for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell)) {
+    if (mesh.neighbour[f] < 0) continue;
+    const FaceShape shape = shape_of_face(mesh, f);
+    found.non_orthogonality_deg = std::max(found.non_orthogonality_deg, shape.angle_deg);
+    found.skewness = std::max(found.skewness, shape.skewness);
+  }
+  return found;
+}
 
 MeshQuality quality(const Mesh& mesh) {
   MeshQuality q;

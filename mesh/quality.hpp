@@ -20,6 +20,13 @@ struct MeshQuality {
   std::vector<std::string> failures;         // one sentence each: what, where, rule, remedy; empty for a usable mesh
 };
 
+/// Of one cell: its shape, and the worst of its interior faces.
+struct CellQuality {
+  double quality = 1, non_orthogonality_deg = 0, skewness = 0;
+};
+/// An owned cell. Local.
+CellQuality quality_of_cell(const Mesh& mesh, int cell);
+
 /// Collective; the same result on every rank.
 MeshQuality quality(const Mesh& mesh);
 /// The table a user reads, with patches and zones. Collective.

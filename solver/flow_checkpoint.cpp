@@ -130,6 +130,7 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_faces(checkpoint, "flow/wall_slope", rows, mesh, on_all_faces(mesh, continuity_.wall_slope), false);
   const auto& preconditioner = continuity_.preconditioner();
   checkpoint.shared("flow/preconditioner", std::vector<double>{preconditioner.inertia, preconditioner.angle});
+  watch_.save(checkpoint);
   if (started_) write_cells(checkpoint, "flow/preconditioner_mobility", mesh, preconditioner.mobility.data(), 1);
 }
 
@@ -160,6 +161,7 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
   read_boundary(checkpoint, "flow/boundary_pressure", rows, mesh, flow.boundary_pressure);
   read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
+  watch_.load(checkpoint);
   if (started_) turbulence_->restore(flow, boundary_);
 }
 

@@ -52,9 +52,6 @@ ContinuitySettings continuity_settings(const FlowSettings& settings) {
           .multigrid = settings.multigrid};
 }
 
-bool finite(double value) { return std::isfinite(value); }
-bool finite(const Vec3& value) { return std::isfinite(value.x + value.y + value.z); }
-
 std::string scientific(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2e", value);
@@ -72,7 +69,8 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
       momentum_(mesh, momentum_settings(settings)),
       continuity_(mesh, boundary_, continuity_settings(settings)),
       turbulence_(turbulence ? std::move(turbulence) : turbulence_models().make("laminar", "[turbulence]")),
-      rotating_zone_(std::move(rotating_zone)) {
+      rotating_zone_(std::move(rotating_zone)),
+      watch_(mesh, settings_) {
   flow.rotating_zone = rotating_zone_.get();
   if (rotating_zone_) rotating_zone_->mesh().set_mesh_flux(rotating_zone_->speed(0), flow.mesh_flux);
   flow.density = settings.density;
@@ -116,6 +114,7 @@ void FlowSolver::start(double time_of_conditions) {
   update_gradient();
   continuity_.history.end_step(flow, flow.velocity_gradient);
   turbulence_->start(flow, boundary_);
+  watch_.begin(flow);
   started_ = true;
 }
 
@@ -189,7 +188,8 @@ void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& rep
   const double begun = seconds();
   if (outer > 0) momentum_.guess_from_last(flow);
   did.momentum = momentum_.predict(flow, boundary_, time);
-  if (!finite(did.momentum.final) || did.momentum.final > exploded) check_finite("momentum equation");
+  if (!(did.momentum.final <= exploded))
+    watch_.fail(flow, boundary_, time.dt, "the momentum equation has a residual of " + scientific(did.momentum.final));
   if (!did.momentum.converged)
     log::warning("momentum equation: residual " + scientific(did.momentum.final) + " after " + std::to_string(did.momentum.sweeps) +
                  " sweeps, wanted " + scientific(settings_.momentum_tolerance) + "; take smaller steps");
@@ -197,7 +197,7 @@ void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& rep
   try {
     did.continuity = continuity_.correct(flow, boundary_, time, momentum_.gradient_guess());
   } catch (const Error& error) {
-    if (error.code == ExitCode::diverged) check_finite(error.what());
+    if (error.code == ExitCode::diverged) watch_.fail(flow, boundary_, time.dt, error.what());
     throw;
   }
   const double corrected = seconds();
@@ -210,7 +210,8 @@ void FlowSolver::correct_turbulence(int outer, const TimeScheme& time, StepRepor
   const double begun = seconds();
   TurbulenceReport& did = report.outer.back().turbulence;
   did = turbulence_->correct(flow, boundary_, time, outer);
-  if (!finite(did.k.final + did.epsilon.final)) check_finite("turbulence");
+  if (!std::isfinite(did.k.final + did.epsilon.final))
+    watch_.fail(flow, boundary_, time.dt, "the equations of k and epsilon have residuals that are no numbers");
   for (const auto& [name, sweeps] : {std::pair{"k", did.k}, std::pair{"epsilon", did.epsilon}})
     if (!sweeps.converged)
       log::warning(std::string("equation of ") + name + ": change of " + scientific(sweeps.final) + " after " +
@@ -225,49 +226,30 @@ void FlowSolver::update_gradient() {
   squares_.gradient(flow.velocity, turbulence_->velocity_for_gradient(flow, boundary_), flow.velocity_gradient);
 }
 
-void FlowSolver::measure(double dt, StepReport& report) const {
+void FlowSolver::measure(double dt, StepReport& report) {
   const Mesh& mesh = flow.mesh;
-  std::vector<double> net(mesh.n_all_cells()), through(mesh.n_all_cells());
+  const auto n = static_cast<std::size_t>(mesh.n_all_cells());
+  CellFluxes fluxes{std::vector<double>(n), std::vector<double>(n)};
   double out = 0;
-  for (int f = 0; f < mesh.n_interior; ++f) {
+  for (int f = 0; f < mesh.n_faces; ++f) {
     const double relative = std::abs(flow.flux[f] - flow.mesh_flux[f]);
-    net[mesh.owner[f]] += flow.flux[f], through[mesh.owner[f]] += relative;
-    net[mesh.neighbour[f]] -= flow.flux[f], through[mesh.neighbour[f]] += relative;
-  }
-  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) {
-    net[mesh.owner[f]] += flow.flux[f], through[mesh.owner[f]] += std::abs(flow.flux[f] - flow.mesh_flux[f]);
-    out += flow.flux[f];
+    fluxes.net[mesh.owner[f]] += flow.flux[f], fluxes.through[mesh.owner[f]] += relative;
+    if (f < mesh.n_interior)
+      fluxes.net[mesh.neighbour[f]] -= flow.flux[f], fluxes.through[mesh.neighbour[f]] += relative;
+    else
+      out += flow.flux[f];
   }
   std::array<double, 2> largest{}, total{0, out};
   for (int c = 0; c < mesh.n_cells; ++c) {
-    const double courant = 0.5 * dt * through[c] / mesh.cell_volume[c];
-    largest = {std::max(largest[0], std::abs(net[c]) * dt / mesh.cell_volume[c]), std::max(largest[1], courant)};
+    const double courant = 0.5 * dt * fluxes.through[c] / mesh.cell_volume[c];
+    largest = {std::max(largest[0], std::abs(fluxes.net[c]) * dt / mesh.cell_volume[c]), std::max(largest[1], courant)};
     total[0] += courant;
   }
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), 2, MPI_DOUBLE, MPI_MAX, mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, total.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
   report.continuity_local = largest[0], report.courant_max = largest[1];
   report.courant_mean = total[0] / static_cast<double>(mesh.n_cells_global), report.continuity_global = total[1];
-  if (!finite(total[0] + total[1])) check_finite("end of the step");
-}
-
-/// Throws Error(diverged) for the first cell that holds no finite velocity or pressure; the same on every rank.
-void FlowSolver::check_finite(const std::string& where) const {
-  const std::string step = "step " + std::to_string(flow.time_step + 1) + " (t = " + words(flow.time) + " s), " + where;
-  const std::string remedy = "; take smaller steps or more outer_correctors, or look at the mesh there (snag mesh --info)";
-  const bool turbulent = !flow.turbulent_kinetic_energy.empty();
-  together(flow.mesh.comm, [&] {
-    for (int c = 0; c < flow.mesh.n_cells; ++c) {
-      const char* field = !finite(flow.velocity[c])                                                           ? "velocity"
-                          : !finite(flow.pressure[c])                                                         ? "pressure"
-                          : turbulent && !finite(flow.turbulent_kinetic_energy[c] + flow.dissipation_rate[c]) ? "k or epsilon"
-                                                                                                              : nullptr;
-      if (field)
-        throw Error(ExitCode::diverged, step + ": " + field + " is not finite in cell " + std::to_string(flow.mesh.cell_id[c]) + " at " +
-                                            place(flow.mesh.cell_centre[c]) + remedy);
-    }
-  });
-  throw Error(ExitCode::diverged, step + ": the residual of the momentum equation exploded" + remedy);
+  watch_.check(flow, boundary_, fluxes, report);
 }
 
 }  // namespace snag

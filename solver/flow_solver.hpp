@@ -5,6 +5,7 @@
 
 #include "solver/boundary.hpp"
 #include "solver/continuity.hpp"
+#include "solver/divergence.hpp"
 #include "solver/flow_settings.hpp"
 #include "solver/momentum.hpp"
 #include "solver/rotating_zone.hpp"
@@ -70,6 +71,11 @@ class FlowSolver {
   void load(CheckpointReader& checkpoint);
 
   const BoundarySet& boundary() const { return boundary_; }
+  /// Lets the bounds on the water know what the conditions will give until `end`, s.
+  void foresee(double end) { watch_.foresee(flow, boundary_, end); }
+  /// Bounds on the water; whoever puts moving bodies into it widens them.
+  DivergenceWatch& watch() { return watch_; }
+  const DivergenceWatch& watch() const { return watch_; }
 
  private:
   void balance_body_force();
@@ -78,10 +84,9 @@ class FlowSolver {
   void fields_follow_facets();
   void correct_once(int outer, const TimeScheme& time, StepReport& report);
   void update_gradient();
-  void measure(double dt, StepReport& report) const;
+  void measure(double dt, StepReport& report);
   void correct_turbulence(int outer, const TimeScheme& time, StepReport& report);
   void load_preconditioner(CheckpointReader& checkpoint, double fresh_cost, bool rebuild_due);
-  void check_finite(const std::string& where) const;
 
   FlowSettings settings_;
   BoundarySet boundary_;
@@ -90,6 +95,7 @@ class FlowSolver {
   Continuity continuity_;
   std::unique_ptr<Turbulence> turbulence_;
   std::unique_ptr<RotatingZone> rotating_zone_;
+  DivergenceWatch watch_;
   TimeScheme time_;
   bool started_ = false;
 };

@@ -1,10 +1,12 @@
 #include "app/report/results.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/checks.hpp"
 #include "app/report/html.hpp"
 #include "base/progress.hpp"
 #include "base/words.hpp"
@@ -63,15 +65,6 @@ void add_rows(Rows& rows, const json& table, const std::vector<Named>& names, bo
 
 std::string table_of(const std::vector<std::string>& header, const Rows& rows) { return rows.empty() ? "" : html::table(header, rows); }
 
-/// The largest number that the entries of a list have under a key, or null.
-json largest(const json& list, const char* key) {
-  json result;
-  if (!list.is_array()) return result;
-  for (const json& entry : list)
-    if (const json& value = member(entry, key); value.is_number() && (result.is_null() || value > result)) result = value;
-  return result;
-}
-
 const char* exit_words(int code) {
   switch (code) {
     case 0:
@@ -81,9 +74,9 @@ const char* exit_words(int code) {
     case 3:
       return "The run was refused because of its mesh.";
     case 4:
-      return "The run was stopped because the solution of the water diverged.";
+      return "The computation diverged: its results must not be used.";
     case 5:
-      return "The run was stopped because particles, bonds or momentum were lost: its results must not be used.";
+      return "Particles, bonds or momentum were lost, or went through walls: the results must not be used.";
     case 6:
       return "The run was stopped because a file could not be read or written.";
     case 7:
@@ -136,11 +129,18 @@ std::string rags_sentence(const json& rags) {
 
 }  // namespace
 
-bool ended_well(const json& summary) { return real(summary, "exit") == 0; }
+bool ended_well(const json& summary) {
+  const std::vector<CheckedValue> all = checked(summary);
+  return real(summary, "exit") == 0 && std::none_of(all.begin(), all.end(), [](const CheckedValue& one) { return one.fails(); });
+}
 
 std::string outcome_sentence(const json& summary, const std::string& verdict) {
   const double code = real(summary, "exit"), simulated = real(summary, "simulated_s"), steps = real(summary, "time_steps");
   std::string text = std::isnan(code) ? "The run left no exit code." : exit_words(static_cast<int>(code));
+  if (code == 0 && !ended_well(summary)) text = "The run reached its end, but its results must not be used.";
+  if (const std::string error = word(summary, "error"); !error.empty()) text += " " + escaped(error) + ".";
+  for (const CheckedValue& one : checked(summary))
+    if (one.fails()) text += " Check failed: " + escaped(failure_in_words(one)) + ".";
   if (std::isfinite(simulated)) text += " It covers " + html::number(simulated) + " s of operation";
   if (std::isfinite(simulated) && std::isfinite(steps)) text += " in " + html::count(std::llround(steps)) + " time steps";
   if (std::isfinite(simulated)) text += ".";
@@ -209,8 +209,7 @@ std::string rag_tables(const json& summary) {
               {"max_wall_overlap_over_radius", "Deepest overlap with a wall, in particle radii", ""},
               {"max_overlap_over_radius", "Deepest overlap between particles, in particle radii", ""},
               {"bond_strain_p99", "Strain that 99 % of the bonds stay below", ""},
-              {"max_bond_tension_N", "Largest tension of a bond", "N"},
-              {"corrected_positions", "Clamped positions", ""}});
+              {"max_bond_tension_N", "Largest tension of a bond", "N"}});
     add_rows(rows, member(rag, "wall_contact_by_zone_s"),
              {{"impeller", "Time in contact with the impeller", "s"},
               {"tongue", "Time in contact with the tongue", "s"},
@@ -228,39 +227,14 @@ std::string rag_tables(const json& summary) {
   return result;
 }
 
-std::string conservation_table(const json& summary) {
-  struct Check {
-    const char* key;
-    const char* meaning;
-    double limit;
-  };
-  const std::vector<Check> checks = {
-      {"mass_imbalance_rel", "Mass imbalance, relative to the flow", 1e-6},
-      {"momentum_exchange_rel", "Momentum lost between water and rags, relative to what was exchanged", 1e-10},
-      {"interface_closure_rel", "Gap of the sliding interface, relative to its area", 1e-12},
-      {"particles_lost", "Particles lost", 0},
-      {"bonds_lost", "Bonds lost (other than by breaking)", 0},
-      {"particles_beyond_walls", "Particles beyond a wall", 0},
-  };
-  const json& conservation = member(summary, "conservation");
-  if (!conservation.is_object()) return "";
+std::string check_table(const json& summary) {
   Rows rows;
-  const auto add = [&](const Check& check, const json& value) {
-    const char* verdict = "<span class=\"idle\">not measured</span>";
-    if (value.is_number())  // what is not a number fails
-      verdict = value.get<double>() <= check.limit ? "<span class=\"pass\">pass</span>" : "<span class=\"fail\">FAIL</span>";
-    rows.push_back({check.meaning, value.is_number() ? text_of(value) : "", check.limit == 0 ? "0" : html::number(check.limit), verdict});
-  };
-  for (const auto& check : checks) {
-    const json& value = member(conservation, check.key);
-    if (value.is_null() && check.key == std::string("interface_closure_rel")) continue;  // there is no interface
-    add(check, value);
+  for (const CheckedValue& one : checked(summary)) {
+    if (!one.value) continue;  // the case has nothing to measure it on
+    const char* verdict = one.fails() ? "<span class=\"fail\">FAIL</span>" : "<span class=\"pass\">pass</span>";
+    rows.push_back({one.check.meaning, html::number(*one.value), html::number(one.check.limit), verdict});
   }
-  // of rags: the worst of them; a contact that gives way by more than half a radius is no longer the contact of a sphere with a wall
-  for (const Check& check : {Check{"max_wall_overlap_over_radius", "Deepest overlap of a particle with a wall, in its radii", 0.5},
-                             Check{"corrected_positions", "Clamped positions of particles", 0}})
-    if (const json worst = largest(member(summary, "rags"), check.key); !worst.is_null()) add(check, worst);
-  return html::table({"Quantity", "Largest value", "Limit", "Check"}, rows);
+  return table_of({"Quantity", "Largest value", "Limit", "Check"}, rows);
 }
 
 std::string cost_table(const json& summary) {

@@ -7,10 +7,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <regex>
 #include <sstream>
+#include <tuple>
 
+#include "app/checks.hpp"
+#include "app/report/results.hpp"
 #include "base/error.hpp"
 #include "base/series.hpp"
 #include "base/vtk_file.hpp"
@@ -123,7 +127,7 @@ const char* const summary_text =
  "rags": [{"id": 0, "name": "wipe", "particles": 651, "bonds": 1250, "broken_bonds": 3, "outcome": "stuck_on_tongue", "retention_time_s": null,
   "elongation_ratio": 1.31, "projected_area_m2": 0.045, "my_new_key": 7,
   "events": [{"t_s": 0.31, "angle_deg": 97.5, "what": "edge touches the tongue <first>"}]}],
- "conservation": {"mass_imbalance_rel": 3e-9, "momentum_exchange_rel": 2e-9, "interface_closure_rel": null, "particles_lost": 0, "bonds_lost": 0,
+ "conservation": {"mass_imbalance_rel": 3e-9, "momentum_exchange_rel": 2e-11, "interface_closure_rel": null, "particles_lost": 0, "bonds_lost": 0,
   "particles_beyond_walls": 0}})";
 
 class Report : public testing::Test {
@@ -241,7 +245,7 @@ for name in ('rotor_speed', 'pressure_walls', 'pressure_rotor_walls'):
   EXPECT_EQ(shares, "True False\nFalse True\nFalse True\n");
 }
 
-// Results are told in words with units; a broken limit is marked as failed, what was not measured is not called passed; new keys are shown.
+// Results are told in words with units; what was not measured is not called passed; new keys are shown.
 TEST_F(Report, TellsResultsInWords) {
   std::ofstream(dir / "summary.json") << summary_text;
   write_report(dir);
@@ -255,19 +259,42 @@ TEST_F(Report, TellsResultsInWords) {
   EXPECT_TRUE(holds(html, "<td>3.5 × 10<sup>7</sup> per second</td>"));
   EXPECT_TRUE(holds(html, "<td>my_new_key</td><td>7</td>"));
   EXPECT_TRUE(holds(html, "edge touches the tongue &lt;first&gt;"));
-  EXPECT_EQ(times(html, ">pass<"), 4u);
-  EXPECT_EQ(times(html, ">FAIL<"), 1u) << "momentum_exchange_rel 2e-9 is above its limit 1e-10";
+  EXPECT_EQ(times(html, ">pass<"), 5u);
+  EXPECT_EQ(times(html, ">FAIL<"), 0u);
   EXPECT_FALSE(holds(html, "sliding interface")) << "there is none";
 }
 
 // A run that did not end as planned says why at the top.
 TEST_F(Report, NamesTheReasonOfABadEnd) {
   std::ofstream(dir / "summary.json")
-      << R"({"case": null, "exit": 4, "rags": [{"id": 1, "outcome": null}], "conservation": {"particles_lost": 2}})";
+      << R"({"case": null, "exit": 4, "error": "|U| < 3", "rags": [{"id": 1, "outcome": null}], "conservation": {"particles_lost": 2}})";
   write_report(dir);
-  EXPECT_TRUE(holds(page(), "outcome bad\">The run was stopped because the solution of the water diverged."));
+  EXPECT_TRUE(holds(page(), "outcome bad\">The computation diverged: its results must not be used. |U| &lt; 3."));
   EXPECT_EQ(times(page(), ">FAIL<"), 1u);
-  EXPECT_EQ(times(page(), ">not measured<"), 4u);
+  EXPECT_EQ(times(page(), ">pass<"), 0u);
+}
+
+// Requirement: each check that the report shows can fail, and then neither the report nor the colour of its head says that all is well.
+TEST_F(Report, EveryCheckCanFail) {
+  const auto good = nlohmann::json::parse(summary_text);
+  for (const auto& [group, key, value] :
+       std::vector<std::tuple<std::string, std::string, double>>{{"water", "max_speed_over_scale", 21},
+                                                                 {"water", "unsolved_steps", 21},
+                                                                 {"conservation", "mass_imbalance_rel", 2e-4},
+                                                                 {"conservation", "momentum_exchange_rel", 2e-10},
+                                                                 {"conservation", "interface_closure_rel", 2e-12},
+                                                                 {"conservation", "particles_lost", 1},
+                                                                 {"conservation", "bonds_lost", 1},
+                                                                 {"conservation", "particles_beyond_walls", 1},
+                                                                 {"rags", "max_wall_overlap_over_radius", 0.6}}) {
+    auto summary = good;
+    (group == "rags" ? summary["rags"][0] : summary[group])[key] = value;
+    EXPECT_FALSE(ended_well(summary)) << key;
+    EXPECT_TRUE(holds(check_table(summary), ">FAIL<")) << key;
+    EXPECT_FALSE(holds(outcome_sentence(summary), "as planned")) << key;
+    EXPECT_TRUE(holds(outcome_sentence(summary), "Check failed: ")) << key;
+  }
+  EXPECT_EQ(checked(good).size(), 9u) << "a check was added: let it fail here, too";
 }
 
 // A run that was killed before its summary still has a report of its monitors, case and log, which says so.

@@ -65,7 +65,7 @@ class PassageReport : public testing::Test {
     return nlohmann::json::parse(
         R"({"case": "pump", "exit": 0, "conservation": {}, "rags": [{"id": 0, "name": "rag", "outcome": "exited", "retention_time_s": 0.25,
       "time_to_enter_s": 0.05, "recirculations": 1, "broken_bonds": 0, "stuck_on_tongue_s": 0, "stuck_on_impeller_s": 0,
-      "max_wall_overlap_over_radius": 0.7, "corrected_positions": 0,
+      "max_wall_overlap_over_radius": 0.7,
       "volute": [{"angle_deg": 0, "time_s": 0.1, "mean_radius_m": 0.11}, {"angle_deg": 20, "time_s": 0, "mean_radius_m": null}],
       "events": [{"t_s": 0.4, "angle_deg": 0, "what": "entered"}, {"t_s": 0.45, "angle_deg": 9, "what": "wholly in the casing"},
                  {"t_s": 0.7, "angle_deg": 99, "what": "exited"}]}]})");

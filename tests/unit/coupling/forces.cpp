@@ -314,21 +314,26 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
 
 // Requirement: kernels that do not fit particles or cells are named with numbers; one that fits is not.
 TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
-  const Mesh mesh = structured_box(MPI_COMM_SELF, {0, 0, 0}, {0.1, 0.1, 0.1}, {20, 20, 20});  // cells of 5 mm
+  Mesh mesh = structured_box(MPI_COMM_SELF, {0, 0, 0}, {0.1, 0.1, 0.1}, {20, 20, 20});  // cells of 5 mm
+  const std::vector<Vec3> places{{0.051, 0.051, 0.051}};
   std::vector<Rag> rags(1);
   rags[0].hydrodynamic_diameter = 2e-3;
   const auto warnings = [&](const std::string& keys) {
-    return kernel_warnings(read_coupling(CaseFile::parse("[coupling]\n" + keys).root()), rags, mesh);
+    return kernel_warnings(read_coupling(CaseFile::parse("[coupling]\n" + keys).root()), rags, mesh, places);
   };
   EXPECT_TRUE(warnings("kernel_width_mm = 5").empty());
   EXPECT_TRUE(warnings("").empty());
   ASSERT_EQ(warnings("kernel_width_mm = 1").size(), 2u);
   EXPECT_NE(warnings("kernel_width_mm = 1")[0].find("0.5 of the particle diameter (2 mm)"), std::string::npos);
-  EXPECT_NE(warnings("kernel_width_mm = 1")[1].find("0.2 of the cell size (mean 5 mm)"), std::string::npos);
+  EXPECT_NE(warnings("kernel_width_mm = 1")[1].find("0.2 of the cells where the particles are (mean 5 mm)"), std::string::npos);
   EXPECT_EQ(warnings("kernel_width_mm = 50").size(), 1u);
   EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
   rags[0].hydrodynamic_diameter = 8e-3;
   EXPECT_EQ(warnings("kernel = \"cell\"").size(), 1u);
+  rags[0].hydrodynamic_diameter = 2e-3;
+  for (int c = 0; c < 4000; ++c) mesh.cell_volume[c] = c == 0 ? 1e-13 : 1e-3 * mesh.cell_volume[c];  // small cells, away from the particle
+  EXPECT_TRUE(warnings("kernel_width_mm = 5").empty());
+  EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
 }
 
 // Requirement: every key of the coupling is in the manual's sections.

@@ -52,6 +52,7 @@ TEST(Settling, MomentumCloses) {
   for (const char* kernel : {"cell", "gaussian"}) {
     SCOPED_TRACE(kernel);
     FlowSolver water(mesh, sharp_settings(), {});
+    water.watch().widen(1, "fall of the spheres");  // m/s
     RagSystem rags(world, {}, pieces());
     const std::string text =
         "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n[coupling]\nkernel_width_mm = 5\nkernel = \"" + std::string(kernel) + "\"\n";

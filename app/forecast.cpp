@@ -1,0 +1,180 @@
+#include "app/forecast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "base/progress.hpp"
+#include "base/words.hpp"
+#include "dem/tile_particles.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "solver/monitors.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double largest_turn = 30;      // degrees a step: 12 steps a revolution; the second order in time then errs by 9 %
+constexpr double advised_turn = 6;       // degrees a step; up to 5.8 the head of a pump was within 0.2 % of that of small steps
+constexpr double good_turn = 5;          // degrees a step, for the remedies
+constexpr double advised_courant = 100;  // of the median cell without a rotor
+constexpr double transition = 4000;      // Reynolds number of a pipe from which the flow is turbulent
+constexpr double friction_speed = 0.05;  // u_tau/U
+constexpr double viscous_layer = 11;     // y+ below which the standard wall function does not hold
+// Orders of magnitude on one core of a present workstation; timing.csv of a run has those of this machine.
+constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 6e3, bytes_per_particle = 2e3,
+                 bytes_of_program = 1e8;
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+double degrees_a_step(const FlowSolver& water, double step) {
+  const RotatingZone* zone = water.flow.rotating_zone;
+  return zone && zone->slides() ? std::abs(zone->full_speed()) * step * 180 / std::numbers::pi : 0;
+}
+
+std::vector<double> gathered(MPI_Comm comm, const std::vector<double>& mine) {
+  const int n = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(size_of(comm))), starts(counts.size());
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<double> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, comm);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+double median(const std::vector<double>& sorted) { return sorted.empty() ? 0 : sorted[sorted.size() / 2]; }
+
+void foresee_step(const Simulation& simulation, Forecast& result) {
+  const FlowSolver& water = *simulation.water;
+  const double step = simulation.time_settings.step, turn = degrees_a_step(water, step);
+  const std::vector<double> courant = gathered(simulation.mesh->comm, water.watch().courant_of(step));
+  result.text += "speed of the case " + rounded(water.watch().speed()) + " m/s (" + water.watch().source() + "): Courant number a step " +
+                 rounded(median(courant)) + " in the median cell, " + rounded(courant[courant.size() * 99 / 100]) + " in 1 of 100, " +
+                 rounded(courant.back()) + " in the smallest\n";
+  if (turn > 0) result.text += "the rotor turns " + rounded(turn) + " degrees a step\n";
+  if (turn > advised_turn)
+    result.warnings.push_back("[time] step: the rotor turns " + rounded(turn) + " degrees a step, advised at most " +
+                              rounded(advised_turn) + "; step_ms = " + rounded(1e3 * step * good_turn / turn) + " gives " +
+                              rounded(good_turn));
+  if (turn == 0 && median(courant) > advised_courant)
+    result.warnings.push_back("[time] step: at the speed of the case the median cell has a Courant number of " + rounded(median(courant)) +
+                              ", advised at most " + rounded(advised_courant) +
+                              "; step_ms = " + rounded(1e3 * step * advised_courant / median(courant)) + " gives that");
+}
+
+/// Speed of the water along a patch, m/s: that of the rim where the patch turns, else that of the case without the rotor's.
+double speed_at(const Simulation& simulation, int patch) {
+  const Mesh& mesh = *simulation.mesh;
+  const RotatingZone* zone = simulation.water->flow.rotating_zone;
+  double speed = 0;
+  for (int f = mesh.patches[patch].first; zone && f < mesh.patches[patch].end(); ++f)
+    if (mesh.cell_zone[mesh.owner[f]] == zone->zone())
+      speed = std::max(speed, norm(cross(zone->full_speed() * zone->axis(), mesh.face_centre[f] - zone->origin())));
+  speed = maximum(mesh.comm, speed);
+  return speed > 0 ? speed : simulation.water->watch().speed();
+}
+
+void foresee_walls(const Simulation& simulation, Forecast& result) {
+  const Mesh& mesh = *simulation.mesh;
+  const Flow& flow = simulation.water->flow;
+  const double nu = flow.dynamic_viscosity / flow.density;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+    if (!simulation.water->boundary().is_wall(p)) continue;
+    const double u_tau = friction_speed * speed_at(simulation, p);
+    std::vector<double> y_plus;
+    for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f)
+      y_plus.push_back(std::abs(dot(mesh.delta[f], mesh.face_vector[f])) / norm(mesh.face_vector[f]) * u_tau / nu);
+    const std::vector<double> all = gathered(mesh.comm, y_plus);
+    if (all.empty()) continue;
+    result.text += "y+ on " + mesh.patches[p].name + ": about " + rounded(all.front()) + " to " + rounded(all.back()) + ", median " +
+                   rounded(median(all)) + "\n";
+    if (median(all) < viscous_layer)
+      result.warnings.push_back("[turbulence] on patch \"" + mesh.patches[p].name + "\" y+ is about " + rounded(median(all)) +
+                                ", advised 30 to 300: below " + rounded(viscous_layer) +
+                                " the wall function makes friction too large by half; use thicker cells at the wall");
+  }
+}
+
+/// Laminar where the flow is turbulent.
+void foresee_transition(const Simulation& simulation, Forecast& result) {
+  const Flow& flow = simulation.water->flow;
+  const Mesh& mesh = *simulation.mesh;
+  double area = 0;
+  std::string widest;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+    if (simulation.water->boundary().is_wall(p) || simulation.water->boundary().fixes(p) == Fixes::symmetry) continue;
+    if (const double of_patch = patch_area(flow, p); of_patch > area) area = of_patch, widest = mesh.patches[p].name;
+  }
+  const double Re = simulation.water->watch().speed() * std::sqrt(4 * area / std::numbers::pi) * flow.density / flow.dynamic_viscosity;
+  if (area == 0) return;
+  result.text += "Reynolds number " + rounded(Re) + " with the speed of the case and the width of patch " + widest + "\n";
+  if (flow.turbulent_kinetic_energy.empty() && !simulation.laminar_asked() && Re > transition)
+    result.warnings.push_back("the flow is computed as laminar at a Reynolds number of " + rounded(Re) + ", turbulent above some " +
+                              rounded(transition) +
+                              "; give [turbulence] model = \"k_epsilon\", or model = \"laminar\" where that is meant");
+}
+
+void foresee_cost(const Simulation& simulation, Forecast& result) {
+  const std::int64_t n_steps = simulation.time_settings.n_steps();
+  const double step = simulation.time_settings.step;
+  double cost = 0, memory = bytes_of_program;  // s, bytes
+  result.text += std::to_string(n_steps) + " steps of " + rounded(step) + " s";
+  if (simulation.mesh && !simulation.frozen()) {
+    cost += static_cast<double>(n_steps * simulation.mesh->n_cells_global) * seconds_per_cell_step;
+    memory += static_cast<double>(simulation.mesh->n_cells_global) * bytes_per_cell;
+  }
+  if (simulation.rags) {
+    const double sub_steps = std::max(1.0, std::ceil(step / simulation.rags->stable_step() * (1 - 1e-12)));
+    result.text += ", each of " + rounded(sub_steps) + (sub_steps == 1 ? " sub-step" : " sub-steps") + " of the rags";
+    cost += static_cast<double>(simulation.rags->n_particles() * n_steps) * sub_steps * seconds_per_particle_step;
+    memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
+  }
+  const int ranks = size_of(MPI_COMM_WORLD);
+  result.text += "\ncost: about " + duration(cost / ranks) + " on " + std::to_string(ranks) + " ranks, " + rounded(memory / 1e9) + " GB";
+}
+
+}  // namespace
+
+Forecast forecast(const Simulation& simulation) {
+  Forecast result;
+  if (simulation.water && !simulation.frozen()) {
+    foresee_step(simulation, result);
+    foresee_transition(simulation, result);
+    if (!simulation.water->flow.turbulent_kinetic_energy.empty()) foresee_walls(simulation, result);
+  }
+  foresee_cost(simulation, result);
+  return result;
+}
+
+void check_turn(const FlowSolver& water, double step) {
+  const double turn = degrees_a_step(water, step);
+  if (turn > largest_turn)
+    throw Error(ExitCode::usage, "[time] step = " + words(step) + " s: the rotor turns " + rounded(turn) +
+                                     " degrees in it, must not exceed " + rounded(largest_turn) +
+                                     "; step_ms = " + rounded(1e3 * step * good_turn / turn) + " gives " + rounded(good_turn));
+}
+
+std::vector<Vec3> places_of_cloth(const Simulation& simulation) {
+  std::vector<Vec3> places;
+  const RagSystem& rags = *simulation.rags;
+  for (const Tile& tile : rags.tiles()) for_particles(tile, [&](int k, int, int) { places.push_back(tile.vector(Tile::x, k)); });
+  for (std::size_t r = 0; r < rags.rags().size() && rank_of(rags.comm()) == 0; ++r) {
+    if (rags.presence(static_cast<int>(r)) != RagSystem::Presence::waiting) continue;
+    const RagPiece& piece = rags.pieces()[r];
+    for (int row = 0; row < rags.rags()[r].n_rows; ++row)
+      for (int column = 0; column < rags.rags()[r].n_columns; ++column)
+        if (piece.exists(column, row)) places.push_back(piece.pose(column, row).position);
+  }
+  return places;
+}
+
+}  // namespace snag

@@ -1,0 +1,104 @@
+# timeout: 300
+# processors: 1
+"""Requirement: `snag check` refuses what `snag run` would refuse, and says before the run what will be wrong with it; of the shipped cases it warns of nothing."""
+import harness
+from small_cases import CHANNEL, CHANNEL_MESH, CHANNEL_OUTLET_AND_WALLS
+
+WATER = """
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 0.01
+step_s = 1e-3
+[[boundary]]
+patch = "inlet"
+kind = "velocity_inlet"
+velocity_m_s = [0.3, 0, 0]
+{ramp}
+""" + CHANNEL_OUTLET_AND_WALLS
+
+PUMP = harness.SOURCE_DIR / "cases" / "pump-curve" / "case.toml"
+
+# A closed box of 12 triangles with normals outwards: as STL the water is inside.
+CORNERS = [(x, y, z) for z in (0, 0.2) for y in (0, 0.2) for x in (0, 0.2)]
+BOX = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4), (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
+HOUSING = """
+[time]
+end_s = 0.001
+step_s = 1e-4
+[[wall]]
+kind = "stl"
+name = "housing"
+file = "housing.stl"
+normals_into_fluid = {flipped}
+[[rag]]
+length_mm = 40
+width_mm = 40
+radius_mm = 1
+centre_m = [0.1, 0.1, 0.1]
+"""
+
+
+def stl():
+    facets = []
+    for triangle in BOX:
+        vertices = "".join("vertex {} {} {}\n".format(*CORNERS[i]) for i in triangle)
+        facets.append(f"facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
+    return "solid housing\n" + "".join(facets) + "endsolid housing\n"
+
+
+class CheckPredicts(harness.CaseTest):
+    def check(self, case, *arguments, code=0):
+        run = harness.snag(["check", case, *arguments])
+        self.assertEqual(run.code, code, run.tail())
+        return run
+
+    def water(self, more="", ramp=""):
+        return self.case(WATER.format(mesh=self.mesh(*CHANNEL_MESH), ramp=ramp) + more)
+
+    def test_start_of_k_and_epsilon(self):
+        run = self.check(self.water('[turbulence]\nmodel = "k_epsilon"\n', "ramp_s = 1"), code=2)
+        self.assertIn("no fluid enters at the start", run.stderr)
+
+    def test_patch_of_the_pump(self):
+        run = self.check(PUMP, "--set", 'pump.walls=["vane"]', code=2)
+        self.assertIn("vane", run.stderr)
+
+    def test_degrees_a_step(self):
+        run = self.check(PUMP, "--set", "time.step_ms=10", "--set", "time.end_ms=200", code=2)
+        self.assertIn("72 degrees", run.stderr)
+        self.assertIn("step_ms = 0.694 gives 5", run.stderr)
+        run = self.check(PUMP, "--set", "time.step_ms=2")
+        self.assertIn("14.4 degrees a step, advised at most 6", run.stdout)
+
+    def test_what_is_foreseen(self):
+        run = self.check(PUMP)
+        for words in ("1.44 degrees a step", "Courant number a step", "y+ on impeller_walls", "y+ on casing_walls", "Reynolds number", "cost: "):
+            self.assertIn(words, run.stdout)
+        self.assertNotIn("warning", run.stdout)
+
+    def test_laminar_above_transition(self):
+        run = self.check(self.water())
+        self.assertIn("laminar at a Reynolds number of 3", run.stdout)
+        self.assertNotIn("warning", self.check(self.water('[turbulence]\nmodel = "laminar"\n')).stdout)
+
+    def test_thin_cells_at_a_wall(self):
+        run = self.check(self.water('[turbulence]\nmodel = "k_epsilon"\n[flow]\nkinematic_viscosity_m2_s = 1e-4\n'))
+        self.assertIn("y+ is about", run.stdout)
+
+    def test_walls_that_face_away(self):
+        (self.work / "housing.stl").write_text(stl())
+        self.check(self.case(HOUSING.format(flipped="false")))
+        run = self.check(self.case(HOUSING.format(flipped="true")), code=2)
+        self.assertIn('inside of the closed [[wall]] "housing"', run.stderr)
+        self.assertIn("normals_into_fluid", run.stderr)
+
+    def test_shipped_cases(self):
+        """Those whose mesh need not be made, or is made in a second."""
+        for name in ("pump-demo", "pump-curve", "rag-in-channel", "fibre-shear"):
+            run = self.check(harness.SOURCE_DIR / "cases" / name / "case.toml")
+            self.assertNotIn("warning", run.stdout, name)
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,88 @@
+# timeout: 300
+# processors: 2
+"""Requirement: a run whose water or particles diverge ends with code 4 while its numbers are finite, names the place and what to do there, and no report says that it ended as planned while a check fails."""
+import json
+
+import harness
+from small_cases import CHANNEL, CHANNEL_MESH, TWO_SHEETS
+
+# A sphere four cells wide whose drag is corrected for its own wake: with the cell kernel the correction feeds on itself.
+SPHERE = """
+[case]
+name = "sphere"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 2
+step_s = 0.01
+[flow]
+density_kg_m3 = 1000
+dynamic_viscosity_Pa_s = 0.1
+[[boundary]]
+patch = "inlet"
+kind = "wall"
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["bottom", "top", "side_z0", "side_z1"]
+kind = "wall"
+[gravity]
+acceleration_m_s2 = [0, -9.81, 0]
+[[particle]]
+diameter_mm = 40
+density_kg_m3 = 1010
+position_m = [0.15, 0.05, 0.05]
+[coupling]
+mode = "two_way"
+kernel = "cell"
+forces = ["schiller_naumann", "self_disturbance"]
+"""
+
+
+class Diverging(harness.CaseTest):
+    def diverges(self, case, ranks, *fragments, arguments=()):
+        """Ends with 4 and one message with all fragments, the same in summary.json and, in red, in the report."""
+        run = self.run_case(case, ranks, *arguments, out=f"out{ranks}", code=4)
+        errors = [line for line in run.messages if "error" in line]
+        self.assertEqual(len(errors), 1, run.stderr)
+        print(f"  {errors[0]}")
+        for fragment in fragments:
+            self.assertIn(fragment, errors[0])
+        self.assertEqual(run.summary["exit"], 4)
+        self.assertIn(run.summary["error"], errors[0])
+        page = (run.folder / "report.html").read_text()
+        self.assertIn('<p class="outcome bad">The computation diverged', page)
+        self.assertNotIn("as planned", page)
+        for name in ("residuals", "rags"):
+            if (run.folder / "monitors" / f"{name}.csv").exists():
+                self.assertLess(abs(run.monitor(name).values).max(), 1e9, "numbers grew beyond all bounds before the run ended")
+        return run
+
+    def test_sphere_that_flies_out(self):
+        case = self.case(SPHERE.format(mesh=self.mesh(*CHANNEL_MESH)))
+        self.diverges(case, 1, "diverged", 'kernel = "gaussian"', "no checkpoint was written")
+
+
+class Checks(harness.CaseTest):
+    def test_mass_imbalance(self):
+        """A pressure equation that is not solved well enough: the run reaches its end, and does not end with 0."""
+        case = self.case(CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell"))
+        loose = ("--set", "flow.pressure_tolerance=0.1", "--set", "flow.pressure_tolerance_intermediate=0.5", "--set", "output.report=true", "--set", "time.end_s=0.005")
+        run = self.run_case(case, 2, *loose, code=4)
+        self.assertGreater(run.summary["conservation"]["mass_imbalance_rel"], 1e-4)
+        self.assertIn("a check failed: Mass imbalance", run.stderr)
+        self.assertNotIn("as planned", (run.folder / "report.html").read_text())
+
+    def test_wall_overlap(self):
+        """Cloth that is thrown at a wall too fast for its contacts."""
+        fast = ("--set", "rag.0.velocity_m_s=[0, 0, -12]", "--set", "time.end_s=0.008", "--set", "output.report=true")
+        run = self.run_case(self.case(TWO_SHEETS), 2, *fast, code=5)
+        self.assertGreater(run.summary["rags"][0]["max_wall_overlap_over_radius"], 0.5)
+        page = (run.folder / "report.html").read_text()
+        self.assertIn('<p class="outcome bad">', page)
+        self.assertNotIn("as planned", page)
+
+
+if __name__ == "__main__":
+    harness.main()
