@@ -139,7 +139,7 @@ void foresee_cost(const Simulation& simulation, Forecast& result) {
     memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
   }
   const int ranks = size_of(MPI_COMM_WORLD);
-  result.text += "\ncost: about " + duration(cost / ranks) + " on " + std::to_string(ranks) + " ranks, " + rounded(memory / 1e9) + " GB";
+  result.text += "\ncost: about " + duration(cost / ranks) + " on " + counted(ranks, "rank") + ", " + rounded(memory / 1e9) + " GB";
 }
 
 }  // namespace

@@ -107,9 +107,6 @@ struct Run {
   }
 };
 
-/// "1 rank", "2 ranks".
-std::string counted(std::int64_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
-
 /// The sub-step of the rags and what limits it.
 std::string sub_step_words(const RagSystem& rags) {
   const double step = rags.stable_step(), limit = rags.step_limit().step;

@@ -124,7 +124,7 @@ void Simulation::build_water(const CaseFile& file) {
     throw Error(ExitCode::usage, "[start] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
   auto boundaries = read_boundaries(file.root());
   auto turbulence = read_turbulence(file.root());
-  laminar_asked_ = file.root().has("turbulence");
+  laminar_asked_ = file.root().table("turbulence").has("model");
   if (store_ && start_settings_.frozen) {
     std::string conditions;
     for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
@@ -154,6 +154,7 @@ void Simulation::build_rags(const CaseFile& file) {
   walls = read_walls(file, mesh.get(), rotor ? &*rotor : nullptr);
   ContactSettings contacts;
   file.root().table("contact").read(contacts.parameters());
+  impact_speed_ = contacts.impact_speed;
   DemSettings settings;
   read(file.root(), settings);
   std::vector<RagPiece> pieces = read_pieces(file);
@@ -188,7 +189,7 @@ void Simulation::couple(const CaseFile& file) {
     rags->set_gravity(acceleration);
   }
   if (coupled) coupled->set_walls(walls);
-  speed_bounds_ = std::make_unique<SpeedBounds>(file.root(), mesh.get(), walls, rags->pieces());
+  speed_bounds_ = std::make_unique<SpeedBounds>(file.root(), mesh.get(), walls, rags->pieces(), impact_speed_);
   if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
 }
 

@@ -99,6 +99,7 @@ class Simulation {
   StoredWater* stored_water_ = nullptr;  // of the store, for frozen water
   std::string mesh_key_;                 // of the store
   std::optional<PrescribedFlow> prescribed_;
+  double impact_speed_ = 0;                    // m/s, of the contacts
   std::unique_ptr<SpeedBounds> speed_bounds_;  // of the rags
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling

@@ -14,8 +14,6 @@ namespace snag {
 
 namespace {
 
-constexpr double least_speed = 0.05;  // m/s; slower cases get the bound of this one, 1 m/s
-
 double diagonal(const Mesh& mesh) {
   Vec3 size;
   for (int axis = 0; axis < 3; ++axis) {
@@ -46,7 +44,9 @@ double prescribed_speed(const PrescribedFlow& flow, const RagSystem& rags) {
 
 }  // namespace
 
-SpeedBounds::SpeedBounds(const Table& root, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces) {
+SpeedBounds::SpeedBounds(const Table& root, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces,
+                         double impact_speed)
+    : impact_speed_(impact_speed) {
   for (const WallBody& body : walls.bodies()) widen(wall_speed(body), "wall " + body.name);
   for (const RagPiece& piece : pieces) {
     const double size = piece.rag.radius * 2 * std::hypot(piece.rag.n_columns, piece.rag.n_rows);
@@ -68,9 +68,10 @@ SpeedBound SpeedBounds::at(double time, const FlowSolver* water, const Prescribe
   if (falls_freely_) now.widen(speed_ + gravity_ * time, "fall since the start");
   if (water) now.widen(water->watch().speed(), water->watch().source());
   if (prescribed) now.widen(prescribed_speed(*prescribed, rags), "prescribed flow");
-  const double speed = std::max(now.speed_, least_speed);
-  return {.speed = DivergenceBounds::speed * speed,
-          .reason = words(DivergenceBounds::speed) + " times the speed of the case, " + words(speed) + " m/s: " + now.source_};
+  const double speed = DivergenceBounds::speed * now.speed_;
+  if (speed < impact_speed_) return {.speed = impact_speed_, .reason = "[contact] impact_speed, that of the fastest contact"};
+  return {.speed = speed,
+          .reason = words(DivergenceBounds::speed) + " times the speed of the case, " + words(now.speed_) + " m/s: " + now.source_};
 }
 
 namespace {

@@ -1,10 +1,10 @@
 #pragma once
 // How fast the rags of a case can be: from the water, the walls, their start and their fall. A particle beyond it has diverged.
 //
-//   v <= a max(U, |V| + |Omega| r, v_0, v_g),   v_g = sqrt(2 g L) in a mesh, g t without one
+//   v <= max(a U, a (|V| + |Omega| r), a v_0, a v_g, v_i),   v_g = sqrt(2 g L) in a mesh, g t without one
 //
 // U: speed of the water, m/s; V, Omega, r: velocity of a wall, its rotation and its farthest point; v_0: speed of the rags at the start;
-// g: gravity; L: diagonal of the mesh, m; t: time, s. a: DivergenceBounds::speed.
+// g: gravity; L: diagonal of the mesh, m; t: time, s; v_i: the impact speed that contacts are resolved to, m/s. a: DivergenceBounds::speed.
 #include <string>
 
 #include "base/case_file.hpp"
@@ -27,7 +27,7 @@ struct SpeedBound {
 class SpeedBounds {
  public:
   /// `mesh` may be null. Collective.
-  SpeedBounds(const Table& root, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces);
+  SpeedBounds(const Table& root, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces, double impact_speed);
 
   /// Largest speed of what is not water, m/s, and what it is.
   double speed() const { return speed_; }
@@ -37,8 +37,8 @@ class SpeedBounds {
 
  private:
   void widen(double speed, const std::string& source);
-  double speed_ = 0, gravity_ = 0;  // m/s, m/s2
-  bool falls_freely_ = false;       // without a mesh there is no end to it
+  double speed_ = 0, impact_speed_, gravity_ = 0;  // m/s, m/s, m/s2
+  bool falls_freely_ = false;                      // without a mesh there is no end to it
   std::string source_ = "nothing moves";
 };
 

@@ -13,6 +13,8 @@ std::string words(double value) {
 
 std::string place(const Vec3& x) { return "(" + words(x.x) + ", " + words(x.y) + ", " + words(x.z) + ") m"; }
 
+std::string counted(std::int64_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;

@@ -17,6 +17,8 @@ std::string place(const Vec3& x);
 std::string joined(const std::vector<std::string>& words);
 /// The parts between the separators, empty ones included; at least one.
 std::vector<std::string> split(std::string_view text, char separator);
+/// "1 rank", "2 ranks".
+std::string counted(std::int64_t n, const std::string& noun);
 /// "water_000120": files sort as time goes.
 std::string numbered(const std::string& stem, std::int64_t number);
 /// Text as it stands in XML and HTML: & < > " are written as entities.
