@@ -134,7 +134,7 @@ void foresee_cost(const Simulation& simulation, Forecast& result) {
   }
   if (simulation.rags) {
     const double sub_steps = std::max(1.0, std::ceil(step / simulation.rags->stable_step() * (1 - 1e-12)));
-    result.text += ", each of " + rounded(sub_steps) + (sub_steps == 1 ? " sub-step" : " sub-steps") + " of the rags";
+    result.text += ", each of " + counted(static_cast<std::int64_t>(sub_steps), "sub-step") + " of the rags";
     cost += static_cast<double>(simulation.rags->n_particles() * n_steps) * sub_steps * seconds_per_particle_step;
     memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
   }

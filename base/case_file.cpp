@@ -25,7 +25,7 @@ struct CaseNode {
   std::string file;  // for messages
   int line = 0;
   bool present = false;
-  bool presence_asked = false;  // that it is there says something by itself
+  bool presence_asked = false;  // the program asks whether this table is given
   std::map<std::string, std::vector<std::unique_ptr<CaseNode>>> tables;
   struct Value {
     std::shared_ptr<toml::node> node;

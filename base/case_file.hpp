@@ -54,8 +54,8 @@ class CaseFile {
   /// The case with all defaults as it was read, as TOML in SI with the unit in the key; reading it gives the same case.
   /// Files are named by their whole path, so that it may be read from any folder.
   std::string resolved() const;
-  /// SHA-256 of what the case says other than the defaults, hexadecimal: a new key leaves it as it is. Of files that the case names the
-  /// content counts, not the place.
+  /// SHA-256 of the values that differ from their defaults, hexadecimal: a new key at its default does not change it. Of a file that the
+  /// case names, the content counts, not the path.
   std::string sha256() const;
   /// The same without what a resumed run may change, as the end of the time.
   std::string resume_sha256() const;

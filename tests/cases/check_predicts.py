@@ -1,6 +1,6 @@
 # timeout: 300
 # processors: 1
-"""Requirement: `snag check` refuses what `snag run` would refuse, and says before the run what will be wrong with it; of the shipped cases it warns of nothing."""
+"""Requirement: `snag check` refuses every case that `snag run` refuses. It warns before the run of what will go wrong. It gives no warning for the shipped cases."""
 import harness
 from small_cases import CHANNEL, CHANNEL_MESH, CHANNEL_OUTLET_AND_WALLS
 

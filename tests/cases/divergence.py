@@ -1,6 +1,6 @@
 # timeout: 300
 # processors: 2
-"""Requirement: a run whose water or particles diverge ends with code 4 while its numbers are finite, names the place and what to do there, and no report says that it ended as planned while a check fails."""
+"""Requirement: when water or particles diverge, the run ends with code 4 while all numbers are finite. The message names the place and a remedy. The report does not say that the run ended as planned."""
 import json
 
 import harness

@@ -1,6 +1,6 @@
 # timeout: 300
 # processors: 2
-"""Requirement: an interrupted run loses nothing silently: a resume gives the summary of the uninterrupted run, a damaged checkpoint or removed monitors are told, and a folder in use is refused."""
+"""Requirement: a run that was interrupted and resumed gives the summary of the uninterrupted run. A damaged checkpoint and removed monitors are reported. A second run in an output folder that is in use is refused."""
 import os
 import shutil
 import signal

@@ -1,6 +1,6 @@
 # timeout: 300
 # processors: 3
-"""Requirement: a run that is killed at any moments, on 1, 2 or 3 ranks, and resumed after each, gives the monitors, the rags and the summary of the uninterrupted run."""
+"""Requirement: a run is killed several times at random moments and resumed each time. Its monitors, rags and summary then equal those of the uninterrupted run, on 1, 2 and 3 ranks."""
 import os
 import random
 import shutil

@@ -245,7 +245,8 @@ for name in ('rotor_speed', 'pressure_walls', 'pressure_rotor_walls'):
   EXPECT_EQ(shares, "True False\nFalse True\nFalse True\n");
 }
 
-// Results are told in words with units; what was not measured is not called passed; new keys are shown.
+// The report gives each result as a sentence or as a number with its unit. It does not mark a check as passed that the run did not
+// measure, and it shows keys that it does not know.
 TEST_F(Report, TellsResultsInWords) {
   std::ofstream(dir / "summary.json") << summary_text;
   write_report(dir);
@@ -274,7 +275,8 @@ TEST_F(Report, NamesTheReasonOfABadEnd) {
   EXPECT_EQ(times(page(), ">pass<"), 0u);
 }
 
-// Requirement: each check that the report shows can fail, and then neither the report nor the colour of its head says that all is well.
+// Requirement: each check of the report can fail. When one fails, the report marks it, names it at the top and does not say that the run
+// ended as planned.
 TEST_F(Report, EveryCheckCanFail) {
   const auto good = nlohmann::json::parse(summary_text);
   for (const auto& [group, key, value] :

@@ -146,7 +146,7 @@ TEST(CaseFile, ResolvedCaseIsTheSameCase) {
   EXPECT_NE(read("[[rag]]\nradius = \"0.2 mm\"", u).second, hash);
 }
 
-// A table of runs of an earlier version stays of use: a key or a section that is new there, at its default, is nothing the case says.
+// A new key or a new section at its default does not change the hash of a case, so a table of runs from an earlier version stays valid.
 TEST(CaseFile, NewKeysLeaveTheHashAsItIs) {
   const auto hash_of = [](const std::string& text, bool later_version) {
     const auto file = CaseFile::parse(text);
