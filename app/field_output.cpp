@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/words.hpp"
+#include "mesh/skewness.hpp"
 #include "mesh/wall_surface.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
@@ -45,7 +46,12 @@ FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool si
       mesh_(mesh),
       single_precision_(single_precision),
       piece_(grid_of(mesh)),
-      collection_(folder_ / "water.pvd", resume, from_time) {}
+      collection_(folder_ / "water.pvd", resume, from_time) {
+  const std::vector<int> skew = skew_cells(mesh_);
+  if (sum(mesh_.comm, static_cast<std::int64_t>(skew.size())) == 0) return;
+  skew_ = {"skew [1]", 1, std::vector<double>(static_cast<std::size_t>(mesh_.n_cells)), true};
+  for (const int c : skew) skew_->values[static_cast<std::size_t>(c)] = 1;
+}
 
 void FieldOutput::write(const Flow& flow) {
   const int n = mesh_.n_cells, rank = rank_of(mesh_.comm), size = size_of(mesh_.comm);
@@ -68,6 +74,7 @@ void FieldOutput::write(const Flow& flow) {
     for (int c = 0; c < n; ++c) turning.values.push_back(mesh_.cell_zone[c] == flow.rotating_zone->zone());
     piece_.cell_arrays.push_back(std::move(turning));
   }
+  if (skew_) piece_.cell_arrays.push_back(*skew_);
   piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
   const std::string stem = numbered("water", flow.time_step);
   std::vector<std::string> pieces;

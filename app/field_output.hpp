@@ -12,15 +12,16 @@ class FieldOutput {
  public:
   /// Keeps the entries of a resumed run up to from_time. Collective.
   FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time);
-  /// The cells where they are now, with velocity, pressure, solid fraction, reaction, rank, what turns, and k, epsilon, nu_t of a
-  /// turbulence model, at the flow's time. Collective; throws Error(io).
+  /// The cells where they are now, with velocity, pressure, solid fraction, reaction, rank, skew cells, what turns, and k, epsilon, nu_t
+  /// of a turbulence model, at the flow's time. Collective; throws Error(io).
   void write(const Flow& flow);
 
  private:
   std::filesystem::path folder_;
   const Mesh& mesh_;
   bool single_precision_;
-  VtkPiece piece_;  // connectivity, made once
+  VtkPiece piece_;                // connectivity, made once
+  std::optional<VtkArray> skew_;  // cells with a pressure gradient of least squares; none if nowhere
   VtkCollection collection_;
 };
 

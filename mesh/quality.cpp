@@ -1,6 +1,6 @@
 // Measures of quality. Per interior face with vector S, centre x_f, owner P, neighbour N, delta = x_N - x_P:
 //
-//   non-orthogonality = angle(S, delta),   skewness = |(x_f - x_P) - ((x_f - x_P).d) d| / |delta|,   d = delta/|delta|
+//   non-orthogonality = angle(S, delta),   skewness = |s| / |delta|   (mesh/skewness.hpp)
 //
 // Per cell:  closure = |sum_f S| / sum_f |S|;  quality of a tetrahedron = 3 r_in / R_circ (1 when regular), with
 //
@@ -19,6 +19,7 @@
 
 #include "base/words.hpp"
 #include "mesh/geometry.hpp"
+#include "mesh/skewness.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
@@ -95,9 +96,8 @@ struct FaceShape {
 FaceShape shape_of_face(const Mesh& mesh, int f) {
   const Vec3 &S = mesh.face_vector[f], &delta = mesh.delta[f];
   const double distance = norm(delta);
-  const Vec3 d = delta / distance, to_face = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]];
   return {.angle_deg = std::acos(std::clamp(dot(S, delta) / (norm(S) * distance), -1.0, 1.0)) * 180 / std::numbers::pi,
-          .skewness = norm(to_face - dot(to_face, d) * d) / distance};
+          .skewness = norm(skewness(mesh, f)) / distance};
 }
 
 /// Connected regions of cells: the lowest cell_id of a region spreads through it, within a rank at once, across ranks by halo.
@@ -193,6 +193,13 @@ void see_faces(const Mesh& mesh, MeshQuality& q, Places& places) {
   q.min_spacing = minimum(mesh.comm, spacing);
 }
 
+void see_skew_cells(const Mesh& mesh, MeshQuality& q) {
+  const std::vector<int> cells = skew_cells(mesh);
+  std::vector<double> volumes;
+  for (const int c : cells) volumes.push_back(mesh.cell_volume[c]);
+  q.n_skew_cells = sum(mesh.comm, static_cast<std::int64_t>(cells.size())), q.skew_volume = sum(mesh.comm, volumes);
+}
+
 void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
   const auto fail = [&](const std::string& what, double value, const Worst& where, const std::string& rule) {
     q.failures.push_back(what + " (" + words(value) + ") of cell " + std::to_string(where.id) + " at " + place(where.place) + ", " + rule);
@@ -233,6 +240,7 @@ MeshQuality quality(const Mesh& mesh) {
   Places places;
   see_cells(mesh, q, places);
   see_faces(mesh, q, places);
+  see_skew_cells(mesh, q);
   q.n_regions = count_regions(mesh);
   judge(mesh, places, q);
   return q;
@@ -252,6 +260,9 @@ std::string quality_table(const Mesh& mesh, const MeshQuality& q) {
   line("quality, least and mean", words(q.min_quality) + "  " + words(q.mean_quality));
   line("non-orthogonality, max and mean", words(q.max_non_orthogonality_deg) + "  " + words(q.mean_non_orthogonality_deg) + " deg");
   line("skewness, max", words_above_round_off(q.max_skewness));
+  if (q.n_skew_cells > 0)
+    line("skew cells (a face by over " + words(skew_from) + ")",
+         std::to_string(q.n_skew_cells) + ", " + words(100 * q.skew_volume / q.volume) + " % of the volume");
   line("closure, max", words_above_round_off(q.closure));
   for (std::size_t zone = 0; zone < mesh.zones.size(); ++zone) {
     std::vector<double> volume;

@@ -13,7 +13,9 @@ struct MeshQuality {
   double volume = 0;                      // m3
   double min_volume = 0, max_volume = 0;  // m3
   double max_non_orthogonality_deg = 0, mean_non_orthogonality_deg = 0;
-  double max_skewness = 0;                   // distance of the face centre from the line of centres over that line's length
+  double max_skewness = 0;                   // way from where the line of centres meets the face to the face centre, over that line
+  std::int64_t n_skew_cells = 0;             // with a skew face (mesh/skewness.hpp)
+  double skew_volume = 0;                    // m3, of these cells
   double closure = 0;                        // max over cells of |sum S| / sum |S|
   double min_quality = 0, mean_quality = 0;  // tetrahedra: 3 r_in / R_circ; others: min over corners of the scaled Jacobian
   double min_spacing = 0;                    // m, smallest distance between two cell centres across a face

@@ -57,7 +57,7 @@ void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
   mesh_.halo.exchange(flow.pressure);
   squares_.gradient(weight_, flow.pressure, given_, slope_);
   fill_boundary(mesh_, squares_, flow.pressure, slope_, given_, flow.boundary_pressure);
-  gauss_gradient(mesh_, weight_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
+  gauss_gradient(mesh_, squares_, weight_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
 }
 
 void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
@@ -215,7 +215,7 @@ ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
     if (k > 0) {
       squares_.gradient(weight_, correction_, given_, slope_);
       fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
-      gauss_gradient(mesh_, weight_, correction_, boundary_correction_, slope_, gradient_);
+      gauss_gradient(mesh_, squares_, weight_, correction_, boundary_correction_, slope_, gradient_);
     }
     add_cross_flux();
     const double tolerance = k == settings_.n_non_orthogonal ? settings_.tolerance : settings_.tolerance_intermediate;
@@ -287,7 +287,7 @@ void Continuity::correct_flux(std::vector<double>& flux) {
 void Continuity::correct_cells(Flow& flow, bool with_pressure) {
   squares_.gradient(weight_, correction_, given_, slope_);
   fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
-  gauss_gradient(mesh_, weight_, correction_, boundary_correction_, slope_, gradient_);
+  gauss_gradient(mesh_, squares_, weight_, correction_, boundary_correction_, slope_, gradient_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_[c] * gradient_[c];
   if (!with_pressure) return;
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.pressure[c] += correction_[c], flow.pressure_gradient[c] += gradient_[c];

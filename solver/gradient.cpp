@@ -38,9 +38,19 @@ inline void add(Mat3& a, const Mat3& b) { a[0] += b[0], a[1] += b[1], a[2] += b[
 
 }  // namespace
 
-LeastSquares::LeastSquares(const Mesh& mesh, std::vector<Side> sides) : mesh_(mesh), sides_(std::move(sides)) { update(); }
+LeastSquares::LeastSquares(const Mesh& mesh, std::vector<Side> sides)
+    : mesh_(mesh), sides_(std::move(sides)), skew_faces_(snag::skew_faces(mesh)) {
+  skew_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(skew_faces_.size())) > 0;
+  update();
+}
 
 void LeastSquares::update() {
+  aslant_faces_.clear();  // numbered behind the facets of a sliding interface, which change
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    if (sides_[p] == Side::value) continue;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
+      if (is_aslant(mesh_, f)) aslant_faces_.push_back(f);
+  }
   sum_moments();
   invert_moments();
   open_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(open_.size())) > 0;
@@ -210,8 +220,45 @@ void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<cons
   }
 }
 
-void gauss_gradient(const Mesh& mesh, std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
-                    std::span<const Vec3> slope, std::vector<Vec3>& g) {
+namespace {
+
+/// What the sum of phi_f S, `g`, lacks of V `slope` in a cell, along S, as a value at the face.
+inline double lacking(const Mesh& mesh, int c, const Vec3& S, std::span<const Vec3> slope, const std::vector<Vec3>& g) {
+  return dot(mesh.cell_volume[c] * slope[c] - g[c], S) / norm_squared(S);
+}
+
+/// Values at skew faces, changed in g: all from the sums before, so that their order does not matter.
+void close_skew_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::vector<Vec3>& g) {
+  if (!squares.skew_anywhere()) return;
+  exchange(mesh, g);
+  std::vector<double> change;
+  change.reserve(squares.skew_faces().size());
+  for (const int f : squares.skew_faces()) {
+    const Vec3& S = mesh.face_vector[f];
+    change.push_back(0.5 * (lacking(mesh, mesh.owner[f], S, slope, g) - lacking(mesh, mesh.neighbour[f], S, slope, g)));
+  }
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    const int f = squares.skew_faces()[i];
+    g[mesh.owner[f]] += change[i] * mesh.face_vector[f];
+    g[mesh.neighbour[f]] -= change[i] * mesh.face_vector[f];
+  }
+}
+
+/// Values at boundary faces whose cell lies aslant over them, one after the other, changed in g and `boundary`.
+void close_aslant_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::span<double> boundary,
+                        std::vector<Vec3>& g) {
+  for (const int f : squares.aslant_faces()) {
+    const int P = mesh.owner[f];
+    const double change = lacking(mesh, P, mesh.face_vector[f], slope, g);
+    boundary[f - mesh.n_interior] += change;
+    g[P] += change * mesh.face_vector[f];
+  }
+}
+
+}  // namespace
+
+void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
+                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g) {
   std::fill(g.begin(), g.end(), Vec3{});
   for (int f = 0; f < mesh.n_interior; ++f) {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
@@ -224,6 +271,8 @@ void gauss_gradient(const Mesh& mesh, std::span<const double> weight, std::span<
     g[N] -= term;
   }
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
+  close_skew_faces(mesh, squares, slope, g);
+  close_aslant_faces(mesh, squares, slope, boundary, g);
   for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
   exchange(mesh, g);
 }

@@ -5,6 +5,10 @@
 //                    g = M^-1 sum_f D_f e_f,   M = sum_f e_f e_f
 //                    a facet counts with its share of the face that it is a part of: a sliver that comes or goes changes nothing
 //   Gauss:           V g = sum_f phi_f S,   phi_f with skewness correction by least squares: sums of V g telescope to the boundary
+//   across a skew face and at a wall that the cell lies aslant over (mesh/skewness.hpp), phi_f is instead what brings V g.S, with the sums
+//   over the other faces, to that of the least-squares gradients g':
+//                    interior: phi_f += 1/2 ((V g' - V g)_P - (V g' - V g)_N).S/|S|^2,   boundary: phi_f += (V g' - V g)_P.S/|S|^2
+//                    it stays one value a face, so the sums telescope, and exact for linear fields
 //
 // A cell with few neighbours (a tetrahedron with two faces on walls where the value is unknown) leaves directions open: eigenvalues of M
 // near zero. In these directions it takes the mean gradient of its neighbours, so that linear fields stay exact. First order on any mesh,
@@ -40,6 +44,11 @@ class LeastSquares {
   /// Gradient G_ij = du_i/dx_j of a vector; the same.
   void gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const;
   Side side(std::size_t patch) const { return sides_[patch]; }
+  /// Skew faces (mesh/skewness.hpp), ascending, and whether any rank has some.
+  const std::vector<int>& skew_faces() const { return skew_faces_; }
+  bool skew_anywhere() const { return skew_anywhere_; }
+  /// Boundary faces without a given value that their cell lies aslant over, ascending.
+  const std::vector<int>& aslant_faces() const { return aslant_faces_; }
 
  private:
   struct Symmetric {
@@ -64,16 +73,17 @@ class LeastSquares {
   std::vector<Side> sides_;
   std::vector<Symmetric> inverse_;  // [n_cells] M^-1, pseudo-inverse for open cells
   std::vector<OpenCell> open_;
-  bool open_anywhere_ = false;
+  std::vector<int> skew_faces_, aslant_faces_;
+  bool open_anywhere_ = false, skew_anywhere_ = false;
 };
 
 /// Values of a scalar at the boundary faces from what is given there (value or slope, by side) and its gradient.
 void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
                    std::span<const double> given, std::span<double> values);
 
-/// Gauss gradient from least-squares gradients `slope` and boundary values; `weight` of the owner's value at interior faces (mesh.weight,
-/// or another); `g` [n_all_cells], ghosts filled. Collective.
-void gauss_gradient(const Mesh& mesh, std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
-                    std::span<const Vec3> slope, std::vector<Vec3>& g);
+/// Gauss gradient from least-squares gradients `slope` and boundary values, which change at aslant faces; `weight` of the owner's value at
+/// interior faces (mesh.weight, or another); `slope`, `g` [n_all_cells], ghosts filled. Collective.
+void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
+                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g);
 
 }  // namespace snag

@@ -1,0 +1,35 @@
+#pragma once
+// How far a face lies off the line between the centres of its cells: the line meets the plane of the face at
+//
+//   x_i = x_P + (1 - w) d,      s = x_f - x_i      (a vector in the face)
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+/// |s|/|d| above which an interior face is skew: the schemes do not correct for s there (solver/face.hpp).
+constexpr double skew_from = 0.6;
+
+/// s of an interior face, m.
+inline Vec3 skewness(const Mesh& mesh, int f) {
+  return mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]] - (1 - mesh.weight[f]) * mesh.delta[f];
+}
+
+/// A facet of a sliding interface is a part of two whole faces: its skewness is not that of its cells, and weighs less.
+inline bool is_skew(const Mesh& mesh, int f, const Vec3& s) {
+  return f < mesh.first_facet && norm_squared(s) > skew_from * skew_from * norm_squared(mesh.delta[f]);
+}
+
+/// A cell lies more than 50 degrees aslant over a boundary face: the way between their centres, along the face, over the part across it.
+inline bool is_aslant(const Mesh& mesh, int f) {
+  const Vec3 &d = mesh.delta[f], n = unit(mesh.face_vector[f]);
+  const double across = dot(d, n);
+  return norm_squared(d - across * n) > 1.42 * across * across;
+}
+
+/// Skew faces of this rank, ascending, and its owned cells with one of them, ascending. Local.
+std::vector<int> skew_faces(const Mesh& mesh);
+std::vector<int> skew_cells(const Mesh& mesh);
+
+}  // namespace snag
