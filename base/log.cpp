@@ -20,19 +20,35 @@ spdlog::logger& logger() {
     terminal->set_pattern("%^%v%$");
     auto made = std::make_shared<spdlog::logger>("snag", terminal);
     made->set_level(spdlog::level::info);
-    made->flush_on(spdlog::level::info);  // a run that is killed leaves all lines
     return made;
   }();
   return *instance;
 }
 
+constexpr std::size_t terminal = 0, log_file = 1;  // places among the sinks
+
+/// Calls a sink. A log file that cannot be written (the disk is full) is given up with a warning: whether the run can go on without that
+/// disk is for its results to say. A terminal that is gone has nobody to warn.
+template <class Call>
+void with_sink(std::size_t sink, Call call) {
+  if (sink >= logger().sinks().size()) return;
+  try {
+    call(*logger().sinks()[sink]);
+  } catch (const spdlog::spdlog_ex& failure) {
+    if (sink == terminal) return;
+    logger().sinks().resize(log_file);
+    std::fprintf(stderr, "warning: the log ends here: %s\n", failure.what());
+  }
+}
+
 /// To one place only: the terminal and the file mark the kind of a message each in its own way.
 void write(std::size_t sink, spdlog::level::level_enum level, const std::string& message) {
-  if (sink >= logger().sinks().size() || !logger().should_log(level) || !logger().sinks()[sink]->should_log(level)) return;
-  logger().sinks()[sink]->log({"snag", level, message});
-  logger().sinks()[sink]->flush();  // as the logger does after each line
+  with_sink(sink, [&](spdlog::sinks::sink& place) {
+    if (!logger().should_log(level) || !place.should_log(level)) return;
+    place.log({"snag", level, message});
+    place.flush();  // a run that is killed leaves all lines
+  });
 }
-constexpr std::size_t terminal = 0, log_file = 1;
 
 }  // namespace
 
@@ -53,7 +69,10 @@ void open(const std::filesystem::path& file, bool append) {
   }
 }
 
-void info(const std::string& message) { logger().info(message); }
+void info(const std::string& message) {
+  write(terminal, spdlog::level::info, message);
+  write(log_file, spdlog::level::info, message);
+}
 void warning(const std::string& message) {
   write(terminal, spdlog::level::warn, "warning: " + message);
   write(log_file, spdlog::level::warn, message);
@@ -67,7 +86,9 @@ void error(const std::string& message) {
   write(log_file, spdlog::level::err, message);
 }
 
-void flush() { logger().flush(); }
+void flush() {
+  for (const std::size_t sink : {terminal, log_file}) with_sink(sink, [](spdlog::sinks::sink& place) { place.flush(); });
+}
 
 Silence::Silence() : level_(logger().level()) { logger().set_level(std::max(logger().level(), spdlog::level::err)); }
 Silence::~Silence() { logger().set_level(static_cast<spdlog::level::level_enum>(level_)); }
