@@ -100,9 +100,9 @@ struct Run {
       }
       if (clock.due(simulation.time())) write_checkpoint();
     }
-    if (rank_of(world) == 0) progress.finish();
-    if (simulation.rags_have_left()) log::info("all rags have left: the run ends here");
     write_checkpoint();
+    if (rank_of(world) == 0) progress.finish();  // said to be done only when the disk has it
+    if (simulation.rags_have_left()) log::info("all rags have left: the run ends here");
     return ExitCode::ok;
   }
 };

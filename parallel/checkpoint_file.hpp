@@ -11,6 +11,7 @@
 #include "parallel/checkpoint_trailer.hpp"
 #include "parallel/hdf5_file.hpp"
 #include "parallel/session.hpp"
+#include "parallel/write_failure.hpp"
 
 namespace snag {
 
@@ -52,13 +53,16 @@ struct CheckpointFile {
     decltype(call()) result = -1;
     together(comm, [&] {
       result = call();
-      if (result < 0) fail(what + " failed (" + hdf5::last_reason() + "); is the disk full or the folder not accessible?");
+      if (result >= 0 && write_failure().empty()) return;
+      const std::string reason = write_failure().empty() ? hdf5::last_reason() : write_failure();
+      fail(what + " failed (" + reason + "); is the disk full or the folder not accessible?");
     });
     return result;
   }
 
   CheckpointFile(MPI_Comm c, std::filesystem::path p, bool create) : comm(c), path(std::move(p)) {
     hdf5::silence();
+    forget_write_failure();
     const hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_mpio(access, comm, MPI_INFO_NULL);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
