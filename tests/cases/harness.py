@@ -33,7 +33,7 @@ ENVIRONMENT = dict(
 MPIRUN_CHATTER = re.compile(
     r"^-{20,}$|^$|^Primary job +terminated normally|^a non-zero exit code\. *Per user-direction|^mpirun detected that one or more processes"
     r"|^a non-zero status, thus causing|^the job to be terminated|^The first process to do so was|^ +Process name:|^ +Exit code:|^\[.*\] +\d+ more process"
-    r"|^MPI_ABORT was invoked|^with errorcode|^NOTE: invoking MPI_ABORT|^You may or may not see output|^exactly when Open MPI kills them"
+    r"|^,?mca_\w+: error in|^MPI_ABORT was invoked|^with errorcode|^NOTE: invoking MPI_ABORT|^You may or may not see output|^exactly when Open MPI kills them"
 )
 
 
@@ -88,9 +88,9 @@ def command(arguments, ranks=1):
     return ["mpirun", "-n", str(ranks), str(BINARY_DIR / "snag"), *map(str, arguments)]
 
 
-def snag(arguments, ranks=1, folder=None, timeout=600):
+def snag(arguments, ranks=1, folder=None, timeout=600, environment={}):
     """Run the program to its end; `folder` is where its output goes, for Run."""
-    process = start(arguments, ranks)
+    process = start(arguments, ranks, environment)
     try:
         stdout, stderr = process.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:
@@ -100,9 +100,14 @@ def snag(arguments, ranks=1, folder=None, timeout=600):
     return Run(folder or ".", process.returncode, stdout, stderr)
 
 
-def start(arguments, ranks=1):
+def start(arguments, ranks=1, environment={}):
     return subprocess.Popen(
-        command(arguments, ranks), env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+        command(arguments, ranks),
+        env=ENVIRONMENT | environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
     )
 
 
