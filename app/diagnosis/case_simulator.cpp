@@ -1,5 +1,7 @@
 #include "app/diagnosis/case_simulator.hpp"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -10,8 +12,10 @@
 
 #include "app/diagnosis/input_nuisances.hpp"
 #include "app/diagnosis/mesh_run.hpp"
+#include "app/diagnosis/run_table.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/quotation.hpp"
 #include "base/sha256.hpp"
 #include "base/version.hpp"
 #include "base/words.hpp"
@@ -92,33 +96,14 @@ std::string text_of(const Restart& restart) {
   return text;
 }
 
-struct KeptRun {
-  std::string program, key;
-  RunResult result;
-};
-
-/// Lines of a table of runs; one that was cut off is none.
-std::vector<KeptRun> kept_runs(const std::string& text) {
-  std::vector<KeptRun> runs;
-  std::size_t begin = 0;
-  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    const std::vector<std::string> parts = split(std::string_view(text).substr(begin, end - begin), '\t');
-    if (parts.size() != 4) continue;
-    RunResult result{.values = {}, .failure = parts[3]};
-    const char *at = parts[2].data(), *last = at + parts[2].size();
-    for (double value = 0; at < last;) {
-      at = std::from_chars(at, last, value).ptr + 1;
-      result.values.push_back(value);
-    }
-    runs.push_back({parts[0], parts[1], std::move(result)});
-  }
-  return runs;
-}
-
 /// Empty where there is no such file.
 std::string shared_text(MPI_Comm comm, const std::filesystem::path& file) {
   std::string text;
-  if (rank_of(comm) == 0) text = file_text(file).value_or("");
+  together(comm, [&] {
+    if (rank_of(comm) == 0) text = file_text(file).value_or("");
+    if (text.size() > std::numeric_limits<int>::max())
+      throw Error(ExitCode::io, file.string() + ": has more than 2 GB; is it the right one?");
+  });
   long length = static_cast<long>(text.size());
   MPI_Bcast(&length, 1, MPI_LONG, 0, comm);
   text.resize(static_cast<std::size_t>(length));
@@ -261,10 +246,11 @@ void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
   for (std::size_t j = 0; j < fresh.size(); ++j) {
     RunResult result{.values = {}, .failure = &failures[j * text_size]};
     for (std::size_t i = 0; i < slots(fresh[j]->request->point).size(); ++i) result.values.push_back(std::bit_cast<double>(bits[at++]));
-    keep(fresh[j]->key, result);
     kept_.emplace(fresh[j]->key, std::move(result));
   }
-  if (cache_.is_open()) cache_.flush();
+  together(comm_, [&] {
+    for (const Job* job : fresh) keep(job->key, kept_.at(job->key));
+  });
   n_runs_ += static_cast<int>(fresh.size());
 }
 
@@ -287,24 +273,23 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
 
   std::vector<RunResult> results;
   results.reserve(jobs.size());
-  for (const Job& job : jobs) results.push_back(as_observed(*job.request, job.change, kept_.at(job.key)));
+  for (const Job& job : jobs) {
+    const RunResult& kept = kept_.at(job.key);
+    if (const std::size_t n = slots(job.request->point).size(); kept.values.size() != n)
+      throw Error(ExitCode::io, "table of runs: \"" + shortened(job.key) + "\" has " + std::to_string(kept.values.size()) +
+                                    " values, its point has " + std::to_string(n) + "; remove the line: that run is then done again");
+    results.push_back(as_observed(*job.request, job.change, kept));
+  }
   return results;
 }
 
-/// A line a run: program, tab, key, tab, values with all their digits, tab, failure.
 void CaseSimulator::keep(const std::string& key, const RunResult& result) {
-  if (!cache_.is_open()) return;
-  std::string line = program_.substr(0, 16) + "\t" + key + "\t";
-  char digits[32];
-  for (const double value : result.values) line.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr).append(",");
-  std::string failure = result.failure;
-  std::replace(failure.begin(), failure.end(), '\n', ' ');
-  cache_ << line << "\t" << failure << "\n";
+  if (cache_.descriptor() >= 0) cache_.write(run_table_line({program_.substr(0, 16), key, result}));
 }
 
 void CaseSimulator::open_cache(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
-  for (KeptRun& run : kept_runs(text))
+  for (KeptRun& run : run_table(text, file))
     if (run.program == program_.substr(0, 16)) kept_.emplace(run.key, std::move(run.result));
   together(comm_, [&] {
     if (rank_of(comm_) != 0) return;
@@ -312,15 +297,14 @@ void CaseSimulator::open_cache(const std::filesystem::path& file) {
     // A line that a crash cut off is cut off for good.
     const std::size_t whole = text.rfind('\n') + 1;
     if (whole < text.size()) write_atomically(file, std::string_view(text).substr(0, whole));
-    cache_.open(file, std::ios::app);
-    if (!cache_) throw Error(ExitCode::io, file.string() + ": cannot be written; choose another --out");
+    cache_ = OpenFile(file, O_WRONLY | O_CREAT | O_APPEND);
   });
 }
 
 void CaseSimulator::take_runs(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
   if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs");
-  for (KeptRun& run : kept_runs(text))
+  for (KeptRun& run : run_table(text, file))
     if (kept_.emplace(run.key, std::move(run.result)).second) taken_.insert(run.key);
 }
 

@@ -7,12 +7,12 @@
 #include <mpi.h>
 
 #include <filesystem>
-#include <fstream>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "app/diagnosis/case_run.hpp"
 #include "app/diagnosis/point_case.hpp"
+#include "base/open_file.hpp"
 #include "diagnosis/experiment.hpp"
 #include "diagnosis/simulator.hpp"
 
@@ -71,7 +71,7 @@ class CaseSimulator final : public Simulator {
   std::unordered_map<std::string, RunResult> kept_;
   std::unordered_set<std::string> used_;   // keys of the runs that were asked for
   std::unordered_set<std::string> taken_;  // of those of the table that the experiment names
-  std::ofstream cache_;                    // open on rank 0
+  OpenFile cache_;                         // open on rank 0
   int n_runs_ = 0;
 };
 

@@ -4,7 +4,10 @@
 //   fuzz_mesh --only TARGET FILE...                           these files
 //
 // The mutation under way lies in the file that is printed first, so that a crash leaves it there. With libFuzzer (preset `fuzz`) the
-// coverage-guided main takes the place of this one; the environment variable SNAG_FUZZ_TARGET names the target.
+// coverage-guided main takes the place of this one: the environment variable SNAG_FUZZ_TARGET names the target, and its seeds are put into
+// the folder CORPUS.
+//
+//   SNAG_FUZZ_TARGET=gmsh_41_ascii fuzz_mesh -max_total_time=60 CORPUS
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -44,7 +47,11 @@ std::string source_file(const std::string& path) {
 
 namespace {
 
+#ifdef SNAG_LIBFUZZER
+constexpr unsigned longest_read = 0;  // s; none: libFuzzer has the alarm, and a limit of its own (-timeout)
+#else
 constexpr unsigned longest_read = 20;  // s
+#endif
 
 /// Reads one file; the finding, or "" if all is well.
 std::string finding(const Target& target, const std::filesystem::path& file) {
@@ -73,6 +80,16 @@ void write(const std::filesystem::path& file, const std::string& content) {
   std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
 }
 
+#ifdef SNAG_LIBFUZZER
+/// The folder that is the last argument, with the seeds of the target.
+void add_seeds(const Target& target, const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (!std::filesystem::is_directory(folder, failure)) return;
+  int number = 0;
+  for (const std::string& seed : target.seeds()) write(folder / ("seed_" + std::to_string(number++)), seed);
+}
+#else
 int replay(const Target& target, std::uint64_t first, std::uint64_t n) {
   const std::filesystem::path file = scratch_file(target);
   std::cout << target.name << ": mutations " << first << " to " << first + n << " in " << file.string() << std::endl;
@@ -95,6 +112,7 @@ int replay(const Target& target, std::uint64_t first, std::uint64_t n) {
   std::filesystem::remove(file);
   return n_findings;
 }
+#endif
 
 }  // namespace
 }  // namespace snag::fuzz
@@ -113,6 +131,8 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
   for (const Target& target : targets())
     if (!name || target.name == name) chosen = &target;
   if (!chosen) std::abort();
+  const char* last = (*argv)[*argc - 1];
+  if (*argc > 1 && last[0] != '-' && !std::filesystem::is_regular_file(last)) add_seeds(*chosen, last);
   return 0;
 }
 

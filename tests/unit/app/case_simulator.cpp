@@ -213,6 +213,38 @@ TEST_F(CaseSimulatorTest, TakesRunsThatWereMadeElsewhere) {
   EXPECT_EQ(simulator.n_taken(), 2);
 }
 
+/// Requirement: a damaged table of runs is never taken for runs: the message names file and line, or the run that has too few values.
+TEST_F(CaseSimulatorTest, DamagedTablesAreRefused) {
+  {
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, folder_ / "sound");
+    simulator.run(std::vector{with("added_mass", 0.1)});
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string sound = file_text(folder_ / "sound" / "runs.tsv").value();
+  experiment_.runs = folder_ / "damaged.tsv";
+  const auto message_of = [&](const std::string& text) -> std::string {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_of(MPI_COMM_WORLD) == 0) write_atomically(experiment_.runs, text);
+    MPI_Barrier(MPI_COMM_WORLD);
+    try {
+      CaseSimulator(MPI_COMM_WORLD, experiment_).run(std::vector{with("added_mass", 0.1)});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::io);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message_of(sound), "");
+  const std::size_t values = sound.find('\t', sound.find('\t') + 1) + 1, second = sound.find(',', values) + 1;
+  std::string damaged = sound;
+  damaged.replace(values, 1, "x");
+  EXPECT_NE(message_of(sound + damaged).find("damaged.tsv:2: "), std::string::npos);
+  EXPECT_NE(message_of(sound + "half a line\n").find("damaged.tsv:2: "), std::string::npos);
+  damaged = sound;
+  damaged.erase(values, second - values);
+  EXPECT_NE(message_of(damaged).find("remove the line"), std::string::npos);
+}
+
 /// Requirement: two changes of one number multiply, whichever effect and input they come from.
 TEST_F(CaseSimulatorTest, ChangesOfOneNumberMultiply) {
   for (auto& point : experiment_.points) point.input_u.emplace_back("flow.velocity_m_s", 0.05);
