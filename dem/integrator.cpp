@@ -1,4 +1,4 @@
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
 #pragma GCC target("prefer-vector-width=512")
 #endif
 #include "dem/integrator.hpp"

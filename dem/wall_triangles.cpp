@@ -8,7 +8,7 @@
 namespace snag {
 
 namespace {
-constexpr double most_voxels = 8e6;  // 32 MB of starts of lists
+constexpr double most_fine_voxels = 8e6;  // 32 MB of starts of lists
 }
 
 NearestPoint nearest_point(const std::array<Vec3, 3>& node, const Vec3& centre) {
@@ -84,8 +84,8 @@ std::span<const int> VoxelGrid::at(const Vec3& x) const {
 }
 
 TriangleSurface::TriangleSurface(const std::vector<WallTriangle>& triangles, double reach, double far_reach) : TriangleSurface(triangles) {
-  fine_ = VoxelGrid(triangles, reach, reach, most_voxels);
-  coarse_ = VoxelGrid(triangles, far_reach, 2 * far_reach, most_voxels / 8);
+  fine_ = VoxelGrid(triangles, reach, reach, most_fine_voxels);
+  coarse_ = VoxelGrid(triangles, far_reach, 2 * far_reach, most_fine_voxels / 8);
 }
 
 TriangleSurface::TriangleSurface(const std::vector<WallTriangle>& triangles) {

@@ -4,7 +4,7 @@
 //
 // Loops run over whole rows, a multiple of 8 places: a bond has the same bits in every tile that evaluates it, since no remainder loop
 // rounds differently. Places without a bond are computed and dropped by selection, so that what stands there is of no matter.
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
 #pragma GCC target("prefer-vector-width=512")  // the compiler's choice of half the width costs a fifth of the speed
 #endif
 #include "dem/bonds/tile_bonds.hpp"
@@ -98,7 +98,7 @@ void evaluate(const BondLaw& given_law, const Row& one, const Row& two, double* 
     for (int i = line; i < line + Ahead::line; ++i) {
       const int k = margin + i;
       const BondForce bond = bond_force<direction, damped>(law, end_at<direction>(one, k), end_at<direction>(two, k + shift));
-      if constexpr (breakage) whole[i] = (whole[i] > 0.5) & bond_holds(law, bond) ? 1.0 : 0.0;
+      if constexpr (breakage) whole[i] = ((whole[i] > 0.5) & bond_holds(law, bond)) ? 1.0 : 0.0;
       put(out.force, k, bond.force), put(out.torque1, k, bond.torque1), put(out.torque2, k, bond.torque2);
     }
     // In a loop of its own: GCC would move all of the law behind the selection, and then not vectorise it.
