@@ -32,19 +32,19 @@ int remembered(Call call) {
   return MPI_SUCCESS;
 }
 
-/// A write; its status says in the end that all was written. `alone`: this rank writes without the others, so that it can leave out what is
-/// lost anyway, and write again what was cut short, to hear the reason.
+/// A write without the other ranks; its status says in the end that all was written. Behind a failure it is left out: the file is lost
+/// anyway. What was cut short is written again, to hear the reason.
 template <class Call>
-int written(bool alone, int count, MPI_Datatype type, MPI_Status* status, Call call) {
+int written(int count, MPI_Datatype type, MPI_Status* status, Call call) {
   MPI_Count size = 0, done = 0;
   MPI_Type_size_x(type, &size);
   size *= count;
   MPI_Status own{};
   const auto is_cut_short = [&] { return MPI_Get_elements_x(&own, MPI_BYTE, &done) == MPI_SUCCESS && done != size; };
-  if (!alone || first_failure.empty())
+  if (first_failure.empty())
     remembered([&] {
       int code = call(&own);
-      if (alone && code == MPI_SUCCESS && is_cut_short()) code = call(&own);
+      if (code == MPI_SUCCESS && is_cut_short()) code = call(&own);
       if (const int reason = errno; code == MPI_SUCCESS && is_cut_short())
         remember(reason, "only " + std::to_string(done) + " of " + std::to_string(size) + " bytes were written");
       return code;
@@ -64,13 +64,13 @@ void forget_write_failure() { first_failure.clear(); }
 extern "C" {
 
 int MPI_File_write_at(MPI_File file, MPI_Offset offset, const void* values, int count, MPI_Datatype type, MPI_Status* status) {
-  return snag::written(true, count, type, status,
-                       [&](MPI_Status* own) { return PMPI_File_write_at(file, offset, values, count, type, own); });
+  return snag::written(count, type, status, [&](MPI_Status* own) { return PMPI_File_write_at(file, offset, values, count, type, own); });
 }
 
+/// Alone, too: each rank writes one piece in a row, so that the others have nothing to gather; and where the writing rank of Open MPI fails
+/// it leaves the others waiting.
 int MPI_File_write_at_all(MPI_File file, MPI_Offset offset, const void* values, int count, MPI_Datatype type, MPI_Status* status) {
-  return snag::written(false, count, type, status,
-                       [&](MPI_Status* own) { return PMPI_File_write_at_all(file, offset, values, count, type, own); });
+  return snag::written(count, type, status, [&](MPI_Status* own) { return PMPI_File_write_at(file, offset, values, count, type, own); });
 }
 
 int MPI_File_set_size(MPI_File file, MPI_Offset size) {
