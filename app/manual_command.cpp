@@ -1,11 +1,11 @@
 // snag manual: the manual of the case file, from the same records that read it.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "app/command.hpp"
 #include "app/manual.hpp"
+#include "base/atomic_file.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -21,9 +21,7 @@ Action add_manual(CLI::App& app) {
       std::cout << case_file_manual();
       return ExitCode::ok;
     }
-    std::ofstream file(*out);
-    file << case_file_manual();
-    if (!file) throw Error(ExitCode::io, *out + ": cannot be written; choose another --out");
+    write_atomically(*out, case_file_manual());
     return ExitCode::ok;
   };
 }

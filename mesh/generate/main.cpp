@@ -1,4 +1,5 @@
 // snag-mesh: makes a named, watertight mesh of a parametric geometry, checks it, and writes it as a gmsh file.
+#include <fcntl.h>
 #include <gmsh.h>
 #include <spdlog/fmt/fmt.h>
 
@@ -6,12 +7,14 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <optional>
 
 #include "base/atomic_file.hpp"
 #include "base/case_file.hpp"
 #include "base/error.hpp"
+#include "base/open_file.hpp"
 #include "base/words.hpp"
 #include "mesh/generate/geometry.hpp"
 #include "mesh/generate/verify.hpp"
@@ -118,6 +121,18 @@ void make_good_mesh(Geometry& geometry) {
   }
 }
 
+/// gmsh does not see that its writes fail: the mesh must have its last line. Throws Error(io).
+void check_written(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line, last;
+  const auto bytes = static_cast<std::streamoff>(std::filesystem::file_size(file));
+  in.seekg(std::max<std::streamoff>(0, bytes - 100));
+  while (std::getline(in, line)) last = line;
+  if (last.starts_with("$End")) return sync_to_disk(file);
+  OpenFile(file, O_WRONLY | O_APPEND).write("\n");  // throws with the reason, such as a full disk
+  throw Error(ExitCode::io, file.string() + ": was cut off after " + std::to_string(bytes) + " bytes; is the disk full?");
+}
+
 /// Through a temporary name, so that a reader never sees half a mesh.
 void write(const Request& request, const CaseFile& parameters) {
   gmsh::option::setNumber("Mesh.MshFileVersion", request.format == "2.2" ? 2.2 : 4.1);
@@ -129,12 +144,18 @@ void write(const Request& request, const CaseFile& parameters) {
                  request.out.string() + ": cannot be written (" + why + "), the folder must exist and have room; choose another --out");
   };
   try {
+    OpenFile(partial, O_WRONLY | O_CREAT | O_TRUNC);  // gmsh does not say why it cannot
     gmsh::write(partial.string());
+    check_written(partial);
     std::filesystem::rename(partial, request.out);
   } catch (const std::string& why) {
     throw fail(why);
   } catch (const std::filesystem::filesystem_error& why) {
     throw fail(why.code().message());
+  } catch (const Error&) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw;
   }
   auto resolved = request.out;
   resolved.replace_extension(".resolved.toml");

@@ -37,6 +37,7 @@ class Faults(harness.CaseTest):
     # [ranks][mode] points of a run, and of one that is resumed; None: every operation of rank 0
     of_runs = {1: {"kill": 3, "half": 2, "full": 3, "broken": 1}, 2: {"kill": 1, "full": 2}}
     of_resumed_runs = {1: {"kill": 1, "full": 1}}
+    of_meshes = {"half": 1, "full": 2}
 
     def environment(self, folder, program="snag", **variables):
         """Of mpirun and all it starts. The sanitizers of the preset `debug` want to be the first library."""
@@ -112,6 +113,7 @@ class Faults(harness.CaseTest):
             shutil.copytree(begun, folder)
         run = self.disturbed(["run", case, "--out", folder] + ["--resume"] * bool(begun), ranks, folder, mode, rank, operation)
         if run.code == 0 and mode in REASON:  # no result was lost
+            (folder / ".lock").unlink(missing_ok=True)  # nobody holds it: a broken disk does not remove it
             self.assert_equals(whole, folder)
             return "harmless"
         if mode in REASON:
@@ -155,6 +157,38 @@ class Faults(harness.CaseTest):
             _, of_ranks = self.operations(["run", case, "--out", folder, "--resume"], ranks, folder)
             print(f"  resumed on {ranks} ranks: {' + '.join(str(len(one)) for one in of_ranks)} operations")
             self.campaign(case, whole, begun, ranks, of_ranks, self.of_resumed_runs[ranks])
+
+    # programs that write one file
+
+    def try_mesh(self, sound, mode, operation):
+        """A mesh that is made anew over an older one: the file is the older or the new one, never a part."""
+        folder = self.work / "mesh"
+        file = folder / "made.msh"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        file.write_text("an older mesh")
+        run = self.disturbed(self.mesh_arguments(file), 1, folder, mode, 0, operation, "snag-mesh")
+        self.assertIn(file.read_bytes(), (b"an older mesh", sound), "half a mesh")
+        if mode in REASON and not (run.code == 0 and file.read_bytes() == sound):
+            self.assert_is_a_message(run, mode)
+        again = harness.snag(self.mesh_arguments(file), 1, folder, TIME_LIMIT)
+        self.assertEqual(again.code, 0, again.tail())
+        self.assertEqual(file.read_bytes(), sound)
+
+    def mesh_arguments(self, file):
+        return ["mesh", "channel", "--out", file, *[word for s in COARSE[1:] for word in ("--set", f"channel.{s}")]]
+
+    def test_mesh(self):
+        folder = self.work / "mesh"
+        folder.mkdir()
+        file = folder / "made.msh"
+        _, of_ranks = self.operations(self.mesh_arguments(file), 1, folder, "snag-mesh")
+        sound = file.read_bytes()
+        print(f"\n  a mesh: {len(of_ranks[0])} operations")
+        for mode, count in self.of_meshes.items():
+            for _, operation in self.points(of_ranks, mode, count):
+                with self.subTest(mode=mode, operation=operation):
+                    self.try_mesh(sound, mode, operation)
 
 
 if __name__ == "__main__":

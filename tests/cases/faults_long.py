@@ -16,6 +16,7 @@ MODES = os.environ.get("SNAG_FAULT_MODES", "kill half full broken").split()
 class ManyFaults(faults.Faults):
     of_runs = {1: dict.fromkeys(MODES, EVERY), 2: dict.fromkeys(MODES, SAMPLE), 3: dict.fromkeys(MODES, SAMPLE)}
     of_resumed_runs = {1: dict.fromkeys(MODES, EVERY), 2: dict.fromkeys(MODES, SAMPLE)}
+    of_meshes = dict.fromkeys(MODES, EVERY)
 
 
 del faults.Faults
