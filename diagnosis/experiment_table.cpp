@@ -15,6 +15,8 @@ namespace snag {
 
 namespace {
 
+constexpr double largest = 1e30;  // of a measured value in its unit: it is squared later, over uncertainties below 1
+
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -119,9 +121,9 @@ class Reading {
       d.time = *time;
     }
     const auto value = number<double>(field(4));
-    if (!value || !std::isfinite(*value))
-      throw wrong("value \"" + shortened(field(4)) + "\" of " + shortened(field(3)) +
-                  " must be a finite number; leave out rows without one");
+    if (!value || !(std::abs(*value) <= largest))
+      throw wrong("value \"" + shortened(field(4)) + "\" of " + shortened(field(3)) + " must be a finite number of at most " +
+                  words(largest) + " in size; leave out rows without one");
     d.value = *value;
     const std::string_view censored = field(5);
     if (censored == "1" || censored == "true")
@@ -140,8 +142,8 @@ class Reading {
     }
     if (field(7).empty()) return;
     const auto sd = number<double>(field(7));
-    if (!sd || !std::isfinite(*sd) || *sd < 0)
-      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 or more");
+    if (!sd || !(*sd >= 0 && *sd <= largest))
+      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 to " + words(largest));
     if (row.n == 1) throw wrong("sd is given for one repeat, which has none; give their number n, or leave sd empty");
     row.sd = *sd;
   }

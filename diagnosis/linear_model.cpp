@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/error.hpp"
 #include "diagnosis/statistics.hpp"
 
 namespace snag {
@@ -97,6 +98,10 @@ double log_truncated_gaussian(double g, double a, double lower, double upper) {
 LinearSolution solve(const Eigen::MatrixXd& JtJ, const Eigen::VectorXd& Jt_rho, double rho_square, const Eigen::VectorXd& prior,
                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const int n = static_cast<int>(prior.size()), k = static_cast<int>(lower.size());
+  if (!JtJ.allFinite() || !Jt_rho.allFinite() || !std::isfinite(rho_square))
+    throw Error(ExitCode::usage,
+                "diagnosis: deviations over their uncertainties are too large to be squared; are the uncertainties too small, in other units "
+                "than the data, or are data wrong by powers of ten?");
   LinearSolution solution;
   solution.precision = JtJ + Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd g = Jt_rho - prior;

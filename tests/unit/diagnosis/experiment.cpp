@@ -104,6 +104,7 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheData) {
   const std::string bare = "[[observable]]\nid = \"x\"\nunit = \"mm\"\n";
   EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x,nan\n"), "data.csv:2");
   EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,inf,x,1\n"), "finite number of seconds");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x,-1e308\n"), "value \"-1e308\" of x must be a finite number of at most 1e+30");
   EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,y,1\n"), "unknown observable \"y\"");
   EXPECT_TOLD(message(head + x_mm + A, columns + "C,0,0.1,x,1\n"), "unknown point \"C\"");
   EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x\n"), "4 fields");
