@@ -51,7 +51,7 @@ double Independence::tip_spread() const {
   return farthest / norm(steps.front().strip.tip);
 }
 
-Independence independence(MPI_Comm comm, const TextileTests& tests, const Calibration& c) {
+Independence independence_of_size_and_step(const TextileTests& tests, const Calibration& c) {
   Independence found;
   const double radius = c.settings.radius;
   for (const double ratio : radius_ratios) {
@@ -70,6 +70,12 @@ Independence independence(MPI_Comm comm, const TextileTests& tests, const Calibr
                     words(point.grab.strain_at_max) + ", tip of the strip " +
                     words(1e3 * height_above_plane(point.strip.tip, tests.plane_angle)) + " mm above the plane");
   }
+  return found;
+}
+
+Independence independence(MPI_Comm comm, const TextileTests& tests, const Calibration& c) {
+  Independence found = independence_of_size_and_step(tests, c);
+  const double radius = c.settings.radius;
   for (const double damping : dampings) found.dampings.push_back({damping, tests.rotation_friction, {}});
   for (const double friction : frictions) found.frictions.push_back({tests.bond_damping, friction, {}});
   std::vector<DampingPoint*> points;

@@ -42,6 +42,9 @@ struct Independence {
   double tip_spread() const;                 // greatest distance between two tips over the steps, over that from the edge
 };
 
+/// Radii and steps only, without drapes: a second at 6 mm.
+Independence independence_of_size_and_step(const TextileTests& tests, const Calibration& calibration);
+
 /// Some minutes at 1.5 mm, most of it for the drapes, which are shared out over the ranks. Collective. Throws Error(usage, diverged).
 Independence independence(MPI_Comm comm, const TextileTests& tests, const Calibration& calibration);
 

@@ -67,39 +67,34 @@ class Calibrate(harness.CaseTest):
         self.assertEqual(run.code, 0, run.tail())
         return (run.folder / "passport.toml").read_text()
 
-    def test_passport_of_coarse_particles(self):
-        """The dust cloth at 5 mm drapes as measured; then a case takes the passport."""
-        text = self.calibrate("5mm", 1, "one")
-        self.assertEqual(text, self.calibrate("5mm", 2, "two", "--independence"), "the number of ranks must not matter")
-        self.assertIn("What ought not to matter", (self.work / "two/calibration.html").read_text())
-        for name in ("strip_LW", "strip_CW", "damping", "friction"):
-            self.assertTrue((self.work / f"two/pictures/independence_{name}.svg").read_text().startswith("<svg"))
+    def test_passport(self):
+        """The same on one rank and on two, with pictures; then a case takes it. Clamps are counted twice: half of the stiffness and strength."""
+        text = self.calibrate("5mm", 1, "one", "--as-published")
+        self.assertEqual(text, self.calibrate("5mm", 2, "two", "--as-published"), "the number of ranks must not matter")
         passport = tomllib.loads(text)
         self.assertEqual([bond["direction"] for bond in passport["bond"]], ["LW", "CW"])
         for picture in passport["textile"]["pictures"]:
             self.assertTrue((self.work / "one" / picture).read_text().startswith("<svg"))
-        drape = passport["drape"][0]
-        print("  " + ", ".join(f"{key} = {value}" for key, value in drape.items()))
-        self.assertLess(abs(drape["area_deviation"]), 0.07)
-        self.assertLess(abs(drape["wave_size_deviation"]), 0.03)
-        self.assertIn(drape["waves"], [6, 6.5, 7])
         self.assertIn("Grab test lengthwise", (self.work / "one/calibration.html").read_text())
+        self.assert_ranges(passport)
+        self.assert_clamps_twice(passport)
+        self.assert_case_takes(self.work / "one/passport.toml")
 
+    def assert_ranges(self, passport):
         for bond in passport["bond"]:
             for name, unit in (("normal_stiffness", "N_m3"), ("tangential_stiffness", "N_m3"), ("bending_stiffness", "N_m3"), ("normal_strength", "Pa")):
                 low, high = bond[f"{name}_range_{unit}"]
                 self.assertTrue(low <= bond[f"{name}_{unit}"] <= high, f"{name}: {bond[f'{name}_{unit}']} is not in {low} to {high}")
             self.assertLess(bond["normal_stiffness_range_N_m3"][0], bond["normal_stiffness_N_m3"], "the tests scatter")
 
-        shutil.copy(self.work / "one/passport.toml", self.work)
+    def assert_case_takes(self, file):
+        shutil.copy(file, self.work)
         self.run_case(self.case(SHEET.format(radius=5)))
         outside = harness.snag(["run", self.case(SHEET.format(radius=3)), "--out", self.work / "outside"])
         self.assertEqual(outside.code, 2, outside.tail())
         self.assertIn("3 mm is outside the calibrated radii 5 mm", outside.messages[0])
 
-    def test_as_published(self):
-        """Clamps counted twice: half of the stiffness and strength, so half of the measured force."""
-        published = tomllib.loads(self.calibrate("5mm", 2, "published", "--as-published"))
+    def assert_clamps_twice(self, published):
         self.assertEqual(published["textile"]["clamps"], "counted twice, as published")
         area, columns = math.pi * 0.005**2, 2 * 0.1 / 0.01
         for bond, force, strain in zip(published["bond"], (172, 70.1), (0.358, 0.264)):

@@ -154,8 +154,12 @@ def write_set(folder, seed, strengths, other_force):
 
 
 class OtherProgram(harness.CaseTest):
+    sets = ("history", "pair", "stratified")  # diagnose_other_program_long.py has all of them
+
     def test_spheres(self):
         for seed, (name, expected, strengths, other_force) in enumerate(SETS):
+            if name not in self.sets:
+                continue
             with self.subTest(name):
                 folder = self.work / name
                 write_set(folder, 70 + seed, strengths, other_force)

@@ -57,6 +57,8 @@ def surface(file):
 
 
 class Pump(harness.CaseTest):
+    n_steps_on_three = 12  # pump_long.py has all of them
+
     def setUp(self):
         super().setUp()
         self.file = self.case(CASE.format(mesh=harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh"))
@@ -73,24 +75,19 @@ class Pump(harness.CaseTest):
         self.assertIn("resumed at 0.01", resumed.stdout)
         self.assertEqual(whole.monitor("pump").lines[:51], resumed.monitor("pump").lines[:51], "no line twice, none missing")
         self.assert_monitors_agree(whole, resumed, "pump", 0)
-        other = self.run_case(self.file, 3, out="three")
-        self.assert_monitors_agree(whole, other, "pump", 1e-3)
+        other = self.run_case(self.file, 3, "--set", f"time.end_s={self.n_steps_on_three * STEP}", out="three").monitor("pump")
+        self.assertEqual(len(other.values), self.n_steps_on_three)
+        one = whole.monitor("pump")
+        one.values = one.values[: self.n_steps_on_three]
+        difference = max(harness.largest_difference(one, other).values())
+        print(f"  on three ranks: largest difference {difference:.1e}")
+        self.assertLessEqual(difference, 1e-3)
 
     def test_slow_flow_from_rest(self):
         """While the rotor still turns slower than the water around it, nothing runs away."""
         case = harness.SOURCE_DIR / "cases" / "pump-curve" / "case.toml"
         run = self.run_case(case, 2, "--set", "boundary.0.flow_rate_L_s=2", "--set", "time.end_ms=3", out="slow")
         self.assertLess(run.monitor("residuals").column("courant_max").max(), 5)
-
-    def test_large_steps_with_one_corrector(self):
-        """Steps of 2.88 degrees, of more than a cell of the interface, at part load: a guessed flux with divergence runs away within 110 of them."""
-        run = self.run_case(self.file, 2, "--set", "time.step_s=4e-4", "--set", "time.end_s=0.056", "--set", "boundary.0.flow_rate_L_s=7.44", "--set", "flow.pressure_tolerance=1e-4",
-                            "--set", "flow.pressure_tolerance_intermediate=1e-2", "--set", "flow.momentum_tolerance=1e-5", out="large")
-        courant = run.monitor("residuals").column("courant_max")
-        self.assertLess(courant[len(courant) // 2:].max(), 40, "after the sudden start; 18 to 28 at the tip of the vane")
-        head = run.monitor("pump").column("head")[-20:]
-        print(f"  head {head.min():.2f} to {head.max():.2f} m")
-        self.assertTrue(4 < head.min() and head.max() < 8, "of the pump 6 m with a pulsation of 1.3 m")
 
     def looks_like_a_pump(self, run):
         pump = run.monitor("pump")

@@ -1,64 +1,12 @@
-// ranks: 1 2 3
+// ranks: 1
+// long ranks: 2 3
 // timeout: 600
 // A pressure inlet and an outlet whose pressure floats until the flow is the one that is asked for.
-#include <gtest/gtest.h>
-
-#include "solver/boundaries/water_column.hpp"
-#include "solver/monitors.hpp"
-#include "tests/verification/solver/channel.hpp"
-#include "tests/verification/solver/take_over.hpp"
+#include "tests/verification/solver/tank_and_outlet.hpp"
 
 using namespace snag;
 using namespace snag::test;
-
-namespace {
-
-constexpr double dt = 0.02, target = 0.8;
-
-/// A channel between a tank and an outlet; `outlet`: more keys of the outlet.
-std::string from_tank(const std::string& outlet) { return channel("kind = \"pressure_inlet\"\npressure_Pa = 3", outlet); }
-
-Mesh tetrahedra() { return channel_mesh(3); }
-
-FlowSettings settings() { return channel_settings(0.02); }
-
-/// Flow through x1 over its target after each of `steps` steps.
-std::vector<double> share_of_target(FlowSolver& solver, int steps) {
-  std::vector<double> share;
-  for (int i = 0; i < steps; ++i) {
-    solver.advance(dt);
-    share.push_back(flow_rate(solver.flow, solver.flow.mesh.patch_index("x1")) / target);
-  }
-  return share;
-}
-
-double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
-double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
-
-void print(const char* what, const std::vector<double>& share, double end) {
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank > 0) return;
-  std::size_t settled = share.size();
-  while (settled > 0 && std::abs(share[settled - 1] - end) < 1e-2) --settled;
-  std::printf("%s: lowest %.4f, highest %.4f, within 1 %% from step %zu on, last %.3e off\n", what, smallest(share), largest(share),
-              settled + 1, share.back() - end);
-}
-
-}  // namespace
-
-// The conductance of a straight column is its section over its length: exactly on hexahedra, to some per cent on distorted tetrahedra.
-TEST(TargetFlow, water_column) {
-  const auto conductance_of = [](const Mesh& mesh) {
-    std::vector<PatchBoundary> ordered(mesh.patches.size());
-    for (const PatchBoundary& condition : conditions(from_tank("")))
-      ordered[mesh.patch_index(condition.patch)] = {condition.patch, "", boundaries().make("wall", "test")};
-    for (const char* open : {"x0", "x1"}) ordered[mesh.patch_index(open)].boundary = boundaries().make("pressure_outlet", "test");
-    return column_conductance(mesh, ordered, mesh.patches[mesh.patch_index("x1")]);
-  };
-  EXPECT_NEAR(conductance_of(structured_box(MPI_COMM_WORLD, {}, {2, 1, 1}, {10, 3, 6})), 0.5, 1e-9);
-  EXPECT_NEAR(conductance_of(tetrahedra()), 0.5, 0.1);
-}
+using namespace snag::test::tank_and_outlet;
 
 // From rest, with a level at the start that is 10 dynamic heads off: the flow comes to its target within 1e-4, and not more than 3 % over
 // it.
@@ -140,17 +88,4 @@ TEST(TargetFlow, from_settled_water) {
   print("from settled water", share, 1);
   EXPECT_GT(smallest(share), 0.98);
   EXPECT_LT(largest(share), 1.02);
-}
-
-// A resumed run has the level and all that it comes from: the same pressures to the bit.
-TEST(TargetFlow, resume) {
-  const Mesh mesh = tetrahedra();
-  const std::string text = from_tank("target_flow_rate_m3_s = 0.8");
-  FlowSolver whole(mesh, settings(), conditions(text));
-  share_of_target(whole, 7);
-  FlowSolver resumed(mesh, settings(), conditions(text));
-  take_over(whole, resumed, "target_flow");
-  share_of_target(whole, 5), share_of_target(resumed, 5);
-  for (int c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(whole.flow.pressure[c], resumed.flow.pressure[c]);
-  EXPECT_EQ(whole.boundary().state(), resumed.boundary().state());
 }

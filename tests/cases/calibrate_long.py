@@ -1,0 +1,36 @@
+# labels: long
+# timeout: 1800
+# processors: 2
+"""Requirement: calibrate.py; the dust cloth drapes as measured, and what ought not to matter is written and does not change the passport."""
+import tomllib
+
+import calibrate
+import harness
+
+
+class LongCalibrate(calibrate.Calibrate):
+    def test_passport_of_coarse_particles(self):
+        """The dust cloth at 5 mm drapes as measured; then a case takes the passport."""
+        text = self.calibrate("5mm", 1, "one")
+        self.assertEqual(text, self.calibrate("5mm", 2, "two", "--independence"), "the number of ranks must not matter")
+        self.assertIn("What ought not to matter", (self.work / "two/calibration.html").read_text())
+        for name in ("strip_LW", "strip_CW", "damping", "friction"):
+            self.assertTrue((self.work / f"two/pictures/independence_{name}.svg").read_text().startswith("<svg"))
+        passport = tomllib.loads(text)
+        self.assertEqual([bond["direction"] for bond in passport["bond"]], ["LW", "CW"])
+        for picture in passport["textile"]["pictures"]:
+            self.assertTrue((self.work / "one" / picture).read_text().startswith("<svg"))
+        drape = passport["drape"][0]
+        print("  " + ", ".join(f"{key} = {value}" for key, value in drape.items()))
+        self.assertLess(abs(drape["area_deviation"]), 0.07)
+        self.assertLess(abs(drape["wave_size_deviation"]), 0.03)
+        self.assertIn(drape["waves"], [6, 6.5, 7])
+        self.assertIn("Grab test lengthwise", (self.work / "one/calibration.html").read_text())
+        self.assert_ranges(passport)
+        self.assert_case_takes(self.work / "one/passport.toml")
+
+
+del calibrate.Calibrate
+
+if __name__ == "__main__":
+    harness.main()

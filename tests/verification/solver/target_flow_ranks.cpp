@@ -1,0 +1,44 @@
+// ranks: 1 2 3
+// What an outlet with a target of the flow must do on any number of ranks; target_flow.cpp has the rest.
+#include "solver/boundaries/water_column.hpp"
+#include "tests/verification/solver/take_over.hpp"
+#include "tests/verification/solver/tank_and_outlet.hpp"
+
+using namespace snag;
+using namespace snag::test;
+using namespace snag::test::tank_and_outlet;
+
+// The conductance of a straight column is its section over its length: exactly on hexahedra, to some per cent on distorted tetrahedra.
+TEST(TargetFlowRanks, water_column) {
+  const auto conductance_of = [](const Mesh& mesh) {
+    std::vector<PatchBoundary> ordered(mesh.patches.size());
+    for (const PatchBoundary& condition : conditions(from_tank("")))
+      ordered[mesh.patch_index(condition.patch)] = {condition.patch, "", boundaries().make("wall", "test")};
+    for (const char* open : {"x0", "x1"}) ordered[mesh.patch_index(open)].boundary = boundaries().make("pressure_outlet", "test");
+    return column_conductance(mesh, ordered, mesh.patches[mesh.patch_index("x1")]);
+  };
+  EXPECT_NEAR(conductance_of(structured_box(MPI_COMM_WORLD, {}, {2, 1, 1}, {10, 3, 6})), 0.5, 1e-9);
+  EXPECT_NEAR(conductance_of(tetrahedra()), 0.5, 0.1);
+}
+
+// From rest the flow comes to its target within 1e-4, and not more than 3 % over it.
+TEST(TargetFlowRanks, from_rest) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings(), conditions(from_tank("target_flow_rate_m3_s = 0.8\npressure_Pa = -4")));
+  const auto share = share_of_target(solver, 320);
+  EXPECT_LT(largest(share), 1.03);
+  EXPECT_NEAR(share.back(), 1, 1e-4);
+}
+
+// A resumed run has the level and all that it comes from: the same pressures to the bit.
+TEST(TargetFlowRanks, resume) {
+  const Mesh mesh = tetrahedra();
+  const std::string text = from_tank("target_flow_rate_m3_s = 0.8");
+  FlowSolver whole(mesh, settings(), conditions(text));
+  share_of_target(whole, 7);
+  FlowSolver resumed(mesh, settings(), conditions(text));
+  take_over(whole, resumed, "target_flow");
+  share_of_target(whole, 5), share_of_target(resumed, 5);
+  for (int c = 0; c < mesh.n_cells; ++c) EXPECT_EQ(whole.flow.pressure[c], resumed.flow.pressure[c]);
+  EXPECT_EQ(whole.boundary().state(), resumed.boundary().state());
+}
