@@ -144,7 +144,7 @@ class Mutations(harness.CaseTest):
         errors = [line for line in lines if line.startswith("error: ")]
         if len(errors) != 1:
             return f"{len(errors)} errors"
-        named = kind.file in errors[0] or re.search(r"\[\w+\]|\w+\.\w+|\w+_\w+|\"|\brag \d", errors[0])
+        named = kind.file in errors[0] or re.search(r"\[\w+\]|\w+\.\w+|\w+/\w+|\w+_\w+|\"|\brag \d", errors[0])
         return "" if named else "the message names neither file nor key"
 
     def test_damaged_files(self):
