@@ -99,9 +99,10 @@ LinearSolution solve(const Eigen::MatrixXd& JtJ, const Eigen::VectorXd& Jt_rho, 
                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const int n = static_cast<int>(prior.size()), k = static_cast<int>(lower.size());
   if (!JtJ.allFinite() || !Jt_rho.allFinite() || !std::isfinite(rho_square))
-    throw Error(ExitCode::usage,
-                "diagnosis: deviations over their uncertainties are too large to be squared; are the uncertainties too small, in other units "
-                "than the data, or are data wrong by powers of ten?");
+    throw Error(
+        ExitCode::usage,
+        "diagnosis: deviations over their uncertainties are too large to be squared; are the uncertainties too small, in other units "
+        "than the data, or are data wrong by powers of ten?");
   LinearSolution solution;
   solution.precision = JtJ + Eigen::MatrixXd::Identity(n, n);
   const Eigen::VectorXd g = Jt_rho - prior;
