@@ -98,7 +98,11 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   const double from = simulation.time(), end = simulation.time_settings.end;
   fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
   rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
-  if (simulation.water) walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
+  if (simulation.water) {
+    walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
+    for (int p = 0; p < static_cast<int>(simulation.mesh->patches.size()); ++p)
+      if (!simulation.water->boundary().is_wall(p)) openings_ += patch_area(simulation.water->flow, p);
+  }
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   together(MPI_COMM_WORLD, [&] {
     if (!root) return;
@@ -317,7 +321,9 @@ void Outputs::write_phase() const {
 void Outputs::summarise_checks(Summary& s) const {
   if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
     s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps()};
-    if (largest_through_ > 0) s.conservation.mass_imbalance = largest_imbalance_ / largest_through_;
+    constexpr double least_share = 0.01;  // at shut-off nothing passes but round-off
+    const double scale = std::max(largest_through_, least_share * water->watch().speed() * openings_);
+    if (scale > 0) s.conservation.mass_imbalance = largest_imbalance_ / scale;
     if (const RotatingZone* zone = water->flow.rotating_zone) {
       s.mesh.facets = zone->mesh().n_facets_global();
       s.conservation.interface_closure = largest_closure_;
