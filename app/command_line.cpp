@@ -1,10 +1,8 @@
 #include "app/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iostream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/build_info.hpp"
@@ -69,18 +67,6 @@ int parse_and_act(int argc, char** argv, const Session& session) {
 }
 
 }  // namespace
-
-void leave_together(ExitCode code) {
-  MPI_Request request;
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
-  for (int waited = 0; waited < 100; ++waited) {
-    int done = 0;
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-    if (done) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
-}
 
 int run_command_line(int argc, char** argv, const Session& session) {
   ExitCode code = ExitCode::io;

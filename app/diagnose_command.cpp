@@ -4,9 +4,41 @@
 
 #include "app/command.hpp"
 #include "app/diagnosis/bench.hpp"
+#include "app/diagnosis/bench_page.hpp"
 #include "app/diagnosis/diagnose_case.hpp"
+#include "app/diagnosis/verdict_page.hpp"
+#include "base/atomic_file.hpp"
+#include "base/log.hpp"
+#include "parallel/session.hpp"
 
 namespace snag {
+
+namespace {
+
+/// A page as report.html of a folder, and lines for the terminal. Collective; rank 0 has the text.
+void publish(const std::filesystem::path& folder, const std::function<std::string()>& page, const std::function<std::string()>& lines) {
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
+    write_atomically(folder / "report.html", page());
+    log::info(lines());
+  });
+}
+
+void diagnose_and_publish(const DiagnoseOptions& options) {
+  const Verdict verdict = diagnose_file(options);
+  publish(
+      options.out, [&] { return verdict_page(verdict); },
+      [&] { return verdict_sentence(verdict) + "\n" + (options.out / "report.html").string(); });
+}
+
+void bench_and_publish(const DiagnoseBenchOptions& options) {
+  const BlindScores scores = bench_diagnosis(options);
+  publish(
+      options.out, [&] { return bench_page(options.twin + ", level " + options.level, scores.rows, scores.card); },
+      [&] { return card_text(scores.card); });
+}
+
+}  // namespace
 
 Action add_diagnose(CLI::App& app) {
   struct Options {
@@ -29,12 +61,12 @@ Action add_diagnose(CLI::App& app) {
   return [options] {
     if (!options->level.empty()) {
       options->bench.level = options->level, options->bench.out = options->one.out;
-      bench_diagnosis(options->bench);
+      bench_and_publish(options->bench);
       return ExitCode::ok;
     }
     if (options->one.file.empty())
       throw Error(ExitCode::usage, "snag diagnose: no experiment file; give DIAGNOSIS.toml, or --bench L2 for the blind benchmark");
-    diagnose_file(options->one);
+    diagnose_and_publish(options->one);
     return ExitCode::ok;
   };
 }

@@ -2,10 +2,8 @@
 // Where the water comes in and goes out by pressure, seen as discs: a particle is beyond an opening when it is beyond its mean plane and
 // within 1.5 radii of its axis.
 #include <string>
-#include <vector>
 
-#include "mesh/mesh.hpp"
-#include "solver/boundary.hpp"
+#include "base/vec3.hpp"
 
 namespace snag {
 
@@ -21,8 +19,5 @@ struct Opening {
   /// Distance beyond the plane (m, negative in front of it) if x is near the axis, -infinity otherwise.
   double beyond(const Vec3& x) const;
 };
-
-/// Patches of the mesh on which pressure is given. Collective.
-std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary);
 
 }  // namespace snag

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/contacts/contact_solver.hpp"
 #include "dem/tile_particles.hpp"
 
 namespace snag {
@@ -28,6 +29,19 @@ bool is_beyond(const Vec3& x, const std::vector<Opening>& openings, bool is_way_
                      [&](const Opening& opening) { return opening.is_way_out == is_way_out && opening.beyond(x) > 0; });
 }
 
+/// In a pump the walls that move are the impeller's, and the marked line is the tongue.
+WallRegion region_of(WallPlace place) {
+  switch (place) {
+    case WallPlace::moving:
+      return WallRegion::impeller;
+    case WallPlace::marked:
+      return WallRegion::tongue;
+    case WallPlace::other:
+      break;
+  }
+  return WallRegion::other;
+}
+
 void count_contacts(const ContactSolver& contacts, std::vector<std::int64_t>& counts) {
   const std::vector<WallTouch>& touches = contacts.wall_touches();
   for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -42,8 +56,10 @@ RagSighting sighting(const std::int64_t* counts, const RagState& state, const st
   seen.n = state.n_particles, seen.n_upstream = counts[upstream], seen.n_out = counts[out];
   seen.n_in_discharge = counts[discharge], seen.n_outside_impeller = counts[outside_impeller];
   seen.n_past_inside = counts[past_inside], seen.n_past_outside = counts[past_outside];
-  for (int place = 0; place < n_wall_places; ++place)
-    seen.touching[place] = counts[touching + place], seen.touched[place] = counts[touched + place] > 0;
+  for (int place = 0; place < n_wall_places; ++place) {
+    const WallRegion region = region_of(static_cast<WallPlace>(place));
+    seen.touching[region] = counts[touching + place], seen.touched[region] = counts[touched + place] > 0;
+  }
   seen.tension = state.max_bond_tension, seen.tension_place = state.max_bond_tension_place;
   if (!geometry) return seen;
   seen.angle = geometry->angle(state.centre), seen.radius = geometry->radius(state.centre), seen.height = geometry->height(state.centre);

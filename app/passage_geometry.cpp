@@ -103,16 +103,16 @@ double PassageGeometry::angle(const Vec3& x) const {
 
 double PassageGeometry::radius(const Vec3& x) const { return norm(across(x - origin_, up_)); }
 
-std::optional<PassageGeometry> read_passage(const Table& root, const RotatingZone* zone) {
+std::optional<PassageGeometry> read_passage(const Table& root, const std::optional<Shaft>& shaft) {
   if (!root.has("passage")) return {};
   const Table table = root.table("passage");
   PassageSettings settings;
   table.read(settings.section().parameters);
-  if (!zone)
+  if (!shaft)
     throw Error(ExitCode::usage, table.where() +
                                      " tells a rag's way about an axis, and nothing turns here; add [rotating_zone], or remove "
                                      "[passage]");
-  return PassageGeometry(settings, zone->origin(), zone->axis(), zone->full_speed(), table.where());
+  return PassageGeometry(settings, shaft->origin, shaft->axis, shaft->speed, table.where());
 }
 
 }  // namespace snag

@@ -14,7 +14,7 @@
 #include "app/opening.hpp"
 #include "base/case_file.hpp"
 #include "base/parameter.hpp"
-#include "solver/rotating_zone.hpp"
+#include "base/shaft.hpp"
 
 namespace snag {
 
@@ -68,7 +68,7 @@ class PassageGeometry {
   double tongue_reach_, impeller_radius_, speed_;
 };
 
-/// The table [passage], none if the case has none; `zone` may be null. Throws Error(usage).
-std::optional<PassageGeometry> read_passage(const Table& root, const RotatingZone* zone);
+/// The table [passage], none if the case has none; `shaft` with its full speed. Throws Error(usage), also where the table is given and nothing turns.
+std::optional<PassageGeometry> read_passage(const Table& root, const std::optional<Shaft>& shaft);
 
 }  // namespace snag

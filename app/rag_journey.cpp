@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace snag {
@@ -49,11 +50,11 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
   if (sense_ != 0 && wholly_in_ >= 0 && !was_out) pass_tongue(seen, before, time);
   leave(seen, time);
 
-  if (std::any_of(seen.touched.begin(), seen.touched.end(), [](bool touched) { return touched; })) wall_contact_ += step;
-  for (const int place : {impeller, tongue, other}) {
-    const bool is_new = contact_[place].add(seen.touched[place], time, step, angle_);
-    if (!is_new || sense_ == 0 || was_out || place == other) continue;
-    note(place == tongue ? stuck_on_tongue : stuck_on_impeller, time);
+  if (std::ranges::any_of(seen.touched.values, std::identity())) wall_contact_ += step;
+  for (const WallRegion region : wall_regions) {
+    const bool is_new = contact_[region].add(seen.touched[region], time, step, angle_);
+    if (!is_new || sense_ == 0 || was_out || region == WallRegion::other) continue;
+    note(region == WallRegion::tongue ? stuck_on_tongue : stuck_on_impeller, time);
   }
   if (seen.tension > max_tension_)
     max_tension_ = seen.tension, max_tension_time_ = time, max_tension_angle_ = seen.tension_angle, max_tension_place_ = seen.tension_place;
@@ -89,7 +90,7 @@ void RagJourney::pass_tongue(const RagSighting& seen, double before, double time
   } else if (is_passing_ && past > passed_beyond && seen.n_past_inside >= seen.n_past_outside) {
     ++n_recirculations_, is_past_tongue_ = is_passing_ = false;
     note(recirculated, time);
-    contact_[impeller].recirculate(time, angle_, impeller_speed_), contact_[tongue].recirculate(time, angle_, 0);
+    contact_[WallRegion::impeller].recirculate(time, angle_, impeller_speed_), contact_[WallRegion::tongue].recirculate(time, angle_, 0);
   }
 }
 
@@ -101,8 +102,8 @@ void RagJourney::leave(const RagSighting& seen, double time) {
 std::string RagJourney::outcome() const {
   if (has_exited()) return "exited";
   if (sense_ != 0) {
-    if (contact_[tongue].is_stuck_at(time_)) return "stuck_on_tongue";
-    if (contact_[impeller].is_stuck_at(time_)) return "stuck_on_impeller";
+    if (contact_[WallRegion::tongue].is_stuck_at(time_)) return "stuck_on_tongue";
+    if (contact_[WallRegion::impeller].is_stuck_at(time_)) return "stuck_on_impeller";
   }
   if (is_upstream_) return "upstream";
   return n_recirculations_ > 0 ? "recirculating" : "in_domain";
@@ -111,7 +112,8 @@ std::string RagJourney::outcome() const {
 RagVerdict RagJourney::verdict() const {
   RagVerdict v;
   v.outcome = outcome();
-  v.wall_contact = wall_contact_, v.impeller_contact = contact_[impeller].contact, v.other_contact = contact_[other].contact;
+  v.wall_contact = wall_contact_, v.impeller_contact = contact_[WallRegion::impeller].contact,
+  v.other_contact = contact_[WallRegion::other].contact;
   v.max_tension = max_tension_, v.max_tension_place = max_tension_place_;
   if (max_tension_time_ >= 0) v.max_tension_time = max_tension_time_;
   for (const Entry& entry : log_) {
@@ -122,8 +124,8 @@ RagVerdict RagJourney::verdict() const {
   if (wholly_in_ >= 0) v.time_to_enter = wholly_in_ - entered_;
   if (wholly_in_ >= 0 && exited_ >= 0) v.retention_time = exited_ - wholly_in_;
   v.recirculations = n_recirculations_;
-  v.stuck_on_tongue = contact_[tongue].stuck_time(), v.stuck_on_impeller = contact_[impeller].stuck_time();
-  v.tongue_contact = contact_[tongue].contact;
+  v.stuck_on_tongue = contact_[WallRegion::tongue].stuck_time(), v.stuck_on_impeller = contact_[WallRegion::impeller].stuck_time();
+  v.tongue_contact = contact_[WallRegion::tongue].contact;
   if (max_tension_time_ >= 0) v.max_tension_angle = degrees * max_tension_angle_;
   v.volute = volute_;
   return v;
@@ -135,7 +137,8 @@ void RagJourney::for_numbers(Self& self, const Visit& visit) {
   visit(self.time_), visit(self.angle_), visit(self.is_seen_), visit(self.is_armed_), visit(self.is_passing_), visit(self.is_past_tongue_),
       visit(self.is_upstream_);
   visit(self.n_recirculations_), visit(self.entered_), visit(self.wholly_in_), visit(self.reached_outlet_), visit(self.exited_);
-  for (auto& c : self.contact_) visit(c.begin), visit(c.last), visit(c.begin_angle), visit(c.is_stuck), visit(c.stuck), visit(c.contact);
+  for (auto& c : self.contact_.values)
+    visit(c.begin), visit(c.last), visit(c.begin_angle), visit(c.is_stuck), visit(c.stuck), visit(c.contact);
   visit(self.wall_contact_);
   for (auto& time : self.volute_.time) visit(time);
   for (auto& radius_time : self.volute_.radius_time) visit(radius_time);

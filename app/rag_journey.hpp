@@ -24,10 +24,21 @@
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "dem/contacts/contact_solver.hpp"
 #include "observe/volute_histogram.hpp"
 
 namespace snag {
+
+/// What a rag touches: walls that turn, walls at rest near the tongue, other walls at rest.
+enum class WallRegion { impeller, tongue, other };
+inline constexpr std::array wall_regions{WallRegion::impeller, WallRegion::tongue, WallRegion::other};
+
+/// A value for each region.
+template <class T>
+struct ByRegion {
+  std::array<T, wall_regions.size()> values{};
+  T& operator[](WallRegion region) { return values[static_cast<std::size_t>(region)]; }
+  const T& operator[](WallRegion region) const { return values[static_cast<std::size_t>(region)]; }
+};
 
 /// One rag at the end of a step, the same on every rank. Particles are counted; without a pump only n, n_upstream, n_out, contact and
 /// tension are known.
@@ -36,8 +47,8 @@ struct RagSighting {
   std::int64_t n_upstream = 0, n_out = 0;
   std::int64_t n_in_discharge = 0, n_outside_impeller = 0;
   std::int64_t n_past_inside = 0, n_past_outside = 0;  // within a quarter turn past the tongue's angle: not in the discharge, in it
-  std::array<std::int64_t, n_wall_places> touching{};  // at the end of the step, by WallPlace
-  std::array<bool, n_wall_places> touched{};           // in the step
+  ByRegion<std::int64_t> touching;                     // at the end of the step
+  ByRegion<bool> touched;                              // in the step
   double angle = 0, radius = 0, height = 0;            // of the centroid; rad in (-pi, pi], m, m
   double tension = 0, tension_angle = 0;               // largest of a bond, N; rad
   Vec3 tension_place;                                  // m
@@ -100,7 +111,6 @@ class RagJourney {
     double stuck_time() const { return stuck + (is_stuck ? last - begin : 0); }
     bool is_stuck_at(double time) const;
   };
-  enum { impeller, tongue, other };  // as WallPlace
 
   void note(Event what, double time) { log_.push_back({time, angle_, what}); }
   void enter(const RagSighting& seen, double time);
@@ -118,7 +128,7 @@ class RagJourney {
   bool is_seen_ = false, is_armed_ = false, is_passing_ = false, is_past_tongue_ = false, is_upstream_;
   std::int64_t n_recirculations_ = 0;
   double entered_ = -1, wholly_in_ = -1, reached_outlet_ = -1, exited_ = -1;  // s, -1: not yet
-  std::array<Contact, n_wall_places> contact_;
+  ByRegion<Contact> contact_;
   double wall_contact_ = 0;  // s
   VoluteStay volute_;
   double max_tension_ = 0, max_tension_time_ = -1, max_tension_angle_ = 0;

@@ -128,8 +128,7 @@ void RagMonitors::add_passage(std::size_t rag, const Passage& passage, double ti
   const RagSighting& seen = passage.sightings()[rag];
   std::vector<double> row{time, static_cast<double>(rag), degrees * passage.journey(rag).angle(), seen.radius, seen.height};
   for (const std::int64_t count : {seen.n_upstream, seen.n_in_casing(), seen.n_out}) row.push_back(static_cast<double>(count));
-  for (const WallPlace place : {WallPlace::moving, WallPlace::marked, WallPlace::other})
-    row.push_back(static_cast<double>(seen.touching[static_cast<int>(place)]));
+  for (const WallRegion region : wall_regions) row.push_back(static_cast<double>(seen.touching[region]));
   row.insert(row.end(), {seen.tension, seen.tension_place.x, seen.tension_place.y, seen.tension_place.z});
   passage_.add(row);
 }

@@ -7,7 +7,6 @@
 #include "app/forecast.hpp"
 #include "app/outputs.hpp"
 #include "app/rag_assumptions.hpp"
-#include "app/report.hpp"
 #include "app/simulation.hpp"
 #include "app/stop_request.hpp"
 #include "base/folder_lock.hpp"
@@ -153,9 +152,9 @@ void check_same_case(const CaseFile& file, const std::filesystem::path& folder, 
 }
 
 /// The folder holds all that a run writes that has ended at the checkpoint. Collective.
-bool is_complete(const std::filesystem::path& folder, const CaseFile& file, const Simulation& simulation, std::int64_t time_step) {
+bool is_complete(const std::filesystem::path& folder, const CaseFile& file, bool with_report, std::int64_t time_step) {
   int complete = rank_of(world) == 0 && is_of_ended_run(folder / "summary.json", file.sha256(), time_step) &&
-                 (!simulation.output_settings.report || std::filesystem::exists(folder / "report.html"));
+                 (!with_report || std::filesystem::exists(folder / "report.html"));
   MPI_Bcast(&complete, 1, MPI_INT, 0, world);
   return complete != 0;
 }
@@ -190,9 +189,10 @@ void begin_as_a_run(Simulation& simulation) {
   if (simulation.pump) PumpMonitor(simulation.water->flow, *simulation.pump);
 }
 
-void report(const std::filesystem::path& folder) {
+/// Collective.
+void report(const std::filesystem::path& folder, const ReportWriter& write) {
   together(world, [&] {
-    if (rank_of(world) == 0) write_report(folder);
+    if (rank_of(world) == 0) write(folder);
   });
   log::info("report: " + (folder / "report.html").string());
 }
@@ -207,11 +207,12 @@ std::string last_checkpoint(const std::filesystem::path& folder) {
          folder.string() + "\"";
 }
 
-/// Summary and, with a folder, the report of what was reached; the error that ended the run goes on to the command line.
-void summarise_failed(Outputs& outputs, ExitCode code, const std::string& message, const std::filesystem::path& folder) {
+/// Summary and, with a writer, the report of what was reached; the error that ended the run goes on to the command line.
+void summarise_failed(Outputs& outputs, ExitCode code, const std::string& message, const std::filesystem::path& folder,
+                      const ReportWriter& write) {
   try {
     outputs.finish(code, message);
-    if (!folder.empty()) report(folder);
+    if (write) report(folder, write);
   } catch (const Error& second) {
     log::warning(std::string("no summary of the failed run: ") + second.what());
   }
@@ -236,7 +237,8 @@ ExitCode run_case(const RunOptions& options) {
   if (reader) stored = {.partition = stored_partition(reader.get()), .checkpoint = reader.get()};
   Simulation simulation(file, world, std::move(stored));
   if (reader) check_same_case(file, folder, *reader);
-  if (reader && is_complete(folder, file, simulation, reader->stamp().time_step)) {
+  const ReportWriter write_report = simulation.output_settings.report ? options.write_report : ReportWriter{};
+  if (reader && is_complete(folder, file, write_report != nullptr, reader->stamp().time_step)) {
     if (!reader->fallback().empty()) log::warning(reader->fallback());
     log::info(folder.string() + ": the run ended at " + words(reader->stamp().time) +
               " s, there is nothing to resume and nothing is changed; with a later [time] end it goes on, with --overwrite it begins anew");
@@ -258,11 +260,11 @@ ExitCode run_case(const RunOptions& options) {
   } catch (const Error& failure) {
     const bool of_the_computation = failure.code == ExitCode::diverged || failure.code == ExitCode::invariant;
     const std::string message = failure.what() + (of_the_computation ? last_checkpoint(folder) : "");
-    summarise_failed(outputs, failure.code, message, of_the_computation && simulation.output_settings.report ? folder : "");
+    summarise_failed(outputs, failure.code, message, folder, of_the_computation ? write_report : ReportWriter{});
     throw Error(failure.code, message);
   }
   code = outputs.finish(code);
-  if (code != ExitCode::stopped && simulation.output_settings.report) report(folder);
+  if (code != ExitCode::stopped && write_report) report(folder, write_report);
   log::info("done after " + duration(MPI_Wtime() - begun) + ": " + folder.string());
   return code;
 }

@@ -1,6 +1,7 @@
 #pragma once
-// A run from the case file to the report.
+// A run from the case file to its results. It writes no page: whoever starts it says how the report is made.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,15 @@
 
 namespace snag {
 
+/// Makes report.html of a folder with results. On one rank; throws Error(io).
+using ReportWriter = std::function<void(const std::filesystem::path& folder)>;
+
 struct RunOptions {
   std::filesystem::path case_file;
   std::filesystem::path out;           // empty: results/NAME
   std::vector<std::string> overrides;  // --set
   bool resume = false, overwrite = false;
+  ReportWriter write_report{};  // at the end, unless [output] report = false; empty: no report
 };
 
 /// Run a case to its end, or to a request to stop. Collective over all ranks.

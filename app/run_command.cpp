@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/report.hpp"
 #include "app/run.hpp"
 
 namespace snag {
@@ -28,6 +29,7 @@ Action add_run(CLI::App& app) {
   command->add_flag("--dry-run", options->dry_run, "Only check, as `snag check` does");
   auto* resume = command->add_flag("--resume", options->resume, "Go on from the newest valid checkpoint of the output folder");
   command->add_flag("--overwrite", options->overwrite, "Replace the results of an earlier run in the output folder")->excludes(resume);
+  options->write_report = write_report;
   return [options] { return options->dry_run ? check_case(*options) : run_case(*options); };
 }
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include "app/boundary_openings.hpp"
 #include "app/coupling_remedy.hpp"
 #include "app/forecast.hpp"
 #include "app/mesh_generator.hpp"
@@ -158,7 +159,9 @@ void Simulation::build_rags(const CaseFile& file) {
   DemSettings settings;
   read(file.root(), settings);
   std::vector<RagPiece> pieces = read_pieces(file);
-  std::optional<PassageGeometry> way = read_passage(file.root(), water ? water->flow.rotating_zone : nullptr);
+  std::optional<Shaft> shaft;
+  if (zone) shaft = {zone->origin(), zone->axis(), zone->full_speed()};
+  std::optional<PassageGeometry> way = read_passage(file.root(), shaft);
   if (pieces.empty()) return;
   if (zone && !zone->slides())
     throw Error(ExitCode::usage,

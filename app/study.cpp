@@ -7,9 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "app/command_line.hpp"
 #include "app/run.hpp"
-#include "app/study_results.hpp"
 #include "app/summary.hpp"
 #include "base/atomic_file.hpp"
 #include "base/folder_lock.hpp"
@@ -158,8 +156,9 @@ bool has_checkpoint(const std::filesystem::path& folder) {
 }
 
 /// Runs one; what it failed with if that is its own matter.
-ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, Before before) {
-  RunOptions options{study.case_file, folder, run.overrides, false, false};
+ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, Before before,
+                 const ReportWriter& write_report) {
+  RunOptions options{.case_file = study.case_file, .out = folder, .overrides = run.overrides, .write_report = write_report};
   if (before != Before::nothing) {
     options.resume = has_checkpoint(folder / "checkpoint");
     options.overwrite = !options.resume;
@@ -253,7 +252,7 @@ ExitCode run_study(const StudyOptions& options) {
     const Before before = prepare(folder / run.name, study, run);
     log::info(which + (before == Before::ended ? " has been run before" : ""));
     if (before == Before::ended) continue;
-    const ExitCode code = run_one(study, run, folder / run.name, before);
+    const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report);
     if (code == ExitCode::stopped) return code;
     run.failed_with = static_cast<int>(code);
     if (worst == ExitCode::ok) worst = code;
@@ -261,7 +260,7 @@ ExitCode run_study(const StudyOptions& options) {
   if (options.dry_run) return worst;
   std::string results;
   together(world, [&] {
-    if (rank_of(world) == 0) results = write_study_results(study, folder);
+    if (rank_of(world) == 0) results = options.write_results(study, folder);
   });
   log::info(results);
   log::info("study: " + (folder / "study.csv").string() + " and " + (folder / "study.html").string());

@@ -6,9 +6,11 @@
 //   DIR/study.html      the same as a table, and the plots
 // The runs go one after another on all ranks. What has ended is not run again, what was stopped goes on where its checkpoint is.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "app/run.hpp"
 #include "base/case_file.hpp"
 #include "base/error.hpp"
 
@@ -59,6 +61,9 @@ Study read_study(const std::filesystem::path& file);
 struct StudyOptions {
   std::filesystem::path study_file, out;  // out empty: results/NAME
   bool dry_run = false;
+  ReportWriter write_report{};  // of each run; empty: none
+  /// Table and plots of the study; what came out, for people. On one rank; throws Error(io).
+  std::function<std::string(const Study& study, const std::filesystem::path& folder)> write_results;
 };
 
 /// Runs what has not been run, then writes table and plots; the code of the first run that failed. Collective; throws Error.

@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "app/report.hpp"
 #include "app/study.hpp"
+#include "app/study_results.hpp"
 
 namespace snag {
 
@@ -13,6 +15,8 @@ Action add_study(CLI::App& app) {
   command->add_option("STUDY", options->study_file, "Study file (.toml)")->required();
   command->add_option("--out", options->out, "Output folder (default results/NAME of the study); runs that have ended there are kept");
   command->add_flag("--dry-run", options->dry_run, "Only list the runs");
+  options->write_report = write_report;
+  options->write_results = write_study_results;
   return [options] { return run_study(*options); };
 }
 

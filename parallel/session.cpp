@@ -2,8 +2,10 @@
 
 #include <petscsys.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "base/explained.hpp"
 
@@ -61,6 +63,18 @@ void together(MPI_Comm comm, const std::function<void()>& work) {
   message.resize(header[1]);
   MPI_Bcast(message.data(), header[1], MPI_CHAR, failing, comm);
   throw Error(static_cast<ExitCode>(header[0]), message);
+}
+
+void leave_together(ExitCode code) {
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  for (int waited = 0; waited < 100; ++waited) {
+    int done = 0;
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
 }
 
 void check_petsc(int error_code, const char* call) {

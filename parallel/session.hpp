@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "base/error.hpp"
+
 namespace snag {
 
 /// Starts MPI and PETSc; ends them when it goes out of scope. One per process.
@@ -26,6 +28,10 @@ int size_of(MPI_Comm comm);
 /// Run a piece of work that may fail on some ranks only; then either all ranks return or all throw the same Error (that of the lowest
 /// failing rank). The work itself must not communicate after the point where it may throw. Collective.
 void together(MPI_Comm comm, const std::function<void()>& work);
+
+/// After an error: a rank that fails alone leaves the others waiting in some exchange; gives them a moment to fail too, else ends them with
+/// the same code. Returns where all have failed.
+void leave_together(ExitCode code);
 
 /// Throw Error(io/mesh/...) with PETSc's own message if a PETSc call failed.
 void check_petsc(int error_code, const char* call);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/parameter.hpp"
+#include "base/shaft.hpp"
 #include "solver/flow.hpp"
 
 namespace snag {
@@ -26,12 +27,6 @@ struct PumpSettings {
 
   /// The table [pump]; its records point into this object.
   Section section();
-};
-
-/// How the rotor stands and turns.
-struct Shaft {
-  Vec3 origin, axis;  // m; unit
-  double speed = 0;   // rad/s, right-handed about the axis
 };
 
 /// One instant; SI units.

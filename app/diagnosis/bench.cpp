@@ -7,11 +7,9 @@
 #include <memory>
 #include <sstream>
 
-#include "app/diagnosis/bench_page.hpp"
 #include "app/diagnosis/diagnose_case.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "base/log.hpp"
 #include "base/progress.hpp"
 #include "base/sha256.hpp"
 #include "base/words.hpp"
@@ -74,7 +72,7 @@ ScoreRow judged(const DiagnoseBenchOptions& options, int number) {
 
 }  // namespace
 
-void bench_diagnosis(const DiagnoseBenchOptions& options) {
+BlindScores bench_diagnosis(const DiagnoseBenchOptions& options) {
   const bool first = rank_of(world) == 0;
   const auto file = options.out / "rows.csv";
   std::vector<ScoreRow> rows;
@@ -96,13 +94,13 @@ void bench_diagnosis(const DiagnoseBenchOptions& options) {
     if (progress) progress->update(static_cast<double>(rows.size()), rows.back().kind);
   }
   if (progress) progress->finish();
+  ScoreCard card;
   together(world, [&] {
     if (!first) return;
-    const ScoreCard card = score_card(rows, options.twin == "sphere");
+    card = score_card(rows, options.twin == "sphere");
     write_atomically(options.out / "score.json", score_json(card));
-    write_atomically(options.out / "report.html", bench_page(options.twin + ", level " + options.level, rows, card));
-    log::info(card_text(card));
   });
+  return {rows, card};
 }
 
 }  // namespace snag

@@ -1,8 +1,10 @@
 #pragma once
 // snag diagnose --bench: sealed twins, each diagnosed blind, and the score card.
 #include <filesystem>
+#include <vector>
 
 #include "app/diagnosis/twin.hpp"
+#include "diagnosis/bench/score.hpp"
 
 namespace snag {
 
@@ -11,8 +13,14 @@ struct DiagnoseBenchOptions : TwinPlan {
   std::filesystem::path out;
 };
 
+/// Rows and their scores; they count on rank 0.
+struct BlindScores {
+  std::vector<ScoreRow> rows;
+  ScoreCard card;
+};
+
 /// Makes and judges n sets, in DIR/sets and DIR/sealed; a row of DIR/rows.csv each as they come, those that are there are not done again;
-/// then DIR/score.json and DIR/report.html. Collective; throws Error.
-void bench_diagnosis(const DiagnoseBenchOptions& options);
+/// then DIR/score.json. Collective; throws Error.
+BlindScores bench_diagnosis(const DiagnoseBenchOptions& options);
 
 }  // namespace snag

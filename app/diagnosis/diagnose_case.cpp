@@ -6,11 +6,9 @@
 #include <optional>
 
 #include "app/diagnosis/case_simulator.hpp"
-#include "app/diagnosis/verdict_page.hpp"
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/folder_lock.hpp"
-#include "base/log.hpp"
 #include "base/progress.hpp"
 #include "diagnosis/diagnose.hpp"
 #include "parallel/session.hpp"
@@ -34,11 +32,8 @@ Verdict diagnose_file(const DiagnoseOptions& options) {
                                    }});
   if (progress) progress->finish();
   together(world, [&] {
-    if (!first) return;
-    write_atomically(options.out / "verdict.json", verdict_json(verdict));
-    write_atomically(options.out / "report.html", verdict_page(verdict));
+    if (first) write_atomically(options.out / "verdict.json", verdict_json(verdict));
   });
-  if (!options.quiet) log::info(verdict_sentence(verdict) + "\n" + (options.out / "report.html").string());
   return verdict;
 }
 

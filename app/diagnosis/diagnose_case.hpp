@@ -1,5 +1,5 @@
 #pragma once
-// From DIAGNOSIS.toml to the verdict.
+// From DIAGNOSIS.toml to the verdict; pages are written by the command.
 #include <filesystem>
 #include <string>
 
@@ -13,7 +13,7 @@ struct DiagnoseOptions {
   bool quiet = false;
 };
 
-/// Reads the experiment, runs and judges; writes verdict.json and report.html. Collective; throws Error.
+/// Reads the experiment, runs and judges; writes verdict.json. Collective; throws Error.
 Verdict diagnose_file(const DiagnoseOptions& options);
 
 }  // namespace snag

@@ -45,7 +45,7 @@ RagSighting VoluteWatch::sighting(const Blob& blob) const {
       if (place.just_past_tongue) ++(place.in_discharge ? seen.n_past_outside : seen.n_past_inside);
       touches_tongue = touches_tongue || norm(x - geometry_.tongue()) < geometry_.tongue_reach();
     }
-  seen.touched[static_cast<int>(WallPlace::marked)] = touches_tongue;
+  seen.touched[WallRegion::tongue] = touches_tongue;
   const Vec3 centre{blob.seen.x, blob.seen.y, 0};
   seen.angle = geometry_.angle(centre), seen.radius = geometry_.radius(centre);
   return seen;

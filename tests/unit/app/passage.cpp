@@ -214,7 +214,7 @@ TEST(Passage, StuckOnTheTongue) {
   rag.look(on_it), rag.line(on_it, 0.869);
   EXPECT_EQ(rag.verdict().outcome, "stuck_on_tongue");
   EXPECT_NEAR(rag.event("stuck on tongue").time, begin + 1, 1.5 * step);
-  EXPECT_GT(rag.passage.sightings()[0].touching[static_cast<int>(WallPlace::marked)], 0);
+  EXPECT_GT(rag.passage.sightings()[0].touching[WallRegion::tongue], 0);
   rag.look(above), rag.line(above, 0.099);
   EXPECT_EQ(rag.verdict().outcome, "in_domain");
   rag.look(on_it), rag.line(on_it, 0.499);
@@ -350,7 +350,7 @@ TEST(Passage, WrongTablesAreRefused) {
   refused([](PassageSettings& s) { s.tongue = {0, 0, 0.05}; });
   refused([](PassageSettings& s) { s.outlet_radius = 0; });
   refused([](PassageSettings& s) { s.impeller_radius = 0; });
-  EXPECT_THROW(read_passage(CaseFile::parse("[passage]\n").root(), nullptr), Error);
+  EXPECT_THROW(read_passage(CaseFile::parse("[passage]\n").root(), {}), Error);
 }
 
 TEST(RagForces, QuantilesOfMagnitudes) {
