@@ -22,5 +22,6 @@ Action add_observe(CLI::App& app);
 Action add_report(CLI::App& app);
 Action add_diagnose(CLI::App& app);
 Action add_manual(CLI::App& app);
+Action add_completion(CLI::App& app);
 
 }  // namespace snag

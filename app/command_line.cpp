@@ -37,13 +37,14 @@ void explain_unknown_command(int argc, char** argv, const std::vector<std::strin
 
 int parse_and_act(int argc, char** argv, const Session& session) {
   CLI::App app(about, "snag");
-  app.set_version_flag("--version", std::string("snag ") + version_number + " (" + version_git + ")");
+  app.set_version_flag("--version", std::string("snag ") + version_number + " (" + version_git + ")\n" + version_citation);
   bool build_info = false;
   app.add_flag("--build-info", build_info, "Compiler, flags and libraries of this program");
   const std::vector<std::pair<std::string, Action>> actions = {
-      {"run", add_run(app)},           {"check", add_check(app)},     {"mesh", add_mesh(app)},     {"study", add_study(app)},
-      {"bench", add_bench(app)},       {"observe", add_observe(app)}, {"report", add_report(app)}, {"calibrate", add_calibrate(app)},
-      {"diagnose", add_diagnose(app)}, {"manual", add_manual(app)}};
+      {"run", add_run(app)},       {"check", add_check(app)},          {"mesh", add_mesh(app)},
+      {"study", add_study(app)},   {"bench", add_bench(app)},          {"observe", add_observe(app)},
+      {"report", add_report(app)}, {"calibrate", add_calibrate(app)},  {"diagnose", add_diagnose(app)},
+      {"manual", add_manual(app)}, {"completion", add_completion(app)}};
   std::vector<std::string> known;
   for (const auto& [name, action] : actions) known.push_back(name);
   explain_unknown_command(argc, argv, known);

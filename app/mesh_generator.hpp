@@ -1,5 +1,5 @@
 #pragma once
-// The mesh generator is a program of its own beside this one (only it is linked to the gmsh library).
+// The mesh generator is a program of its own (only it is linked to the gmsh library).
 #include <mpi.h>
 
 #include <string>

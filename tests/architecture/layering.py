@@ -16,7 +16,8 @@ ALLOWED = {
     "app": ["diagnosis", "coupling", "observe", "solver", "dem", "mesh", "parallel", "base"],
 }
 HEAVY = re.compile(r"(toml\+\+|spdlog|nlohmann/json.hpp|CLI|petsc|hdf5|gmsh)")
-TOP = set(ALLOWED) | {"cases", "tests", "docs", "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "snag", "build", "results"}
+TOP = set(ALLOWED) | {"cases", "tests", "docs", "share", "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "snag",
+                      "CHANGELOG.md", "CITATION.cff", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "Containerfile", "build", "results"}
 
 problems = []
 for path in root.iterdir():
