@@ -18,7 +18,7 @@ class Drawing {
   /// A filled polygon without an edge of its own.
   void area(const std::vector<DrawingPoint>& points, const std::string& fill);
 
-  /// <svg> ... </svg>; complete as a file too.
+  /// `<svg> ... </svg>`; complete as a file too.
   std::string svg() const;
 
  private:

@@ -8,7 +8,7 @@ namespace snag {
 /// Style of the page, for screen and paper.
 extern const std::string_view report_style;
 
-/// <section> with a heading; nothing if the content is empty.
+/// `<section>` with a heading; nothing if the content is empty.
 std::string section(const std::string& heading, const std::string& content);
 
 }  // namespace snag
