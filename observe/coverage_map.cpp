@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "base/error.hpp"
+#include "observe/picture_file.hpp"
 
 namespace snag {
 
@@ -17,10 +16,6 @@ Outlines outlines_of(const cv::Mat& mask) {
   Outlines outlines;
   cv::findContours(mask, outlines, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
   return outlines;
-}
-
-void write(const std::filesystem::path& file, const cv::Mat& picture) {
-  if (!cv::imwrite(file.string(), picture)) throw Error(ExitCode::io, file.string() + ": the picture could not be written");
 }
 
 /// Calls a function for each covered pixel: (column, row from the top).
@@ -68,7 +63,7 @@ void write_shares(const std::filesystem::path& file, int width, int height, cons
     const cv::Mat above = levels >= 255 * share;
     cv::drawContours(colours, outlines_of(above), -1, {255, 255, 255}, 1);
   }
-  write(file, colours);
+  write_picture(file, colours);
 }
 
 void write_outlines(const std::filesystem::path& file, const GreyPicture& picture, const std::vector<Blob>& blobs, const Camera& camera) {
@@ -80,7 +75,7 @@ void write_outlines(const std::filesystem::path& file, const GreyPicture& pictur
     for_pixels(blob, camera, [&](int column, int row) { mask.at<std::uint8_t>(row, column) = 255; });
     cv::drawContours(colours, outlines_of(mask), -1, {0, 0, 255}, 2);
   }
-  write(file, colours);
+  write_picture(file, colours);
 }
 
 }  // namespace snag

@@ -4,9 +4,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "base/error.hpp"
+#include "observe/picture_file.hpp"
 
 namespace snag {
 
@@ -23,11 +23,7 @@ bool is_picture(const std::filesystem::path& file) {
 }  // namespace
 
 GreyPicture read_picture(const std::filesystem::path& file) {
-  cv::Mat read;
-  try {
-    if (std::filesystem::is_regular_file(file)) read = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {  // a width or height beyond what OpenCV takes
-  }
+  const cv::Mat read = std::filesystem::is_regular_file(file) ? read_grey(file) : cv::Mat();
   if (read.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read as a picture; give PNG, JPEG, TIFF, BMP or PGM");
   GreyPicture picture{read.cols, read.rows, {}};
   for (int row = 0; row < read.rows; ++row) picture.level.insert(picture.level.end(), read.ptr(row), read.ptr(row) + read.cols);
@@ -36,13 +32,7 @@ GreyPicture read_picture(const std::filesystem::path& file) {
 
 void write_picture(const std::filesystem::path& file, const GreyPicture& picture) {
   const cv::Mat view(picture.height, picture.width, CV_8UC1, const_cast<std::uint8_t*>(picture.level.data()));  // not written to
-  bool is_written = false;
-  try {
-    is_written = cv::imwrite(file.string(), view);
-  } catch (const cv::Exception&) {  // an ending that OpenCV does not know
-  }
-  if (!is_written)
-    throw Error(ExitCode::io, file.string() + ": the picture could not be written; is the folder there, and the ending known?");
+  write_picture(file, view);
 }
 
 std::vector<std::filesystem::path> picture_files(const std::filesystem::path& folder) {
