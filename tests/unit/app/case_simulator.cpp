@@ -1,5 +1,6 @@
 // The simulator of a diagnosis over real runs: what an effect, an uncertain input and a calibration do to a run, and that runs are kept.
-// ranks: 1 2 3
+// ranks: 1 3
+// long ranks: 2
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 3
+// long ranks: 2
 // A rag that is led through a made-up pump by hand: events, times and outcome are known. Shaft along z, inlet above, tongue at x = 110 mm,
 // outlet along +y beyond it; the rag is 80 mm long, along the shaft.
 #include "app/passage.hpp"

@@ -1,4 +1,5 @@
-// ranks: 1 2 3 5
+// ranks: 1 3
+// long ranks: 2 5
 // Transfers between particles and cells: consistent one way, conservative the other, the same on any number of ranks.
 #include "coupling/kernel.hpp"
 

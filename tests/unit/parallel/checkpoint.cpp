@@ -1,4 +1,5 @@
-// ranks: 1 2 3 5
+// ranks: 1 3
+// long ranks: 2 5
 // Checkpoints: every bit comes back on any number of ranks, and only complete, undamaged slots are ever read.
 #include "parallel/checkpoint.hpp"
 

@@ -1,4 +1,5 @@
-// ranks: 1 2 3 5
+// ranks: 1 2 5
+// long ranks: 3
 #include "parallel/sum.hpp"
 
 #include <gtest/gtest.h>

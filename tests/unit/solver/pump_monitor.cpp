@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 3
+// long ranks: 2
 // Head, torque and power of a made-up flow, against numbers worked out by hand.
 #include "solver/pump_monitor.hpp"
 

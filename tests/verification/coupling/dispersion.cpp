@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 3
+// long ranks: 2
 // Turbulent dispersion by the Langevin equation: variance, correlation time, well-mixed tracers; the same on any number of ranks.
 #include <gtest/gtest.h>
 

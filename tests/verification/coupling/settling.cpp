@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 3
+// long ranks: 2
 // A sphere and a small sheet that fall through the flow solver's own water, in a periodic box: nothing but gravity comes from outside.
 #include <gtest/gtest.h>
 

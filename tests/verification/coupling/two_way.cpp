@@ -1,4 +1,5 @@
-// ranks: 1 2 3 5
+// ranks: 1 3
+// long ranks: 2 5
 // Two-way exchange between rags and a water that is as simple as can be: every cell obeys rho du/dt = f - beta u, implicitly, without
 // neighbours.
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// ranks: 1 2 3 5
+// ranks: 1 2 3
+// long ranks: 5
 // The same motion on any number of ranks, and after a restart.
 #include <gtest/gtest.h>
 

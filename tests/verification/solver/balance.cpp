@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 3
+// long ranks: 2
 #include <gtest/gtest.h>
 
 #include "solver/monitors.hpp"

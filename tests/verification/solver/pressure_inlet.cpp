@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 2
+// long ranks: 3
 // timeout: 600
 // Inlets with a total or a static pressure, against the column of water without friction between them and an outlet.
 #include <gtest/gtest.h>

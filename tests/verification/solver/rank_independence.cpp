@@ -1,4 +1,5 @@
-// ranks: 1 2 3 5
+// ranks: 1 2 3
+// long ranks: 5
 #include <gtest/gtest.h>
 
 #include <map>

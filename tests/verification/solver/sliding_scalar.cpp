@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 2
+// long ranks: 3
 #include <gtest/gtest.h>
 
 #include "solver/turbulence/scalar_transport.hpp"

@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1
+// long ranks: 2 3
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/turning_rings.hpp"

@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 2
+// long ranks: 3
 // What an outlet with a target of the flow must do on any number of ranks; target_flow.cpp has the rest.
 #include "solver/boundaries/water_column.hpp"
 #include "tests/verification/solver/take_over.hpp"
