@@ -1,0 +1,15 @@
+# labels: long
+# timeout: 900
+"""Requirement: diagnose_published.py for fibres in a shear flow, whose runs take a minute."""
+import diagnose_published
+import harness
+
+
+class LongPublished(diagnose_published.Published):
+    is_long = True
+
+
+del diagnose_published.Published
+
+if __name__ == "__main__":
+    harness.main()
