@@ -1,5 +1,7 @@
-// ranks: 2
+// ranks: 1
+// long ranks: 2
 // timeout: 600
+// cost: 15
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/flow_cases.hpp"

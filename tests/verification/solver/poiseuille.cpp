@@ -1,4 +1,5 @@
-// ranks: 2
+// ranks: 1
+// long ranks: 2
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/flow_cases.hpp"
