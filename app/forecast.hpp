@@ -1,10 +1,10 @@
 #pragma once
 // What `snag check` says of a run before its first step, from the speed of the case (solver/divergence.hpp):
 //
-//   turn of the rotor and Courant number a step,   Re = U D/nu of each open patch,   y+ = y u_tau/nu of each wall,   cost and memory
+//   turn of the rotor and Courant number a step,   Re = U D/nu,   y+ = y u_tau/nu of each wall,   cost and memory
 //
-// U: speed at the patch; D = sqrt(4 A/pi); u_tau = 0.05 U, that of a turbulent boundary layer within a third; y: distance of the first cell
-// centre. Estimates, to a factor of two.
+// U: speed at the patch; D: sqrt(4 A/pi) of the widest open patch, or the extent of the body in a flow around one; u_tau = 0.05 U, that of
+// a turbulent boundary layer within a third; y: distance of the first cell centre. Estimates, to a factor of two.
 #include <string>
 #include <vector>
 

@@ -312,6 +312,15 @@ void Outputs::summarise_rags(Summary& summary) const {
   }
 }
 
+void Outputs::summarise_passages(Summary& summary) const {
+  if (!pump_) return;
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
+    const PumpRecord pump(folder_ / "monitors");
+    for (RagSummary& rag : summary.rags) rag.pump = pump.passage(rag.verdict.entered.value_or(NAN), rag.verdict.exited.value_or(NAN));
+  });
+}
+
 void Outputs::write_phase() const {
   together(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) pump_->write_phase();
@@ -352,6 +361,7 @@ ExitCode Outputs::finish(ExitCode exit, const std::string& error) {
   if (pump_) {
     s.pump = pump_->summary();
     write_phase();
+    summarise_passages(s);
   }
   const ExitCode code = judged(s, exit);
   s.exit = static_cast<int>(code);

@@ -57,6 +57,7 @@ class Outputs {
   void write_wall_monitors();
   void write_rags();
   void summarise_rags(Summary& summary) const;
+  void summarise_passages(Summary& summary) const;
   void summarise_checks(Summary& summary) const;
   bool due(double interval) const;
 

@@ -108,8 +108,13 @@ void Passage::observe(RagSystem& rags, double time, double step) {
   }
 }
 
-bool Passage::all_exited() const {
-  return !journeys_.empty() && std::all_of(journeys_.begin(), journeys_.end(), [](const RagJourney& rag) { return rag.has_exited(); });
+std::optional<double> Passage::all_exited_at() const {
+  std::optional<double> last;
+  for (const RagJourney& rag : journeys_) {
+    if (!rag.exited_at()) return {};
+    last = std::max(last.value_or(0), *rag.exited_at());
+  }
+  return last;
 }
 
 /// [rag by rag: particles beyond an outlet, elongation ratio, length of the journey's state, that state]

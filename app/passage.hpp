@@ -22,8 +22,8 @@ class Passage {
   /// were last reset. Collective.
   void observe(RagSystem& rags, double time, double step);
 
-  /// True once every rag is wholly out (false without rags).
-  bool all_exited() const;
+  /// When the last rag was wholly out, s; absent before that, and without rags.
+  std::optional<double> all_exited_at() const;
   RagVerdict verdict(std::size_t rag) const { return journeys_[rag].verdict(); }
   const std::optional<PassageGeometry>& geometry() const { return geometry_; }
 

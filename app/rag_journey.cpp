@@ -120,7 +120,9 @@ RagVerdict RagJourney::verdict() const {
     v.events.push_back({entry.time, {}, event_names[entry.what]});
     if (sense_ != 0) v.events.back().angle = degrees * entry.angle;
   }
+  v.exited = exited_at();
   if (sense_ == 0) return v;
+  if (entered_ >= 0) v.entered = entered_;
   if (wholly_in_ >= 0) v.time_to_enter = wholly_in_ - entered_;
   if (wholly_in_ >= 0 && exited_ >= 0) v.retention_time = exited_ - wholly_in_;
   v.recirculations = n_recirculations_;

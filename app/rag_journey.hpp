@@ -58,7 +58,8 @@ struct RagSighting {
 
 /// What is told of a rag at the end. Absent: it did not happen, or there is no pump.
 struct RagVerdict {
-  std::string outcome;  // exited | recirculating | stuck_on_tongue | stuck_on_impeller | upstream | in_domain
+  std::string outcome;                    // exited | recirculating | stuck_on_tongue | stuck_on_impeller | upstream | in_domain
+  std::optional<double> entered, exited;  // s
   std::optional<double> retention_time, time_to_enter;  // s: wholly in the casing to exited; entered to wholly in
   std::optional<std::int64_t> recirculations;
   std::optional<double> stuck_on_tongue, stuck_on_impeller;          // s, of all episodes of more than 1 s
@@ -83,7 +84,8 @@ class RagJourney {
 
   /// The step of length `step` (s) that ended at `time`.
   void add(const RagSighting& seen, double time, double step);
-  bool has_exited() const { return exited_ >= 0; }
+  /// s; absent: it has not.
+  std::optional<double> exited_at() const { return has_exited() ? std::optional(exited_) : std::nullopt; }
   /// Of the centroid, unwrapped from where it was first seen, rad.
   double angle() const { return angle_; }
   RagVerdict verdict() const;
@@ -112,6 +114,7 @@ class RagJourney {
     bool is_stuck_at(double time) const;
   };
 
+  bool has_exited() const { return exited_ >= 0; }
   void note(Event what, double time) { log_.push_back({time, angle_, what}); }
   void enter(const RagSighting& seen, double time);
   void pass_tongue(const RagSighting& seen, double before, double time);

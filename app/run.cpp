@@ -101,7 +101,8 @@ struct Run {
     }
     write_checkpoint();
     if (rank_of(world) == 0) progress.finish();  // said to be done only when the disk has it
-    if (simulation.rags_have_left()) log::info("all rags have left: the run ends here");
+    if (simulation.rags_have_left())
+      log::info("all rags have left at " + words(*simulation.passage->all_exited_at()) + " s: the run ends here");
     return ExitCode::ok;
   }
 };

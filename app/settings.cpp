@@ -34,14 +34,20 @@ Section PeriodicSettings::section() {
 }
 
 Section TimeSettings::section() {
-  return {"time",
-          "Start is at zero; the rags take as many smaller steps within one step as they need.",
-          {{.key = "end", .target = &end, .unit = "s", .minimum = 0, .maximum = 1e9, .meaning = "Time to simulate.", .may_move = true},
-           {"step", &step, "s", 1e-12, 1e6, Basis::assumed, "Step of the water and of the coupling."},
-           setting("end_when_rags_left", &end_when_rags_left, "End earlier, as soon as every rag has gone out through an outlet.")}};
+  return {
+      "time",
+      "Start is at zero; the rags take as many smaller steps within one step as they need.",
+      {{.key = "end", .target = &end, .unit = "s", .minimum = 0, .maximum = 1e9, .meaning = "Time to simulate.", .may_move = true},
+       {"step", &step, "s", 1e-12, 1e6, Basis::assumed, "Step of the water and of the coupling."},
+       setting("end_when_rags_left", &end_when_rags_left, "End earlier, as soon as every rag has gone out through an outlet."),
+       {"run_on", &run_on, "s", 0, 1e9, Basis::assumed,
+        "With end_when_rags_left: time that the run goes on after the last rag has gone out; a revolution or more gives the head after the "
+        "passage."}}};
 }
 
 std::int64_t TimeSettings::n_steps() const {
+  if (run_on > 0 && !end_when_rags_left)
+    throw Error(ExitCode::usage, "[time] run_on = " + words(run_on) + " s has no effect without end_when_rags_left = true; give both");
   const double steps = end / step;
   const auto n = std::llround(steps);
   if (std::abs(steps - static_cast<double>(n)) > 1e-6)

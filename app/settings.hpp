@@ -34,8 +34,10 @@ struct TimeSettings {
   double end = 1;      // s
   double step = 1e-3;  // s
   bool end_when_rags_left = false;
+  double run_on = 0;  // s
   Section section();
-  /// Steps to the end; throws Error(usage) if the end is no whole number of steps away (to 1e-6 of a step).
+  /// Steps to the end; throws Error(usage) if the end is no whole number of steps away (to 1e-6 of a step), or run_on has
+  /// no effect.
   std::int64_t n_steps() const;
 };
 

@@ -177,6 +177,7 @@ void Simulation::build_rags(const CaseFile& file) {
 
 void Simulation::couple(const CaseFile& file) {
   if (!rags) return;
+  const Vec3 gravity = read_gravity(file.root());
   if (water) {
     const bool frozen = start_settings_.frozen;
     Coupling coupling = read_coupling(file.root());
@@ -187,12 +188,10 @@ void Simulation::couple(const CaseFile& file) {
   } else if (prescribed_) {
     coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
   } else {
-    Vec3 acceleration;
-    file.root().table("gravity").read({{"acceleration", &acceleration, "m/s2", -1e4, 1e4, Basis::assumed, "Acceleration of gravity."}});
-    rags->set_gravity(acceleration);
+    rags->set_gravity(gravity);
   }
   if (coupled) coupled->set_walls(walls);
-  speed_bounds_ = std::make_unique<SpeedBounds>(file.root(), mesh.get(), walls, rags->pieces(), impact_speed_);
+  speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), impact_speed_);
   if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
 }
 
@@ -231,6 +230,12 @@ void Simulation::step() {
   check_inside();
   ++time_step_;
   if (passage) passage->observe(*rags, time(), time_settings.step);
+}
+
+bool Simulation::rags_have_left() const {
+  if (!time_settings.end_when_rags_left || !passage) return false;
+  const std::optional<double> left = passage->all_exited_at();
+  return left && time() > *left + time_settings.run_on - 0.5 * time_settings.step;
 }
 
 /// A rag of which every particle has left the mesh by an outlet feels nothing any more, and would only cost time.

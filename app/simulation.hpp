@@ -36,8 +36,8 @@ class Simulation {
   void step();
   double time() const { return static_cast<double>(time_step_) * time_settings.step; }
   std::int64_t time_step() const { return time_step_; }
-  /// All rags have left, and the case is to end then.
-  bool rags_have_left() const { return time_settings.end_when_rags_left && passage && passage->all_exited(); }
+  /// All rags have left, and the case is to end then: now, or run_on ago.
+  bool rags_have_left() const;
   /// There is no step left to do.
   bool has_ended() const { return time_step_ >= time_settings.n_steps() || rags_have_left(); }
 

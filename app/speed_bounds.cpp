@@ -7,22 +7,13 @@
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "dem/tile_particles.hpp"
+#include "mesh/bounding_box.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
 
 namespace {
-
-double diagonal(const Mesh& mesh) {
-  Vec3 size;
-  for (int axis = 0; axis < 3; ++axis) {
-    double low = 1e300, high = -1e300;
-    for (const Vec3& x : mesh.node) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
-    size[axis] = maximum(mesh.comm, high) - minimum(mesh.comm, low);
-  }
-  return norm(size);
-}
 
 /// Fastest point of a wall, m/s; of a plane, which has no end, the point that the case gives.
 double wall_speed(const WallBody& body) {
@@ -44,19 +35,14 @@ double prescribed_speed(const PrescribedFlow& flow, const RagSystem& rags) {
 
 }  // namespace
 
-SpeedBounds::SpeedBounds(const Table& root, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces,
-                         double impact_speed)
-    : impact_speed_(impact_speed) {
+SpeedBounds::SpeedBounds(double gravity, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces, double impact_speed)
+    : gravity_(gravity), impact_speed_(impact_speed), falls_freely_(!mesh) {
   for (const WallBody& body : walls.bodies()) widen(wall_speed(body), "wall " + body.name);
   for (const RagPiece& piece : pieces) {
     const double size = piece.rag.radius * 2 * std::hypot(piece.rag.n_columns, piece.rag.n_rows);
     widen(norm(piece.velocity) + norm(piece.spin) * size, "start of " + piece.rag.name);
   }
-  Vec3 gravity;
-  if (const Table weight = root.table("gravity"); weight.present())
-    weight.read({{"acceleration", &gravity, "m/s2", -1e4, 1e4, Basis::assumed, "Acceleration of gravity."}});
-  gravity_ = norm(gravity), falls_freely_ = !mesh;
-  if (mesh) widen(std::sqrt(2 * gravity_ * diagonal(*mesh)), "fall through the mesh");
+  if (mesh) widen(std::sqrt(2 * gravity_ * bounding_box(*mesh).diagonal()), "fall through the mesh");
 }
 
 void SpeedBounds::widen(double speed, const std::string& source) {

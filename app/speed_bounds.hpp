@@ -7,7 +7,6 @@
 // g: gravity; L: diagonal of the mesh, m; t: time, s; v_i: the impact speed that contacts are resolved to, m/s. a: DivergenceBounds::speed.
 #include <string>
 
-#include "base/case_file.hpp"
 #include "coupling/prescribed_field.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/walls.hpp"
@@ -26,8 +25,8 @@ struct SpeedBound {
 
 class SpeedBounds {
  public:
-  /// `mesh` may be null. Collective.
-  SpeedBounds(const Table& root, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces, double impact_speed);
+  /// `gravity` in m/s2; `mesh` may be null. Collective.
+  SpeedBounds(double gravity, const Mesh* mesh, const WallSet& walls, const std::vector<RagPiece>& pieces, double impact_speed);
 
   /// Largest speed of what is not water, m/s, and what it is.
   double speed() const { return speed_; }
@@ -37,8 +36,8 @@ class SpeedBounds {
 
  private:
   void widen(double speed, const std::string& source);
-  double speed_ = 0, impact_speed_, gravity_ = 0;  // m/s, m/s, m/s2
-  bool falls_freely_ = false;                      // without a mesh there is no end to it
+  double gravity_, speed_ = 0, impact_speed_;  // m/s2, m/s, m/s
+  bool falls_freely_;                          // without a mesh there is no end to it
   std::string source_ = "nothing moves";
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +20,12 @@ namespace snag {
 namespace {
 
 double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+
+std::string signed_percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%+.2g %%", 100 * share);
+  return text;
+}
 
 /// Null where there is no value.
 template <class T>
@@ -49,6 +56,19 @@ nlohmann::ordered_json tension_json(const RagVerdict& rag) {
   return {{"t_s", *rag.max_tension_time}, {"x_m", {x.x, x.y, x.z}}, {"angle_deg", or_null(rag.max_tension_angle)}};
 }
 
+/// Of the pump before, while and after a rag passes; null where it is not known.
+nlohmann::ordered_json passage_json(const PumpPassage& pump) {
+  nlohmann::ordered_json json;
+  const auto add = [&](const std::string& name, const std::string& unit, double PumpMeans::*value) {
+    for (const auto& [when, means] : {std::pair{"before", &pump.before}, {"passing", &pump.passing}, {"after", &pump.after}})
+      json[name + "_" + when + "_" + unit] = *means ? nlohmann::ordered_json((**means).*value) : nlohmann::ordered_json();
+    json[name + "_change_rel"] = or_null(pump.change(value));
+  };
+  add("head", "m", &PumpMeans::head);
+  add("shaft_power", "W", &PumpMeans::shaft_power);
+  return json;
+}
+
 nlohmann::ordered_json rag_json(const RagSummary& rag) {
   const RagVerdict& verdict = rag.verdict;
   return {{"id", rag.id},
@@ -65,6 +85,7 @@ nlohmann::ordered_json rag_json(const RagSummary& rag) {
           {"wall_contact_s", verdict.wall_contact},
           {"wall_contact_by_zone_s",
            {{"impeller", verdict.impeller_contact}, {"tongue", or_null(verdict.tongue_contact)}, {"other", verdict.other_contact}}},
+          {"pump", passage_json(rag.pump)},
           {"elongation_ratio_at_start", rag.elongation_ratio_at_start},
           {"elongation_ratio", rag.elongation_ratio},
           {"projected_area_m2", rag.projected_area},
@@ -186,6 +207,8 @@ std::string results_in_words(const Summary& summary) {
     text += ", wall contact " + seconds(verdict.wall_contact);
     if (verdict.recirculations)
       text += " (impeller " + seconds(verdict.impeller_contact) + ", tongue " + seconds(verdict.tongue_contact) + ")";
+    if (const auto head = rag.pump.change(&PumpMeans::head), power = rag.pump.change(&PumpMeans::shaft_power); head && power)
+      text += ", head " + signed_percent(*head) + " and shaft power " + signed_percent(*power) + " while it passed";
   }
   if (summary.pump)
     text += (text.empty() ? "" : "\n") + ("pump: head " + words(summary.pump->head) + " m at " + words(1e3 * summary.pump->flow) + " L/s");

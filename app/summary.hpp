@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/pump_output.hpp"
+#include "app/pump_record.hpp"
 #include "app/rag_journey.hpp"
 
 namespace snag {
@@ -17,6 +18,7 @@ struct RagSummary {
   std::string name;
   std::int64_t particles = 0, bonds = 0, broken_bonds = 0;
   RagVerdict verdict;
+  PumpPassage pump;
   double elongation_ratio_at_start = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0,
          max_overlap_over_radius = 0, bond_strain_p99 = 0;
 };

@@ -132,4 +132,10 @@ SeriesTable read_series(const std::filesystem::path& file) {
   return table;
 }
 
+SeriesTable recorded(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
+  SeriesTable table = read_series(file);
+  return table.values.empty() || table.values[0].empty() ? SeriesTable{} : table;
+}
+
 }  // namespace snag

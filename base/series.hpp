@@ -42,5 +42,7 @@ struct SeriesTable {
   const std::vector<double>& column(const std::string& name) const;  // "head" finds "head [m]"; throws Error(io) listing the names
 };
 SeriesTable read_series(const std::filesystem::path& file);
+/// The same, empty if the file is not there or holds no record. Throws Error(io) if it cannot be read.
+SeriesTable recorded(const std::filesystem::path& file);
 
 }  // namespace snag

@@ -11,6 +11,12 @@ std::string words(double value) {
   return text;
 }
 
+std::string rounded(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
 std::string place(const Vec3& x) { return "(" + words(x.x) + ", " + words(x.y) + ", " + words(x.z) + ") m"; }
 
 std::string counted(std::int64_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }

@@ -11,6 +11,8 @@ namespace snag {
 
 /// Six significant digits: "0.001", "1.2e-06".
 std::string words(double value);
+/// Three significant digits: "0.00123", "1.2e-06".
+std::string rounded(double value);
 /// "(0.1, 0.2, 1e-05) m".
 std::string place(const Vec3& x);
 /// "a, b, c".

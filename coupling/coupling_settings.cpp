@@ -76,6 +76,15 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
   return coupling;
 }
 
+Vec3 read_gravity(const Table& root) {
+  const Table weight = root.table(gravity);
+  if (!weight.present()) return {};
+  const auto force = fluid_forces().make(gravity, weight.where());
+  const std::vector<Parameter> acceleration = force->parameters();
+  weight.read(acceleration);
+  return *std::get<Vec3*>(acceleration.front().target);
+}
+
 std::vector<Section> coupling_sections() {
   // The records point into these models: they live as long as the program.
   static CouplingSettings settings;

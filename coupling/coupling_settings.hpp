@@ -34,6 +34,8 @@ struct Coupling {
 /// Reads [coupling], [coupling.FORCE] of the forces it lists, [coupling.KERNEL], and [gravity]. Throws Error(usage) for an unknown name,
 /// one listed twice, or two_way with `two_way_possible` false (a prescribed flow feels nothing; the default is then one_way).
 Coupling read_coupling(const Table& root, bool two_way_possible = true);
+/// Acceleration of [gravity], m/s2; zero without that table. For rags without water, and for bounds.
+Vec3 read_gravity(const Table& root);
 /// For the manual: [coupling], [gravity], and a table for each force and kernel that has parameters.
 std::vector<Section> coupling_sections();
 

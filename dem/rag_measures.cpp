@@ -7,6 +7,7 @@
 
 #include "dem/bonds/tile_bonds.hpp"
 #include "dem/tile_particles.hpp"
+#include "parallel/quantile.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -138,37 +139,14 @@ Vec3 force_on_clamped(const RagSystem& rags, int rag) {
   return sum(rags.comm(), std::span<const Vec3>(forces));
 }
 
-/// By counting how many are in each part of an interval, which then shrinks to the part that holds the quantile: only counts travel.
 double bond_strain_quantile(const RagSystem& rags, int rag, double p) {
-  constexpr int n_parts = 1024, n_rounds = 4;  // to 1e-12 of the range
   const double length = 2 * rags.rags()[static_cast<std::size_t>(rag)].radius;
   std::vector<double> strain;
-  double low = infinity, high = -infinity;
   for (const Tile& tile : rags.tiles())
     if (tile.rag == rag)
-      for_whole_bonds(tile, false, [&](int a, int b) {
-        strain.push_back(norm(tile.vector(Tile::x, b) - tile.vector(Tile::x, a)) / length - 1);
-        low = std::min(low, strain.back()), high = std::max(high, strain.back());
-      });
-  const std::int64_t n = sum(rags.comm(), static_cast<std::int64_t>(strain.size()));
-  if (n == 0) return 0;
-  low = minimum(rags.comm(), low), high = maximum(rags.comm(), high);
-  std::int64_t place = std::min(static_cast<std::int64_t>(p * static_cast<double>(n)), n - 1);  // the quantile's, in ascending order
-  if (place == 0) return low;
-  if (place == n - 1) return high;
-  for (int round = 0; round < n_rounds && high > low; ++round) {
-    const double per_part = n_parts / (high - low);
-    const auto part = [&](double value) { return std::clamp(static_cast<int>((value - low) * per_part), 0, n_parts - 1); };
-    std::vector<std::int64_t> counts(n_parts, 0);
-    for (const double value : strain) ++counts[part(value)];
-    MPI_Allreduce(MPI_IN_PLACE, counts.data(), n_parts, MPI_INT64_T, MPI_SUM, rags.comm());
-    int found = 0;
-    while (place >= counts[found]) place -= counts[found++];
-    std::erase_if(strain, [&](double value) { return part(value) != found; });
-    const double begun = low;
-    low = begun + found / per_part, high = begun + (found + 1) / per_part;
-  }
-  return 0.5 * (low + high);
+      for_whole_bonds(tile, false,
+                      [&](int a, int b) { strain.push_back(norm(tile.vector(Tile::x, b) - tile.vector(Tile::x, a)) / length - 1); });
+  return quantile(rags.comm(), std::move(strain), p);
 }
 
 namespace {

@@ -72,8 +72,8 @@ std::string what_remains(const Responses& model, const Fit& fit) {
          ": measured at further operating points around it, it would tell what the missing cause depends on.";
 }
 
-/// Two digits: more are not known of a prediction.
-std::string rounded(double value) {
+/// More digits are not known of a prediction.
+std::string two_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", value);
   return text;
@@ -117,7 +117,7 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
     return "No number of repeats of these measurements would tell " + both + "; that takes another operating point or observable.";
   return "To tell " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
          (std::isnan(best.time) ? "" : ", above all around t = " + words(best.time) + " s") +
-         ": there the two predict what differs most, by " + rounded(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
+         ": there the two predict what differs most, by " + two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
          (replicates > 1 ? words(replicates) + " more repeats" : "One more") + " would settle it.";
 }
 

@@ -18,6 +18,7 @@
 #include <numeric>
 
 #include "base/words.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/skewness.hpp"
 #include "parallel/session.hpp"
@@ -126,17 +127,6 @@ std::int64_t count_regions(const Mesh& mesh) {
   return sum(mesh.comm, n_regions);
 }
 
-double bounding_volume(const Mesh& mesh) {
-  constexpr double huge = std::numeric_limits<double>::max();
-  double volume = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    double low = huge, high = -huge;
-    for (const Vec3& x : mesh.node) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
-    volume *= maximum(mesh.comm, high) - minimum(mesh.comm, low);
-  }
-  return volume;
-}
-
 /// The places of the worst cells and faces.
 struct Places {
   Worst volume, closure, non_orthogonality, quality;
@@ -204,7 +194,8 @@ void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
   const auto fail = [&](const std::string& what, double value, const Worst& where, const std::string& rule) {
     q.failures.push_back(what + " (" + words(value) + ") of cell " + std::to_string(where.id) + " at " + place(where.place) + ", " + rule);
   };
-  const double rule_volume = least_volume * bounding_volume(mesh);
+  const Vec3 box = bounding_box(mesh).size();
+  const double rule_volume = least_volume * box.x * box.y * box.z;
   if (!(q.min_volume > rule_volume))
     fail("volume in m3", q.min_volume, places.volume, "must be positive; mesh again, the cell is flat or turned inside out");
   if (!(q.closure <= largest_closure))

@@ -127,6 +127,15 @@ BoundaryValues BoundarySet::at_rest() {
   return before;
 }
 
+std::vector<double> BoundarySet::knots() const {
+  std::vector<double> all;
+  for (const PatchBoundary& condition : conditions_) {
+    const std::vector<double> knots = condition.boundary->knots();
+    all.insert(all.end(), knots.begin(), knots.end());
+  }
+  return all;
+}
+
 std::vector<double> BoundarySet::state() const {
   std::vector<double> all;
   for (const PatchBoundary& condition : conditions_) {

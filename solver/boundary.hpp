@@ -46,6 +46,8 @@ class Boundary {
   virtual void respond(const Flow&, const Patch&, double /*time*/) {}
   /// Values of the patch at a time. Local; called every step, after the mesh has moved.
   virtual void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const = 0;
+  /// Times at which what the case gives may have its extremes, s: the knots of a table.
+  virtual std::vector<double> knots() const { return {}; }
   /// What a resume needs of it, the same on every rank and of the same length at any time.
   virtual std::vector<double> state() const { return {}; }
   virtual void restore(const std::vector<double>& /*state*/) {}
@@ -83,6 +85,8 @@ class BoundarySet {
   bool is_way_out(int patch) const { return conditions_[patch].boundary->is_way_out(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }
+  /// Of all conditions, s.
+  std::vector<double> knots() const;
   /// True if some patch fixes the pressure.
   bool fixes_pressure() const { return fixes_pressure_; }
 

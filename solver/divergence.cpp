@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "mesh/bounding_box.hpp"
 #include "mesh/quality.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
@@ -20,7 +20,7 @@ namespace snag {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr int foreseen_times = 64;    // instants of a run at which its conditions are looked at
+constexpr int foreseen_times = 64;    // instants of a run at which its conditions are looked at, with the knots of tables
 constexpr double least_speed = 1e-6;  // m/s; slower water cannot be told from round-off
 
 // From which on a cause is named in the advice.
@@ -37,12 +37,6 @@ const char* const bound_names[] = {"velocity in m/s", "square root of k in m/s",
 
 /// What is no number is beyond every bound.
 double ratio(double value, double bound) { return value <= infinite && value >= -infinite ? value / bound : infinite; }
-
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 }  // namespace
 
@@ -69,13 +63,7 @@ DivergenceWatch::DivergenceWatch(const Mesh& mesh, const FlowSettings& settings)
     area_[mesh.owner[f]] += area;
     if (mesh.neighbour[f] >= 0) area_[mesh.neighbour[f]] += area;
   }
-  Vec3 size;
-  for (int axis = 0; axis < 3; ++axis) {
-    double low = infinite, high = -infinite;
-    for (const Vec3& x : mesh.node) low = std::min(low, x[axis]), high = std::max(high, x[axis]);
-    size[axis] = maximum(mesh.comm, high) - minimum(mesh.comm, low);
-  }
-  length_ = norm(size);
+  length_ = bounding_box(mesh).diagonal();
   const TurningPose& turning = mesh.turning;
   for (int c = 0; c < mesh.n_cells && turning.zone >= 0; ++c)
     if (mesh.cell_zone[c] == turning.zone)
@@ -103,8 +91,12 @@ void DivergenceWatch::begin(const Flow& flow) {
 
 void DivergenceWatch::foresee(const Flow& flow, BoundarySet& boundary, double end) {
   const std::vector<double> state = boundary.state();
-  for (int i = 0; i <= foreseen_times; ++i) {
-    boundary.update(flow, flow.time + (end - flow.time) * i / foreseen_times);
+  std::vector<double> times = boundary.knots();
+  std::erase_if(times, [&](double time) { return !(flow.time < time && time < end); });
+  for (int i = 0; i <= foreseen_times; ++i) times.push_back(flow.time + (end - flow.time) * i / foreseen_times);
+  std::sort(times.begin(), times.end());
+  for (const double time : times) {
+    boundary.update(flow, time);
     see_conditions(flow, boundary);
   }
   boundary.restore_state(state);

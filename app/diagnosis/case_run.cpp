@@ -317,7 +317,7 @@ std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& aske
     else
       run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
     if (outside) kick(*run.rags, outside, (static_cast<double>(n) + 0.5) * dt, dt);
-    if (run.mesh && run.passage->all_exited()) break;
+    if (run.mesh && run.passage->all_exited_at()) break;
     restart_at(n + 1);
     observer.look(static_cast<double>(n + 1) * dt);
   }

@@ -55,7 +55,7 @@ void VoluteWatch::add(const std::vector<Blob>& blobs, double time, double step) 
   if (!blobs.empty()) {
     last_ = sighting(blobs.front());
     journey_.add(last_, time, step);
-  } else if (last_.n > 0 && 2 * last_.n_in_discharge > last_.n && !journey_.has_exited()) {
+  } else if (last_.n > 0 && 2 * last_.n_in_discharge > last_.n && !journey_.exited_at()) {
     last_.n_out = last_.n, last_.touched = {};
     journey_.add(last_, time, step);
   }

@@ -47,6 +47,9 @@ struct LinePlot {
   std::vector<double> x_ticks = {};  // rising; they span the axis; empty: round numbers that suit the values
 };
 
+/// `x_ticks` of a full turn, deg.
+inline const std::vector<double> angle_ticks = {0, 60, 120, 180, 240, 300, 360};
+
 /// Letter of the i-th upright mark.
 std::string mark_letter(std::size_t i);
 

@@ -276,12 +276,6 @@ std::vector<Monitor> monitors_of(const std::filesystem::path& folder, std::vecto
 
 }  // namespace
 
-SeriesTable recorded(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) return {};
-  SeriesTable table = read_series(file);
-  return table.values.empty() || table.values[0].empty() ? SeriesTable{} : table;
-}
-
 MonitorPlots monitor_plots(const std::filesystem::path& folder, const ColumnsByMonitor& elsewhere) {
   MonitorPlots result;
   auto monitors = monitors_of(folder, result.problems);

@@ -24,7 +24,4 @@ using ColumnsByMonitor = std::map<std::string, std::set<std::string>>;
 /// `elsewhere`: columns that another section of the page shows.
 MonitorPlots monitor_plots(const std::filesystem::path& folder, const ColumnsByMonitor& elsewhere = {});
 
-/// A monitor, empty if it is not there or holds no record. Throws Error(io) if it cannot be read.
-SeriesTable recorded(const std::filesystem::path& file);
-
 }  // namespace snag

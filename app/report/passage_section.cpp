@@ -83,9 +83,9 @@ double left(const RagPassage& passage) { return std::isfinite(passage.exited) ? 
 
 /// "the head fell by 3 % while it passed", "" where it cannot be told.
 std::string head_change(const RagPassage& passage, const PumpRecord& pump) {
-  const auto before = pump.before(passage.entered), during = pump.during(passage.entered, left(passage));
-  if (!before || !during || before->head <= 0) return "";
-  const double change = 100 * (during->head / before->head - 1);
+  const PumpPassage around = pump.passage(passage.entered, passage.exited);
+  if (!around.change(&PumpMeans::head) || around.before->head <= 0) return "";
+  const double change = 100 * *around.change(&PumpMeans::head);
   const std::string when = std::isfinite(passage.exited) ? " while it passed" : " from its entering on";
   if (std::abs(change) < 0.05) return "the head stayed as it was" + when;
   return std::string("the head ") + (change < 0 ? "fell" : "rose") + " by " + brief_percent(std::abs(change)) + when;
@@ -180,17 +180,17 @@ std::string pump_plot(const RagPassage& passage, const PumpRecord& pump, const s
 }
 
 std::string pump_table(const RagPassage& passage, const PumpRecord& pump) {
-  const auto before = pump.before(passage.entered), during = pump.during(passage.entered, left(passage)),
-             after = pump.after(passage.exited);
-  if (!before && !during) return "";
+  const PumpPassage around = pump.passage(passage.entered, passage.exited);
+  const auto means_of = {&around.before, &around.passing, &around.after};
+  if (!around.before && !around.passing) return "";
   std::vector<std::vector<std::string>> rows = {{"Revolutions that the mean is over"}};
-  for (const auto* means : {&before, &during, &after}) rows[0].push_back(*means ? std::to_string((*means)->revolutions) : "none");
+  for (const auto* means : means_of) rows[0].push_back(*means ? std::to_string((*means)->revolutions) : "none");
   rows[0].emplace_back();
   const auto add = [&](const char* meaning, const char* unit_, double PumpMeans::*value) {
     rows.push_back({meaning});
-    for (const auto* means : {&before, &during, &after})
-      rows.back().push_back(*means ? html::number((**means).*value) + " " + unit_ : "not known");
-    rows.back().push_back(before && during ? html::number(100 * ((*during).*value / ((*before).*value) - 1)) + " %" : "");
+    for (const auto* means : means_of) rows.back().push_back(*means ? html::number((**means).*value) + " " + unit_ : "not known");
+    const auto change = around.change(value);
+    rows.back().push_back(change ? html::number(100 * *change) + " %" : "");
   };
   add("Head", "m", &PumpMeans::head);
   add("Torque of the water on the impeller", "N m", &PumpMeans::torque);
@@ -205,7 +205,7 @@ std::string path_plot(const RagPassage& passage, const Radii& radii) {
              &out = passage.way.column("particles_out");
   LinePlot plot{
       "Path over the angle of the volute", "angle of the rag's centroid, 0 at the tongue [deg]", "distance from the shaft [mm]", {}};
-  plot.x_ticks = {0, 60, 120, 180, 240, 300, 360};
+  plot.x_ticks = angle_ticks;
   bool is_open = false;
   double last = 0;
   for (std::size_t i = 0; i < angle.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/pump_record.hpp"
 #include "app/report/monitor_plots.hpp"
 #include "app/report/rag_passage.hpp"
 

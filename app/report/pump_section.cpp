@@ -78,6 +78,7 @@ std::string over_angle(const SeriesTable& instants, const std::string& title, co
   const std::vector<double>&turned = instants.column("revolutions"), &angle = instants.column("angle"), &value = instants.column(column);
   const int last = static_cast<int>(std::floor(turned.back() + 1e-9));  // complete ones
   LinePlot plot{title, "angle of the rotor [deg]", label, {}};
+  plot.x_ticks = angle_ticks;
   const int first = last > 1 ? 2 : 1;  // the start from rest would hide the rest
   for (int revolution = std::max(first, last - n_shown + 1); revolution <= std::max(1, last); ++revolution) {
     std::vector<std::pair<double, double>> points;
@@ -96,6 +97,7 @@ std::string over_angle(const SeriesTable& instants, const std::string& title, co
 std::string scatter(const SeriesTable& phase, const std::string& title, const std::string& quantity, const char* label) {
   const std::vector<double>&mean = phase.column(quantity + "_mean"), &deviation = phase.column(quantity + "_deviation");
   LinePlot plot{title, "angle of the rotor [deg]", label, {}};
+  plot.x_ticks = angle_ticks;
   for (const int sign : {-1, 1, 0}) {
     PlotLine line{sign ? (sign > 0 ? "plus" : "minus") + std::string(" one standard deviation") : "mean", phase.values[0], {}};
     for (std::size_t i = 0; i < mean.size(); ++i) line.y.push_back(mean[i] + sign * deviation[i]);

@@ -23,7 +23,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // The run that crumples. Walls move at a hundredth of the speed of a wave along the bonds (55 m/s): the cloth gives way by bending.
-constexpr double closing_speed = 1;            // m/s, of the pipe's wall
+constexpr double closing_speed = 1;            // m/s, of the pipe's wall in the first attempt
+constexpr int most_attempts = 4;               // each at half the closing speed of the one before
 constexpr double closing_rate = 50;            // of the air while the pipe closes, 1/s
 constexpr double falling_rate = 5;             // while the sheet falls, 1/s
 constexpr double rest_rate = 150;              // until it is at rest, 1/s
@@ -130,8 +131,10 @@ ContactSettings contacts_of_run(const ContactSettings& given) {
 
 class Crumpling {
  public:
-  Crumpling(const RagPiece& given, const ContactSettings& contacts)
+  /// `speed` with which the pipe closes, m/s.
+  Crumpling(const RagPiece& given, const ContactSettings& contacts, double speed)
       : piece_(flat_piece(given)),
+        speed_(speed),
         rags_(MPI_COMM_SELF, DemSettings{{}, step_share}, {piece_}),
         wall_(pipe(), piece_.rag, wall_law(piece_.rag)) {
     rags_.set_contacts(std::make_unique<ContactSolver>(contacts_of_run(contacts), rags_.rags(), nullptr));
@@ -161,6 +164,7 @@ class Crumpling {
   }
 
   RagPiece piece_;
+  double speed_;  // m/s
   RagSystem rags_;
   PipeWall wall_;
   double largest_energy_ = 0, energy_ = 0;  // kinetic, J
@@ -206,7 +210,7 @@ void Crumpling::close() {
   const double radius = piece_.plan.confine_radius - margin, half_length = 0.5 * piece_.plan.confine_length - margin;
   const bool has_ends = piece_.plan.confine_length > 0;
   const double way = shape.radius - radius, way_of_ends = has_ends ? std::max(0.0, shape.half_length - half_length) : 0;
-  const double duration = std::max(way, way_of_ends) / closing_speed;
+  const double duration = std::max(way, way_of_ends) / speed_;
   shape.closing_speed = way / duration, shape.end_speed = way_of_ends / duration;
   wall_.set_shape(shape);
   const int n = static_cast<int>(std::ceil(duration / interval));
@@ -271,7 +275,18 @@ CrumpledPose Crumpling::result() {
 
 CrumpledPose crumple(const RagPiece& piece, const ContactSettings& contacts) {
   check_plan(piece);
-  return Crumpling(piece, contacts).run();
+  if (piece.plan.kind == "hopper") return Crumpling(piece, contacts, 0).run();
+  double speed = closing_speed;
+  for (int attempt = 1;; ++attempt, speed /= 2) try {
+      CrumpledPose pose = Crumpling(piece, contacts, speed).run();
+      pose.attempts = attempt, pose.closing_speed = speed;
+      return pose;
+    } catch (const Error& failure) {
+      if (failure.code != ExitCode::usage) throw;
+      if (attempt == most_attempts)
+        throw Error(failure.code, std::string(failure.what()) + " (in the last of " + std::to_string(attempt) +
+                                      " attempts, with walls that close at " + words(speed) + " m/s)");
+    }
 }
 
 std::vector<std::string> make_poses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts) {
@@ -292,6 +307,8 @@ std::vector<std::string> make_poses(MPI_Comm comm, std::vector<RagPiece>& pieces
     line << "pose of " << piece.rag.name << ": " << piece.plan.kind << ", seed " << piece.plan.seed << ", by a run of " << made.duration
          << " s of the particles alone in " << MPI_Wtime() - begun << " s; strain of the bonds (p99) " << made.strain_p99
          << ", overlap of particles over radius " << made.overlap_over_radius;
+    if (made.attempts > 1)
+      line << "; attempt " << made.attempts << ", with walls that close at " << made.closing_speed << " m/s: faster ones crushed the sheet";
     lines.push_back(line.str());
   }
   return lines;

@@ -3,8 +3,8 @@
 // smooth wall, before the run that the case asks for.
 //
 // confined  A pipe that just holds the flat sheet closes in until it has the radius (and between its ends the length) that is asked for,
-// then
-//           stands still until the sheet is at rest.
+//           then stands still until the sheet is at rest. Where this crushes the sheet, or it does not come to rest, the run is repeated
+//           with half the closing speed, up to three times.
 // hopper    The flat sheet is let go above a cone that leads into the pipe and falls in; ends as soon as all of it is in the pipe.
 //           Jensen (2018) section 5.2.2.
 //
@@ -27,6 +27,8 @@ struct CrumpledPose {
   double duration = 0;              // of the run, s
   double strain_p99 = 0;            // of the bonds' magnitudes of strain
   double overlap_over_radius = 0;   // largest at the end, of particles with each other
+  int attempts = 1;                 // the last of them gave the pose
+  double closing_speed = 0;         // of its pipe, m/s
 };
 
 /// The run for one piece, on this rank alone; the same bits for the same piece, contacts and seed. `contacts` are those of the case;

@@ -27,6 +27,7 @@ struct FlowRateInlet final : Boundary {
     course.add_keys(section, "flow rate");
     return section;
   }
+  std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::velocity; }
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");

@@ -24,6 +24,7 @@ struct MovingWall final : Boundary {
     course.add_keys(section, "motion");
     return section;
   }
+  std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::velocity; }
   bool is_wall() const override { return true; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {

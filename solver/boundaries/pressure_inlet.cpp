@@ -40,6 +40,7 @@ struct PressureInlet final : Boundary {
     course.add_keys(section, "pressure");
     return section;
   }
+  std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::pressure; }
   bool is_way_out() const override { return false; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {

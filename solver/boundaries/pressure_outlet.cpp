@@ -43,6 +43,7 @@ struct PressureOutlet final : Boundary {
     course.add_keys(section, "pressure (with target_flow_rate: the target)");
     return section;
   }
+  std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::pressure; }
   bool level_is_given() const override { return !target_flow_rate; }
 

@@ -18,6 +18,8 @@ struct TimeCourse {
   void add_keys(Section& section, const std::string& value);
   /// Throws Error(usage) if the keys contradict each other; `where` for the message.
   void check(const std::string& where) const;
+  /// Times between which the factor is linear, s.
+  std::vector<double> knots() const { return ramp > 0 ? std::vector<double>{ramp} : times; }
   /// Factor at a time, 1 without any key.
   double at(double time) const;
 };

@@ -30,6 +30,7 @@ struct VelocityInlet final : Boundary {
     course.add_keys(section, "velocity");
     return section;
   }
+  std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::velocity; }
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");

@@ -1,7 +1,11 @@
 # timeout: 300
 # processors: 1
 """Requirement: `snag check` refuses every case that `snag run` refuses. It warns before the run of what will go wrong. It gives no warning for the shipped cases."""
+import re
+
 import harness
+from skew_mesh import CASE as SPHERE
+from skew_mesh import ball
 from small_cases import CHANNEL, CHANNEL_MESH, CHANNEL_OUTLET_AND_WALLS
 
 WATER = """
@@ -81,6 +85,14 @@ class CheckPredicts(harness.CaseTest):
         run = self.check(self.water())
         self.assertIn("laminar at a Reynolds number of 3", run.stdout)
         self.assertNotIn("warning", self.check(self.water('[turbulence]\nmodel = "laminar"\n')).stdout)
+
+    def test_laminar_flow_around_a_body(self):
+        """The width is that of the body, not of the far boundary: a sphere of 1 m at a Reynolds number of 300."""
+        (self.work / "ball.msh").write_text(ball())
+        run = self.check(self.case(SPHERE.format(mesh=self.work / "ball.msh")))
+        reynolds = float(re.search(r"Reynolds number (\S+) with the speed of the case and the width of body sphere", run.stdout)[1])
+        self.assertAlmostEqual(reynolds, 300, delta=15)
+        self.assertNotIn("laminar at a Reynolds number", run.stdout)
 
     def test_thin_cells_at_a_wall(self):
         run = self.check(self.water('[turbulence]\nmodel = "k_epsilon"\n[flow]\nkinematic_viscosity_m2_s = 1e-4\n'))

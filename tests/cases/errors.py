@@ -66,7 +66,11 @@ class Mistakes(harness.CaseTest):
     def test_unit_of_another_dimension(self):
         self.refused(2, ["end", "m"], self.sheets("end_s = 0.02", 'end = "20 mm"'))
 
+    def test_run_on_without_its_condition(self):
+        self.refused(2, ["run_on", "end_when_rags_left"], self.sheets(), "--set", "time.run_on_s=0.01")
+
     def test_value_out_of_range(self):
+        self.refused(2, ["acceleration"], self.sheets(), "--set", "gravity.acceleration_m_s2=[0, 0, -2000]")
         self.refused(2, ["density"], self.channel("density_kg_m3 = 998.2", "density_kg_m3 = -1"))
 
     def test_no_toml(self):

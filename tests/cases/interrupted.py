@@ -40,6 +40,22 @@ class Interrupted(harness.CaseTest):
         self.assertEqual(whole.summary["rags"][0]["outcome"], "exited")
         self.assertLess(whole.summary["time_steps"], 500)
 
+    def test_resume_while_the_run_goes_on_without_rags(self):
+        """Requirement: with run_on the run ends that long after the last rag has left, also when it is resumed in between."""
+        text = LEAVING.replace("end_when_rags_left = true", "end_when_rags_left = true\nrun_on_s = 0.025") + "[checkpoint]\ninterval_s = 0.01\n"
+        case = self.case(text.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell"))
+        whole = self.run_case(case, 1, out="whole")
+        left = whole.summary["rags"][0]["events"][-1]
+        self.assertEqual(left["what"], "exited")
+        self.assertAlmostEqual(whole.summary["simulated_s"], left["t_s"] + 0.025, 9)
+        killed = self.copy(whole, "killed")
+        (killed / "summary.json").unlink()
+        max((killed / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns).unlink()
+        resumed = self.run_case(case, 1, "--resume", out="killed")
+        begun = float(resumed.stdout.split("resumed at ")[1].split(" s")[0])
+        self.assertTrue(left["t_s"] < begun < whole.summary["simulated_s"])
+        self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").iterdir()))
+
     def test_resume_of_a_finished_run(self):
         case = self.case(SHEETS)
         whole = self.run_case(case, 2)

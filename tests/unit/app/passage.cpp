@@ -120,7 +120,7 @@ TEST(Passage, StraightThrough) {
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, tongue passed, reached the outlet, exited");
   const RagVerdict v = rag.verdict();
   EXPECT_EQ(v.outcome, "exited");
-  EXPECT_TRUE(rag.passage.all_exited());
+  EXPECT_TRUE(rag.passage.all_exited_at());
   const double entered = step + (0.2 - 0.09 - half_length) / 0.5, inside = entered + 2 * half_length / 0.5, out = at_tongue + 0.301 / 2;
   EXPECT_NEAR(rag.event("entered").time, entered, step);
   EXPECT_NEAR(rag.event("entered").angle.value(), 180, 1e-9);
@@ -271,7 +271,7 @@ TEST(Passage, NeverEntered) {
   EXPECT_EQ(v.outcome, "upstream");
   EXPECT_FALSE(v.retention_time);
   EXPECT_FALSE(v.time_to_enter);
-  EXPECT_FALSE(rag.passage.all_exited());
+  EXPECT_FALSE(rag.passage.all_exited_at());
 }
 
 TEST(Passage, LargestTensionAndItsPlace) {

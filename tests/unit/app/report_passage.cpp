@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "app/report.hpp"
 #include "app/report/passage_section.hpp"
+#include "app/summary.hpp"
 #include "base/vtk_file.hpp"
 
 namespace snag {
@@ -133,11 +135,37 @@ TEST_F(PassageReport, TakesMeansOfWholeRevolutions) {
   EXPECT_EQ(pump.before(0.16)->revolutions, 2);
   EXPECT_FALSE(pump.before(0.45)) << "the head had fallen by 8 % from one revolution to the next";
   EXPECT_FALSE(pump.after(0.97));
+  EXPECT_EQ(pump.before(0.85)->revolutions, 3);
+  EXPECT_EQ(pump.before(0.81)->revolutions, 2) << "the third revolution before is that in which the head rose by 8 %";
+  EXPECT_NEAR(pump.before(0.81)->head, 5, 1e-9);
   EXPECT_NEAR(pump.period(), 0.05, 1e-9);
   const auto mean = pump.sliding_mean("head");
   EXPECT_TRUE(std::isnan(mean[0]) && std::isnan(mean.back()));
   EXPECT_NEAR(mean[200], 5, 1e-2);
   EXPECT_NEAR(mean[550], 4.6, 1e-2);
+}
+
+// The summary gives head and power before, while and after a rag passes, null where they are not known.
+TEST_F(PassageReport, SummaryGivesTheChangeOfHeadAndPower) {
+  write_pump();
+  const PumpRecord pump(dir / "monitors");
+  Summary run;
+  run.rags.resize(3);
+  run.rags[0].pump = pump.passage(0.4, 0.7);
+  run.rags[1].pump = pump.passage(0.1, 0.97);
+  run.rags[2].pump = pump.passage(NAN, NAN);
+  const auto rags = summary_json(run)["rags"];
+  EXPECT_NEAR(rags[0]["pump"]["head_before_m"], 5, 1e-9);
+  EXPECT_NEAR(rags[0]["pump"]["head_passing_m"], 4.6, 1e-9);
+  EXPECT_NEAR(rags[0]["pump"]["head_after_m"], 5, 1e-9);
+  EXPECT_NEAR(rags[0]["pump"]["head_change_rel"], -0.08, 1e-9);
+  EXPECT_NEAR(rags[0]["pump"]["shaft_power_change_rel"], 0, 1e-9);
+  for (const char* key : {"head_before_m", "head_after_m", "head_change_rel", "shaft_power_change_rel"})
+    EXPECT_TRUE(rags[1]["pump"][key].is_null()) << key;
+  EXPECT_TRUE(rags[1]["pump"]["head_passing_m"].is_number());
+  EXPECT_TRUE(rags[2]["pump"]["head_passing_m"].is_null());
+  const std::vector<std::string> keys = summary_keys();
+  EXPECT_TRUE(std::find(keys.begin(), keys.end(), "rags.0.pump.head_change_rel") != keys.end());
 }
 
 // The section shows the path with a line for each turn, its means, impeller and tongue; what it shows is not shown again over time.

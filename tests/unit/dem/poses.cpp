@@ -143,6 +143,18 @@ TEST(ConfinedPose, FollowsTheSeedAlone) {
   expect_same_bits(one[0], alone);
 }
 
+TEST(ConfinedPose, IsRepeatedWithSlowerWallsWhereTheSheetIsCrushed) {
+  // Requirement: a pipe whose walls crush the sheet of one seed closes more slowly, and the log gives the attempt and the speed.
+  std::vector<RagPiece> pieces = pieces_of(small_sheet + "pose = \"confined\"\nconfine_radius_mm = 18\nseed = 3\n");
+  const std::string line = make_poses(MPI_COMM_WORLD, pieces, {}).at(0);
+  EXPECT_NE(line.find("attempt 2, with walls that close at 0.5 m/s"), std::string::npos) << line;
+  EXPECT_LE(extent(pieces[0], {0, 0, 1}).radius, 0.018);
+  RagSystem rags(MPI_COMM_WORLD, {}, pieces);
+  EXPECT_LT(bond_strain_quantile(rags, 0, 0.99), 0.1);
+  const std::string message = refusal(small_sheet + "pose = \"confined\"\nconfine_radius_mm = 12\n");
+  EXPECT_NE(message.find("in the last of 4 attempts, with walls that close at 0.125 m/s"), std::string::npos) << message;
+}
+
 TEST(HopperPose, HasFallenIntoThePipe) {
   // Requirement: the whole sheet is within the pipe's radius but for the overlap with the wall, its bonds hardly strained.
   const auto pieces = made(small_sheet + "pose = \"hopper\"\nconfine_radius_mm = 35\nconfine_axis = [0, 0, -1]\n");

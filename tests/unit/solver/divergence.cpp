@@ -98,6 +98,19 @@ TEST(DivergenceWatch, every_bound) {
   }
 }
 
+// A peak of a table between the instants that divide the run evenly sets the speed of the case, before the end of the run only.
+TEST(DivergenceWatch, foreseen_peak) {
+  const std::string table = "velocity_m_s = [1, 0, 0]\ntimes_s = [0, 0.4, 0.401, 0.402, 2, 3]\nfactors = [1, 1, 7, 1, 1, 9]\n";
+  std::string peak = channel;
+  peak.replace(peak.find("velocity_m_s = [1, 0, 0]\n"), 25, table);
+  Watched w;
+  BoundarySet boundary(w.mesh, conditions(peak));
+  w.flow.time = 0;
+  w.watch.foresee(w.flow, boundary, 1);
+  EXPECT_NEAR(w.watch.speed(), 7, 1e-9);
+  EXPECT_TRUE(mentions(w.watch.source(), "given at a patch")) << w.watch.source();
+}
+
 // Equations that stay unsolved end the run after the steps that are allowed, not before; a solved step counts anew.
 TEST(DivergenceWatch, unsolved_steps) {
   Watched w;
