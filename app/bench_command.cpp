@@ -2,10 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "app/bench/coupling.hpp"
-#include "app/bench/dem.hpp"
-#include "app/bench/flow.hpp"
 #include "app/command.hpp"
+#include "benchmark/speed/coupling.hpp"
+#include "benchmark/speed/dem.hpp"
+#include "benchmark/speed/flow.hpp"
 
 namespace snag {
 

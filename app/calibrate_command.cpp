@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/report/independence_section.hpp"
 #include "base/atomic_file.hpp"
 #include "base/log.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
-#include "dem/calibration/passport_text.hpp"
 #include "parallel/session.hpp"
+#include "report/independence_section.hpp"
+#include "textile/passport_text.hpp"
 
 namespace snag {
 

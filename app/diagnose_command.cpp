@@ -3,13 +3,13 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/diagnosis/bench.hpp"
-#include "app/diagnosis/bench_page.hpp"
-#include "app/diagnosis/diagnose_case.hpp"
-#include "app/diagnosis/verdict_page.hpp"
 #include "base/atomic_file.hpp"
 #include "base/log.hpp"
+#include "benchmark/blind/bench.hpp"
+#include "casework/diagnose_case.hpp"
 #include "parallel/session.hpp"
+#include "report/bench_page.hpp"
+#include "report/verdict_page.hpp"
 
 namespace snag {
 

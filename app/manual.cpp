@@ -2,11 +2,11 @@
 
 #include <sstream>
 
-#include "app/sections.hpp"
-#include "app/study.hpp"
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
 #include "observe/camera.hpp"
+#include "simulation/setup/sections.hpp"
+#include "simulation/study.hpp"
 
 namespace snag {
 

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/mesh_generator.hpp"
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "mesh/quality.hpp"
 #include "parallel/session.hpp"
+#include "simulation/setup/mesh_generator.hpp"
 
 namespace snag {
 

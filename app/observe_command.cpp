@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/observe/observe.hpp"
+#include "app/observe.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {

@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/report.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
+#include "report/report.hpp"
 
 namespace snag {
 

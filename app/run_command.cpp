@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/report.hpp"
-#include "app/run.hpp"
+#include "report/report.hpp"
+#include "simulation/run.hpp"
 
 namespace snag {
 

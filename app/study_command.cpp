@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "app/report.hpp"
-#include "app/study.hpp"
-#include "app/study_results.hpp"
+#include "report/report.hpp"
+#include "report/study_results.hpp"
+#include "simulation/study.hpp"
 
 namespace snag {
 

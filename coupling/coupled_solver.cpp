@@ -1,7 +1,7 @@
 #include "coupling/coupled_solver.hpp"
 
-#include "dem/lattice.hpp"
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
+#include "dem/templates/lattice.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"

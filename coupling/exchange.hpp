@@ -9,7 +9,7 @@
 // stable. For Q_b above the particle's mass the exchange lags by about Q_b/m_b steps (still stable, still conservative): the stiffness is
 // monitored.
 #include "coupling/kernel.hpp"
-#include "solver/flow.hpp"
+#include "solver/fields/flow.hpp"
 
 namespace snag {
 

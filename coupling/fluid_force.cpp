@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "base/words.hpp"
-#include "dem/lattice.hpp"
+#include "dem/templates/lattice.hpp"
 
 namespace snag {
 

@@ -1,8 +1,8 @@
 #pragma once
 // What the water does to one particle: pure functions of the fluid there and of the particle, one effect a file of coupling/forces/.
 //
-// A force is evaluated for a whole tile at once (dem/tile.hpp), place k = begin .. end - 1; places without a particle hold harmless numbers
-// and what is written there is not used. So every force is one loop over contiguous arrays that vectorises.
+// A force is evaluated for a whole tile at once (dem/particles/tile.hpp), place k = begin .. end - 1; places without a particle hold
+// harmless numbers and what is written there is not used. So every force is one loop over contiguous arrays that vectorises.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,8 +12,8 @@
 #include "base/prior.hpp"
 #include "base/registry.hpp"
 #include "base/vec3.hpp"
-#include "dem/rag.hpp"
-#include "dem/tile.hpp"
+#include "dem/particles/rag.hpp"
+#include "dem/particles/tile.hpp"
 
 namespace snag {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
-#include "solver/rotating_zone.hpp"
+#include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
 

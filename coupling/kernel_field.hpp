@@ -10,7 +10,7 @@
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"
-#include "solver/flow.hpp"
+#include "solver/fields/flow.hpp"
 
 namespace snag {
 

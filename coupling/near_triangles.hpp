@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "dem/wall_triangles.hpp"
+#include "dem/walls/wall_triangles.hpp"
 
 namespace snag {
 

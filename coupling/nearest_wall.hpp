@@ -5,7 +5,7 @@
 
 #include "coupling/fluid_force.hpp"
 #include "coupling/near_triangles.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 
 namespace snag {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "dem/tile.hpp"
+#include "dem/particles/tile.hpp"
 
 namespace snag {
 

@@ -5,9 +5,9 @@
 
 #include "base/error.hpp"
 #include "dem/contacts/contact_solver.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/tile_halo.hpp"
-#include "dem/tile_particles.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 

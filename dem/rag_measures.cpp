@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "dem/bonds/tile_bonds.hpp"
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "parallel/quantile.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"

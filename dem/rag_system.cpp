@@ -7,8 +7,8 @@
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "dem/contacts/contact_solver.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "dem/tile_halo.hpp"
-#include "dem/tile_particles.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -120,7 +120,7 @@ void RagSystem::set_limit() {
 
 double RagSystem::stable_step() const { return settings_.step ? *settings_.step : settings_.safety * limit_.step; }
 
-/// Drift-kick-drift (dem/integrator.hpp); the half drifts between two sub-steps are one.
+/// Drift-kick-drift (dem/particles/integrator.hpp); the half drifts between two sub-steps are one.
 void RagSystem::advance(double dt, TileForce* force) {
   const int n = std::max(1, static_cast<int>(std::ceil(dt / stable_step() * (1 - 1e-12))));
   const double step = dt / n;

@@ -17,11 +17,11 @@
 
 #include "dem/bonds/stable_step.hpp"
 #include "dem/bonds/tile_bonds.hpp"
-#include "dem/integrator.hpp"
-#include "dem/lattice.hpp"
-#include "dem/rag.hpp"
-#include "dem/rag_settings.hpp"
-#include "dem/tile.hpp"
+#include "dem/particles/integrator.hpp"
+#include "dem/particles/rag.hpp"
+#include "dem/particles/tile.hpp"
+#include "dem/templates/lattice.hpp"
+#include "dem/templates/rag_settings.hpp"
 #include "dem/tile_halo.hpp"
 
 namespace snag {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "dem/lattice.hpp"
-#include "dem/tile.hpp"
+#include "dem/particles/tile.hpp"
+#include "dem/templates/lattice.hpp"
 
 namespace snag {
 

@@ -7,13 +7,13 @@
 
 #include "base/error.hpp"
 
-#include "diagnosis/attribution.hpp"
-#include "diagnosis/curves.hpp"
-#include "diagnosis/how_far.hpp"
-#include "diagnosis/judgement.hpp"
-#include "diagnosis/next_experiment.hpp"
-#include "diagnosis/restart.hpp"
-#include "diagnosis/where.hpp"
+#include "diagnosis/attribution/attribution.hpp"
+#include "diagnosis/attribution/restart.hpp"
+#include "diagnosis/judgement/curves.hpp"
+#include "diagnosis/judgement/how_far.hpp"
+#include "diagnosis/judgement/judgement.hpp"
+#include "diagnosis/judgement/next_experiment.hpp"
+#include "diagnosis/localisation/where.hpp"
 
 namespace snag {
 

@@ -9,9 +9,9 @@
 #include <functional>
 #include <string>
 
-#include "diagnosis/experiment.hpp"
-#include "diagnosis/simulator.hpp"
-#include "diagnosis/verdict.hpp"
+#include "diagnosis/data/experiment.hpp"
+#include "diagnosis/data/simulator.hpp"
+#include "diagnosis/data/verdict.hpp"
 
 namespace snag {
 

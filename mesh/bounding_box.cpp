@@ -5,7 +5,7 @@
 
 namespace snag {
 
-Box bounding_box(MPI_Comm comm, std::span<const Vec3> points) {
+BoundingBox bounding_box(MPI_Comm comm, std::span<const Vec3> points) {
   constexpr double huge = std::numeric_limits<double>::max();
   double corners[6] = {-huge, -huge, -huge, -huge, -huge, -huge};  // upper, -lower
   for (const Vec3& x : points)

@@ -6,15 +6,15 @@
 
 namespace snag {
 
-struct Box {
+struct BoundingBox {
   Vec3 lower, upper;  // m
   Vec3 size() const { return upper - lower; }
   double diagonal() const { return norm(size()); }
 };
 
 /// At least one rank has a point. Collective.
-Box bounding_box(MPI_Comm comm, std::span<const Vec3> points);
+BoundingBox bounding_box(MPI_Comm comm, std::span<const Vec3> points);
 /// Of all nodes.
-inline Box bounding_box(const Mesh& mesh) { return bounding_box(mesh.comm, mesh.node); }
+inline BoundingBox bounding_box(const Mesh& mesh) { return bounding_box(mesh.comm, mesh.node); }
 
 }  // namespace snag

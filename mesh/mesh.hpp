@@ -8,8 +8,8 @@
 //   Periodic patches are joined to interior faces: `delta` holds the way from the owner's to the neighbour's centre, across the period,
 //          so that face_centre - (cell_centre[owner] + delta) is the way from the neighbour's centre to the face on every interior face.
 //          A cell one period wide is its own neighbour and lists that face twice.
-//          [first_facet, n_interior) are facets of a sliding interface (mesh/turning_mesh.hpp): none without, and then first_facet =
-//          n_interior.
+//          [first_facet, n_interior) are facets of a sliding interface (mesh/sliding/turning_mesh.hpp): none without, and then first_facet
+//          = n_interior.
 #include <array>
 #include <cstdint>
 #include <string>

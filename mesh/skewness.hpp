@@ -8,7 +8,7 @@
 
 namespace snag {
 
-/// |s|/|d| above which an interior face is skew: the schemes do not correct for s there (solver/face.hpp).
+/// |s|/|d| above which an interior face is skew: the schemes do not correct for s there (solver/fields/face.hpp).
 constexpr double skew_from = 0.6;
 
 /// s of an interior face, m.

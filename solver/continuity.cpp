@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "parallel/sum.hpp"
-#include "solver/face.hpp"
-#include "solver/rotating_zone.hpp"
+#include "solver/fields/face.hpp"
+#include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
 

@@ -10,10 +10,10 @@
 // pressure exactly.
 #include <optional>
 
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 #include "solver/flux_history.hpp"
-#include "solver/gradient.hpp"
-#include "solver/poisson.hpp"
+#include "solver/operators/gradient.hpp"
+#include "solver/operators/poisson.hpp"
 
 namespace snag {
 

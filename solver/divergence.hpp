@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 #include "solver/flow_settings.hpp"
 
 namespace snag {

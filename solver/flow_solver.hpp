@@ -1,14 +1,14 @@
 #pragma once
-// The flow solver: one time step of the incompressible equations of solver/flow.hpp on any mesh.
+// The flow solver: one time step of the incompressible equations of solver/fields/flow.hpp on any mesh.
 #include <string>
 #include <vector>
 
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 #include "solver/continuity.hpp"
 #include "solver/divergence.hpp"
+#include "solver/fields/rotating_zone.hpp"
 #include "solver/flow_settings.hpp"
 #include "solver/momentum.hpp"
-#include "solver/rotating_zone.hpp"
 #include "solver/turbulence/turbulence.hpp"
 
 namespace snag {

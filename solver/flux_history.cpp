@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "mesh/turning_mesh.hpp"
-#include "solver/face.hpp"
+#include "mesh/sliding/turning_mesh.hpp"
+#include "solver/fields/face.hpp"
 
 namespace snag {
 

@@ -9,8 +9,8 @@
 // psi = 0 and is as stable.
 #include <vector>
 
-#include "solver/flow.hpp"
-#include "solver/time_scheme.hpp"
+#include "solver/fields/flow.hpp"
+#include "solver/fields/time_scheme.hpp"
 
 namespace snag {
 

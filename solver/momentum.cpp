@@ -3,7 +3,7 @@
 //   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess
 //     linear_upwind    u_f^high = u_C + psi G_C (x_f - x_C)                psi: limiter of each component
 //     central          u_f^high = w u_P + (1 - w) u_N + G_f s
-//     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C), each component for itself (solver/face.hpp)
+//     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C), each component for itself (solver/fields/face.hpp)
 //   diffusion    mu (c (u_N - u_P) + G_f T [+ G_f^T S where mu varies])     first part implicit
 //
 // Explicit parts from u extrapolated fully in time are unstable at large steps (von Neumann analysis of BDF2 with Fromm's scheme:
@@ -20,8 +20,8 @@
 #include <algorithm>
 
 #include "parallel/sum.hpp"
-#include "solver/face.hpp"
-#include "solver/rotating_zone.hpp"
+#include "solver/fields/face.hpp"
+#include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
 

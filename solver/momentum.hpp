@@ -5,12 +5,12 @@
 //
 // In a turning frame - rho omega x u is added, with the guess of u.
 // a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
-#include "solver/boundary.hpp"
-#include "solver/cell_matrix.hpp"
+#include "solver/boundaries/boundary.hpp"
+#include "solver/fields/time_scheme.hpp"
 #include "solver/flux_history.hpp"
-#include "solver/gradient.hpp"
-#include "solver/limiter.hpp"
-#include "solver/time_scheme.hpp"
+#include "solver/operators/cell_matrix.hpp"
+#include "solver/operators/gradient.hpp"
+#include "solver/operators/limiter.hpp"
 
 namespace snag {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a test rig would read off the water: flow rates and pressures at patches, forces and torques on walls. All collective, the same on
 // every rank.
-#include "solver/flow.hpp"
+#include "solver/fields/flow.hpp"
 
 namespace snag {
 

@@ -15,7 +15,7 @@
 
 #include "base/parameter.hpp"
 #include "base/shaft.hpp"
-#include "solver/flow.hpp"
+#include "solver/fields/flow.hpp"
 
 namespace snag {
 

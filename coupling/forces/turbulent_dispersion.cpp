@@ -18,7 +18,7 @@
 
 #include "base/random_numbers.hpp"
 #include "coupling/fluid_force.hpp"
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 
 namespace snag {
 namespace {

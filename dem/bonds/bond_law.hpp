@@ -28,7 +28,7 @@
 #include <cmath>
 
 #include "base/vec3.hpp"
-#include "dem/rag.hpp"
+#include "dem/particles/rag.hpp"
 
 namespace snag {
 

@@ -2,7 +2,7 @@
 // Largest stable step of leapfrog for the bonds of a flat piece at rest.
 #include <string>
 
-#include "dem/rag.hpp"
+#include "dem/particles/rag.hpp"
 
 namespace snag {
 

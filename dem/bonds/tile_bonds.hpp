@@ -3,7 +3,7 @@
 #include <array>
 
 #include "dem/bonds/bond_law.hpp"
-#include "dem/tile.hpp"
+#include "dem/particles/tile.hpp"
 
 namespace snag {
 

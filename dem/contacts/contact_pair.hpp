@@ -13,7 +13,7 @@
 #include "dem/contacts/contact_settings.hpp"
 #include "dem/contacts/hertz_mindlin.hpp"
 #include "dem/contacts/rolling_friction.hpp"
-#include "dem/rag.hpp"
+#include "dem/particles/rag.hpp"
 
 namespace snag {
 

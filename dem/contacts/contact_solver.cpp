@@ -9,7 +9,7 @@
 #include "dem/contacts/contact_list.hpp"
 #include "dem/contacts/pair_forces.hpp"
 #include "dem/contacts/wall_contacts.hpp"
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 
 namespace snag {
 

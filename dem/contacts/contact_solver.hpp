@@ -16,9 +16,9 @@
 
 #include "base/vec3.hpp"
 #include "dem/contacts/contact_settings.hpp"
-#include "dem/integrator.hpp"
-#include "dem/rag.hpp"
-#include "dem/tile.hpp"
+#include "dem/particles/integrator.hpp"
+#include "dem/particles/rag.hpp"
+#include "dem/particles/tile.hpp"
 
 namespace snag {
 

@@ -18,8 +18,8 @@
 #include "dem/contacts/contact_pair.hpp"
 #include "dem/contacts/contact_particles.hpp"
 #include "dem/contacts/contact_solver.hpp"
-#include "dem/wall_triangles.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/wall_triangles.hpp"
+#include "dem/walls/walls.hpp"
 
 namespace snag {
 

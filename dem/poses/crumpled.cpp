@@ -11,9 +11,9 @@
 #include "base/words.hpp"
 #include "dem/bonds/bond_law.hpp"
 #include "dem/contacts/contact_solver.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "dem/poses/pipe_wall.hpp"
 #include "dem/rag_measures.hpp"
-#include "dem/tile_particles.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {

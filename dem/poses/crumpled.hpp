@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "dem/contacts/contact_settings.hpp"
-#include "dem/lattice.hpp"
+#include "dem/templates/lattice.hpp"
 
 namespace snag {
 

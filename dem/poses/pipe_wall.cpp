@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 
 namespace snag {
 

@@ -5,7 +5,7 @@
 
 #include "base/registry.hpp"
 #include "base/vec3.hpp"
-#include "diagnosis/simulator.hpp"
+#include "diagnosis/data/simulator.hpp"
 
 namespace snag {
 

@@ -1,6 +1,6 @@
 // Initial pose: pieces start turned by theta times a standard normal deviate about the line of sight, another one in each replicate.
 #include "diagnosis/effects/effect_model.hpp"
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
 namespace {

@@ -3,8 +3,8 @@
 //   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q exactly;      Q may rise in time (solver/boundaries/time_course.hpp)
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
+#include "solver/boundaries/boundary.hpp"
 #include "solver/boundaries/time_course.hpp"
-#include "solver/boundary.hpp"
 
 namespace snag {
 namespace {

@@ -17,8 +17,8 @@
 #include <span>
 
 #include "parallel/sum.hpp"
+#include "solver/boundaries/boundary.hpp"
 #include "solver/boundaries/time_course.hpp"
-#include "solver/boundary.hpp"
 
 namespace snag {
 namespace {

@@ -10,10 +10,10 @@
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "parallel/sum.hpp"
+#include "solver/boundaries/boundary.hpp"
 #include "solver/boundaries/flow_target.hpp"
 #include "solver/boundaries/time_course.hpp"
 #include "solver/boundaries/water_column.hpp"
-#include "solver/boundary.hpp"
 
 namespace snag {
 namespace {

@@ -1,5 +1,5 @@
 // Plane of symmetry, or a wall that the fluid slips along:   u.n = 0,   no friction,   dp/dn = 0
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 
 namespace snag {
 namespace {

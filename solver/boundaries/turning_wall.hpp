@@ -1,7 +1,7 @@
 #pragma once
 // Velocity and acceleration of a wall that turns:   u = omega x (x - x_0),   a = domega/dt x (x - x_0) + omega x u
 // Nothing passes through it: the flux is the volume that the mesh face sweeps, whatever the rounding of the wall into flat faces.
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 
 namespace snag {
 

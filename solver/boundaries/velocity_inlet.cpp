@@ -1,11 +1,11 @@
 // Inlet with a given velocity:   u = s U,  or  u = - s U_n n  with n the normal out of the domain;   flux = u.S
-// s: profile over the patch with mean 1 (solver/inlet_profile.hpp), times a factor of time (solver/boundaries/time_course.hpp)
+// s: profile over the patch with mean 1 (solver/boundaries/inlet_profile.hpp), times a factor of time (solver/boundaries/time_course.hpp)
 #include <optional>
 
 #include "base/error.hpp"
+#include "solver/boundaries/boundary.hpp"
+#include "solver/boundaries/inlet_profile.hpp"
 #include "solver/boundaries/time_course.hpp"
-#include "solver/boundary.hpp"
-#include "solver/inlet_profile.hpp"
 
 namespace snag {
 namespace {

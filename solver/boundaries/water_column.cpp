@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "parallel/sum.hpp"
-#include "solver/face.hpp"
-#include "solver/poisson.hpp"
+#include "solver/fields/face.hpp"
+#include "solver/operators/poisson.hpp"
 
 namespace snag {
 

@@ -5,7 +5,7 @@
 //
 // A pipe of length L and section A between them has G = A/L. Without corrections for faces that are not orthogonal to the line of centres:
 // right to some per cent there, which is enough to control a flow. Patches whose own level floats count as closed: their flow is held.
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 
 namespace snag {
 

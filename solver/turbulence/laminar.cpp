@@ -1,4 +1,4 @@
-// No turbulence model: the equations of solver/flow.hpp with the viscosity of the fluid.
+// No turbulence model: the equations of solver/fields/flow.hpp with the viscosity of the fluid.
 #include "solver/turbulence/turbulence.hpp"
 
 namespace snag {

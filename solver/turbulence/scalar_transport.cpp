@@ -1,13 +1,13 @@
 // Assembly and solution of one equation; the scheme stands in the header.
 //
-// Second order where phi is smooth, by the limited linear scheme (solver/face.hpp).
+// Second order where phi is smooth, by the limited linear scheme (solver/fields/face.hpp).
 //
 // Rows are divided by a_PP phi*_P, so that residuals are relative changes: epsilon differs by many powers of ten between wall and core.
 #include "solver/turbulence/scalar_transport.hpp"
 
 #include <algorithm>
 
-#include "solver/face.hpp"
+#include "solver/fields/face.hpp"
 
 namespace snag {
 

@@ -18,10 +18,10 @@
 #include <span>
 #include <vector>
 
-#include "solver/boundary.hpp"
-#include "solver/cell_matrix.hpp"
-#include "solver/gradient.hpp"
-#include "solver/time_scheme.hpp"
+#include "solver/boundaries/boundary.hpp"
+#include "solver/fields/time_scheme.hpp"
+#include "solver/operators/cell_matrix.hpp"
+#include "solver/operators/gradient.hpp"
 
 namespace snag {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "solver/boundary.hpp"
-#include "solver/cell_matrix.hpp"
-#include "solver/time_scheme.hpp"
+#include "solver/boundaries/boundary.hpp"
+#include "solver/fields/time_scheme.hpp"
+#include "solver/operators/cell_matrix.hpp"
 
 namespace snag {
 

@@ -15,7 +15,7 @@
 // it), and angular momentum is not kept there to the order of the friction torque: the torques of two cylinders differ.
 #include <vector>
 
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 
 namespace snag {
 

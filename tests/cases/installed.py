@@ -1,7 +1,8 @@
 # timeout: 600
-"""Requirement: Snag as it is installed makes a mesh and checks a case from any folder; the citation is that of
+"""Requirement: Snag as it is installed makes a mesh, checks a case and reads a picture from any folder; the citation is that of
 CITATION.cff; the completion of the shell knows every command and option."""
 import re
+import shutil
 import subprocess
 
 import harness
@@ -30,6 +31,11 @@ class Installation(harness.CaseTest):
             'patches = ["bottom", "top", "side_z0", "side_z1"]\nkind = "wall"\n'
         )
         self.call(snag, "check", "case.toml", cwd=elsewhere)
+        (elsewhere / "CAMERA.toml").write_text('[camera]\npixels = [1088, 432]\npixel_mm = 0.5\n[cloth]\nbackground = "background.png"\nthreshold = 70\nminimum_pixels = 100\n')
+        picture = prefix / "share" / "snag" / "cases" / "diagnose-jeffery" / "picture.png"
+        shutil.copy(picture, elsewhere / "background.png")
+        self.call(snag, "observe", picture, "--camera", "CAMERA.toml", "--out", "seen", cwd=elsewhere)
+        self.assertTrue((elsewhere / "seen" / "observations.csv").is_file())
         demo = self.call(snag, "study", prefix / "share" / "snag" / "cases" / "pump-demo" / "study.toml", "--dry-run", cwd=elsewhere)
         self.assertIn("run 1 of 2", demo)
         completion = prefix / "share" / "bash-completion" / "completions" / "snag"

@@ -1,8 +1,8 @@
 // Case and study files, read with every section of the manual.
-#include "app/sections.hpp"
-#include "app/study.hpp"
 #include "base/case_file.hpp"
 #include "base/error.hpp"
+#include "simulation/setup/sections.hpp"
+#include "simulation/study.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace {

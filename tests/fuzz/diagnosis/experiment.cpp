@@ -1,7 +1,7 @@
 // DIAGNOSIS.toml and its data.
 #include <fstream>
 
-#include "diagnosis/experiment.hpp"
+#include "diagnosis/data/experiment.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace {

@@ -1,7 +1,7 @@
 // gmsh meshes of both versions, text and bytes: import and judgement of the quality, as `snag mesh --info` does.
 #include <unistd.h>
 
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "mesh/quality.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/unit/mesh/sample.hpp"

@@ -9,7 +9,7 @@
 #include "coupling/coupling_settings.hpp"
 #include "coupling/fluid_force.hpp"
 #include "coupling/kernel_shape.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 
 namespace snag {
 namespace {

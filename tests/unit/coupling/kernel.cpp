@@ -11,9 +11,9 @@
 
 #include "../mesh/sliding_shells.hpp"
 #include "coupling/cell_owner.hpp"
-#include "mesh/import.hpp"
-#include "mesh/structured.hpp"
-#include "mesh/turning_mesh.hpp"
+#include "mesh/import/import.hpp"
+#include "mesh/import/structured.hpp"
+#include "mesh/sliding/turning_mesh.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 

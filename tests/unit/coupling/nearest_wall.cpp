@@ -8,7 +8,7 @@
 
 #include "base/random_numbers.hpp"
 #include "coupling/nearest_wall.hpp"
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "tests/unit/dem/wall_pieces.hpp"
 
 namespace snag {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "dem/lattice.hpp"
+#include "dem/templates/lattice.hpp"
 
 namespace snag {
 namespace {

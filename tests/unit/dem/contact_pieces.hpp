@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "dem/contacts/contact_solver.hpp"
-#include "dem/rag.hpp"
-#include "dem/tile.hpp"
+#include "dem/particles/rag.hpp"
+#include "dem/particles/tile.hpp"
 
 namespace snag::test {
 

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "base/error.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 
 namespace snag {

@@ -6,11 +6,11 @@
 
 #include "base/error.hpp"
 #include "dem/poses/crumpled.hpp"
-#include "dem/poses/folded.hpp"
 #include "dem/poses/pipe_wall.hpp"
-#include "dem/poses/pose_file.hpp"
 #include "dem/rag_measures.hpp"
 #include "dem/rag_system.hpp"
+#include "dem/templates/folded.hpp"
+#include "dem/templates/pose_file.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {

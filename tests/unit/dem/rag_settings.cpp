@@ -1,5 +1,5 @@
 // Pieces of cloth from a case file, and their lattices.
-#include "dem/rag_settings.hpp"
+#include "dem/templates/rag_settings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "dem/poses/pose_file.hpp"
 #include "dem/rag_system.hpp"
+#include "dem/templates/pose_file.hpp"
 
 namespace snag {
 namespace {

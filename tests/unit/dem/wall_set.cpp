@@ -6,9 +6,9 @@
 #include <random>
 
 #include "base/error.hpp"
-#include "dem/wall_triangles.hpp"
-#include "dem/walls.hpp"
-#include "mesh/structured.hpp"
+#include "dem/walls/wall_triangles.hpp"
+#include "dem/walls/walls.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 #include "tests/unit/dem/wall_pieces.hpp"

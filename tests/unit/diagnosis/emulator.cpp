@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/emulator.hpp"
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/fitting/emulator.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "diagnosis/excess_gap.hpp"
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/judgement/excess_gap.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
 namespace {

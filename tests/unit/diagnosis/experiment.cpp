@@ -1,4 +1,4 @@
-#include "diagnosis/experiment.hpp"
+#include "diagnosis/data/experiment.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

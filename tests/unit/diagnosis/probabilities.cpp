@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "diagnosis/attribution.hpp"
-#include "diagnosis/calibration.hpp"
+#include "diagnosis/attribution/attribution.hpp"
+#include "diagnosis/attribution/calibration.hpp"
 
 namespace snag {
 namespace {

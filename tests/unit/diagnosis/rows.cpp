@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "diagnosis/fit.hpp"
-#include "diagnosis/response.hpp"
-#include "diagnosis/statistics.hpp"
-#include "diagnosis/where.hpp"
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/response.hpp"
+#include "diagnosis/localisation/where.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
 namespace {

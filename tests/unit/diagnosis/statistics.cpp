@@ -1,11 +1,11 @@
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "diagnosis/lifetimes.hpp"
-#include "diagnosis/linear_model.hpp"
+#include "diagnosis/statistics/lifetimes.hpp"
+#include "diagnosis/statistics/linear_model.hpp"
 
 using namespace snag;
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "diagnosis/statistics.hpp"
-#include "diagnosis/weak_form.hpp"
+#include "diagnosis/localisation/weak_form.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
 namespace {

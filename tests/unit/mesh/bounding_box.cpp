@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 
 using namespace snag;
 
 // The box of a mesh is that of all ranks; a rank without points changes nothing.
 TEST(BoundingBox, holds_the_points_of_all_ranks) {
-  const Box whole = bounding_box(structured_box(MPI_COMM_WORLD, {-1, 2, 3}, {4, 3, 3.5}, {6, 2, 2}));
+  const BoundingBox whole = bounding_box(structured_box(MPI_COMM_WORLD, {-1, 2, 3}, {4, 3, 3.5}, {6, 2, 2}));
   EXPECT_EQ(whole.lower, (Vec3{-1, 2, 3}));
   EXPECT_EQ(whole.upper, (Vec3{4, 3, 3.5}));
   EXPECT_DOUBLE_EQ(whole.diagonal(), std::sqrt(25 + 1 + 0.25));

@@ -1,6 +1,6 @@
 // ranks: 1 3
 // long ranks: 2 5
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 
 #include <cstdlib>
 #include <sstream>

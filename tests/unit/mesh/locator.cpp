@@ -6,9 +6,9 @@
 #include <random>
 
 #include "check.hpp"
-#include "mesh/import.hpp"
-#include "mesh/structured.hpp"
-#include "mesh/turning_mesh.hpp"
+#include "mesh/import/import.hpp"
+#include "mesh/import/structured.hpp"
+#include "mesh/sliding/turning_mesh.hpp"
 #include "sample.hpp"
 #include "sliding_shells.hpp"
 

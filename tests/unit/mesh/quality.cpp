@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "check.hpp"
-#include "mesh/import.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/import.hpp"
+#include "mesh/import/structured.hpp"
 #include "sample.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "check.hpp"
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "sliding_check.hpp"
 #include "sliding_shells.hpp"
 

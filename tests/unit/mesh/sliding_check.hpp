@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/sliding_interface.hpp"
+#include "mesh/sliding/sliding_interface.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 

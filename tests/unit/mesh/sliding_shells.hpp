@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mesh/sliding_interface.hpp"
+#include "mesh/sliding/sliding_interface.hpp"
 #include "sample.hpp"
 
 namespace snag::test {

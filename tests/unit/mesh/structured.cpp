@@ -1,6 +1,6 @@
 // ranks: 1 3
 // long ranks: 2 5
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 
 #include "base/error.hpp"
 #include "check.hpp"

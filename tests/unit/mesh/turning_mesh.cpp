@@ -1,6 +1,6 @@
 // ranks: 1 3
 // long ranks: 2 5
-#include "mesh/turning_mesh.hpp"
+#include "mesh/sliding/turning_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <span>
 
 #include "base/error.hpp"
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "sliding_shells.hpp"

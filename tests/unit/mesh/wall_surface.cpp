@@ -7,8 +7,8 @@
 
 #include "base/error.hpp"
 #include "check.hpp"
-#include "mesh/import.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/import.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/rows.hpp"
 #include "sample.hpp"
 

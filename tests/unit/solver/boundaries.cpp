@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "solver/boundaries/flow_target.hpp"
 #include "solver/boundaries/time_course.hpp"
 #include "solver/flow_solver.hpp"

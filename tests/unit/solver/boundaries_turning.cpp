@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
 #include "tests/unit/mesh/sliding_shells.hpp"

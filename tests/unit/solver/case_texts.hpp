@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "solver/boundary.hpp"
+#include "solver/boundaries/boundary.hpp"
 
 namespace snag::test {
 

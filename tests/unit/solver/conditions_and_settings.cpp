@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "case_texts.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "solver/flow_solver.hpp"
 
 using namespace snag;

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "case_texts.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "solver/flow_solver.hpp"
 
 using namespace snag;

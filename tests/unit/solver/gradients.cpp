@@ -2,10 +2,10 @@
 // long ranks: 2
 #include <gtest/gtest.h>
 
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/sum.hpp"
-#include "solver/cell_matrix.hpp"
-#include "solver/gradient.hpp"
+#include "solver/operators/cell_matrix.hpp"
+#include "solver/operators/gradient.hpp"
 
 using namespace snag;
 

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "solver/monitors.hpp"
 
 namespace {

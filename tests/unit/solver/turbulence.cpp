@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "case_texts.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
 #include "solver/monitors.hpp"

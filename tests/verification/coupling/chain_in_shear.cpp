@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "sphere_motion.hpp"
 
 namespace snag {

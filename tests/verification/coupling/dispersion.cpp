@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "coupling/coupled_solver.hpp"
-#include "dem/tile_particles.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "coupling/coupled_solver.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "solver/flow_solver.hpp"
 
 namespace snag {

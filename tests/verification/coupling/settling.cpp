@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "coupling/coupled_solver.hpp"
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"

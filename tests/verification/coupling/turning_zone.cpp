@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "coupling/kernel_field.hpp"
+#include "dem/particles/tile_particles.hpp"
 #include "dem/rag_system.hpp"
-#include "dem/tile_particles.hpp"
 #include "tests/verification/solver/turning_rings.hpp"
 
 namespace snag {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "coupling/coupled_solver.hpp"
-#include "dem/tile_particles.hpp"
-#include "mesh/structured.hpp"
+#include "dem/particles/tile_particles.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 

@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "dem/bonds/tile_bonds.hpp"
-#include "dem/lattice.hpp"
+#include "dem/templates/lattice.hpp"
 #include "tests/verification/dem/pieces.hpp"
 
 namespace snag {

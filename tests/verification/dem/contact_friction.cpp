@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 
 namespace snag {

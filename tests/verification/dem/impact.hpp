@@ -1,7 +1,7 @@
 #pragma once
 // Single impacts of spheres, followed from touching to parting.
 #include "dem/contacts/contact_pair.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 
 namespace snag::testing_impact {

@@ -5,7 +5,7 @@
 
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_measures.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 #include "tests/unit/dem/wall_pieces.hpp"
 #include "tests/verification/dem/pieces.hpp"
 

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_measures.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "dem/contacts/contact_pair.hpp"
-#include "dem/walls.hpp"
+#include "dem/walls/walls.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 #include "tests/unit/dem/wall_pieces.hpp"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "diagnosis/where.hpp"
+#include "diagnosis/localisation/where.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 namespace snag::formula {
 

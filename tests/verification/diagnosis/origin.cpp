@@ -3,8 +3,8 @@
 // the begin of a window.
 #include <gtest/gtest.h>
 
-#include "diagnosis/restart.hpp"
-#include "diagnosis/where.hpp"
+#include "diagnosis/attribution/restart.hpp"
+#include "diagnosis/localisation/where.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/statistics.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 
 using namespace snag;
 

@@ -6,7 +6,7 @@
 
 #include "../../unit/mesh/check.hpp"
 #include "../../unit/mesh/sample.hpp"
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 
 namespace {
 

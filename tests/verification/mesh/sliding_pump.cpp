@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "tests/unit/mesh/sliding_check.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "mesh/structured.hpp"
+#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/parts.hpp"
+#include "mesh/import/parts.hpp"
 
 namespace snag::test {
 

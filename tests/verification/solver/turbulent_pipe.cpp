@@ -1,7 +1,7 @@
 // ranks: 1
 #include <gtest/gtest.h>
 
-#include "mesh/parts.hpp"
+#include "mesh/import/parts.hpp"
 #include "tests/verification/solver/developed_turbulence.hpp"
 #include "tests/verification/solver/flow_cases.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Water in two rings, the inner of which turns: the mesh, its zone, and what the verifications of the turning zone share.
-#include "mesh/import.hpp"
+#include "mesh/import/import.hpp"
 #include "tests/unit/mesh/sliding_shells.hpp"
 #include "tests/verification/solver/flow_cases.hpp"
 

@@ -1,0 +1,45 @@
+#pragma once
+// One run of a case for what a measurement would tell of it: no output, no files, on this rank alone.
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/case_file.hpp"
+#include "base/vec3.hpp"
+#include "diagnosis/data/simulator.hpp"
+#include "simulation/setup/water_store.hpp"
+
+namespace snag {
+
+/// One number asked of a run: x,y,z (centre of mass, m), vx,vy,vz (m/s), area (m2), elongation_ratio, orientation (rad) at a time; or, time
+/// NaN, their mean over the time in the window of the camera; or, time NaN, retention_time (s), recirculations, stuck, exited of the whole
+/// run.
+struct Asked {
+  std::string observable;
+  double time = std::numeric_limits<double>::quiet_NaN();  // s
+};
+
+/// True for the names above.
+bool is_observable_of_particles(const std::string& name);
+
+/// Of a particle in its piece.
+struct PlaceInPiece {
+  Vec3 x;                     // m
+  double along = 0;           // lengthwise, -1 to 1 from end to end
+  double mean_abs_along = 0;  // mean of |along| over the columns of the piece
+  Vec3 normal;                // of the piece, here: lengthwise x crosswise, turned with it
+};
+
+/// Acceleration of a particle beside all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
+using OutsideForce = std::function<Vec3(double time, const PlaceInPiece& place)>;
+
+/// Runs a case in a prescribed flow or in frozen water of a mesh, up to the last time that is asked for (its end, if a number of the whole
+/// run is asked for; earlier, if every rag has left the mesh). NaN where there is no answer: a time beyond the end of the case, a retention
+/// time of a piece that stays, a window that was never reached. `step_factor`: of the time step, which is rounded to a whole number of
+/// steps, and of the sub-step, as far as that is stable. `store`: holds meshes and water between runs. `restart`: at the last step before
+/// its time; in a prescribed flow only. Throws Error.
+std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor = 1, const OutsideForce& outside = {},
+                            WaterStore* store = nullptr, const std::optional<Restart>& restart = {});
+
+}  // namespace snag

@@ -1,0 +1,315 @@
+#include "casework/case_simulator.hpp"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/quotation.hpp"
+#include "base/sha256.hpp"
+#include "base/version.hpp"
+#include "base/words.hpp"
+#include "casework/input_nuisances.hpp"
+#include "casework/mesh_run.hpp"
+#include "casework/run_table.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace {
+
+/// Slots of a point: what the data have, by observable and time, each once.
+std::vector<Slot> slots_of(const Experiment& experiment, int point) {
+  std::set<std::pair<int, double>> timed;
+  std::set<int> whole;
+  for (const Datum& datum : experiment.data) {
+    if (datum.point != point) continue;
+    if (std::isnan(datum.time))
+      whole.insert(datum.observable);
+    else
+      timed.emplace(datum.observable, datum.time);
+  }
+  std::vector<Slot> slots;
+  for (const auto& [observable, time] : timed) slots.push_back({observable, time});
+  for (const int observable : whole) slots.push_back({.observable = observable});
+  return slots;
+}
+
+BaseCase any_of(BaseCase a, const BaseCase& b) {
+  a.prescribed = a.prescribed && b.prescribed;
+  for (bool BaseCase::*fact :
+       {&BaseCase::wall, &BaseCase::gravity, &BaseCase::flows, &BaseCase::uniform, &BaseCase::varies, &BaseCase::gradient,
+        &BaseCase::turbulence, &BaseCase::bonds, &BaseCase::sheet, &BaseCase::several, &BaseCase::oriented})
+    a.*fact = a.*fact || b.*fact;
+  return a;
+}
+
+bool is_position(const std::string& id) { return id == "x" || id == "y" || id == "z"; }
+bool is_length(const std::string& id) { return is_position(id) || id == "vx" || id == "vy" || id == "vz"; }
+
+/// The largest range of a coordinate in the data: so large a camera's picture is at least.
+double picture_size_of(const Experiment& experiment) {
+  double size = 0;
+  for (std::size_t o = 0; o < experiment.observables.size(); ++o) {
+    if (!is_position(experiment.observables[o].id)) continue;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Datum& datum : experiment.data)
+      if (datum.observable == static_cast<int>(o)) low = std::min(low, datum.value), high = std::max(high, datum.value);
+    size = std::max(size, high - low);
+  }
+  return size;
+}
+
+/// Of the executable file: runs of another program are not these, committed or not.
+std::string program_fingerprint(MPI_Comm comm) {
+  static std::string known;
+  std::string own = known;
+  if (rank_of(comm) == 0 && own.empty()) own = sha256(file_text("/proc/self/exe").value_or(version_git));
+  own.resize(64);
+  MPI_Bcast(own.data(), 64, MPI_CHAR, 0, comm);
+  return known = own;
+}
+
+std::string text_of(const std::string& name, double value) {
+  char digits[32];
+  return name + "=" + std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr) + ";";
+}
+
+std::string text_of(const std::map<std::string, double>& values) {
+  std::string text;
+  for (const auto& [name, value] : values)
+    if (value != 0) text += text_of(name, value);
+  return text;
+}
+
+std::string text_of(const Restart& restart) {
+  std::string text = text_of("restart", restart.time);
+  for (const double value : restart.position) text += text_of("x", value);
+  for (const double value : restart.velocity) text += text_of("v", value);
+  return text;
+}
+
+/// Empty where there is no such file.
+std::string shared_text(MPI_Comm comm, const std::filesystem::path& file) {
+  std::string text;
+  together(comm, [&] {
+    if (rank_of(comm) == 0) text = file_text(file).value_or("");
+    if (text.size() > std::numeric_limits<int>::max())
+      throw Error(ExitCode::io, file.string() + ": has more than 2 GB; is it the right one?");
+  });
+  long length = static_cast<long>(text.size());
+  MPI_Bcast(&length, 1, MPI_LONG, 0, comm);
+  text.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, comm);
+  return text;
+}
+
+}  // namespace
+
+CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder)
+    : comm_(comm), folder_(folder), observables_(experiment.observables), picture_size_(picture_size_of(experiment)) {
+  if (!folder_.empty()) program_ = program_fingerprint(comm_);
+  for (std::size_t p = 0; p < experiment.points.size(); ++p) {
+    PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
+    if (base.is_whole_run() && folder_.empty())
+      throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
+    for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
+    std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
+    std::vector<Asked> asked;
+    const std::string of_case = base.sha256() + program_;
+    std::string fingerprint = base.sha256();
+    for (const Slot& slot : slots) {
+      const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
+      if (!base.is_whole_run() && !is_observable_of_particles(id))
+        throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": observable \"" + id +
+                                         "\" is no number of a case without a mesh; there are x, y, z, vx, vy, vz, area, elongation_ratio, "
+                                         "orientation, retention_time, recirculations, stuck, exited");
+      asked.push_back({id, slot.time});
+      fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
+    }
+    for (const Alternative& alternative : experiment.alternatives)
+      base.set_alternative(alternative.effect, overrides_at(alternative, experiment.points[p].id));
+    points_.push_back({std::move(base), std::move(slots), std::move(asked), of_case, sha256(fingerprint)});
+  }
+  BaseCase facts = points_.front().base.facts();
+  std::set<std::string> held;  // a force that one point holds cannot be added to all
+  for (const Point& point : points_) {
+    facts = any_of(facts, point.base.facts());
+    held.insert(point.base.forces().begin(), point.base.forces().end());
+  }
+  effects_ = library_effects(facts, {held.begin(), held.end()});
+  set_alternatives(effects_, experiment.alternatives);
+  find_nuisances(experiment);
+  if (!folder_.empty()) open_cache(folder_ / "runs.tsv");
+  if (!experiment.runs.empty()) take_runs(experiment.runs);
+}
+
+void CaseSimulator::find_nuisances(const Experiment& experiment) {
+  std::vector<const PointCase*> bases;
+  std::vector<std::vector<std::pair<std::string, double>>> input_u;
+  for (std::size_t p = 0; p < points_.size(); ++p) bases.push_back(&points_[p].base), input_u.push_back(experiment.points[p].input_u);
+  nuisances_ = input_nuisances(bases, input_u);
+  std::vector<int> all(points_.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
+  std::set<std::string> groups;
+  for (const Observable& observable : observables_)
+    if (observable.bias_u > 0 && groups.insert(calibration_of(observable)).second)
+      nuisances_.push_back({calibration_of(observable), 1, all});
+}
+
+CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
+  const Point& point = points_.at(static_cast<std::size_t>(request.point));
+  std::map<std::string, double> of_case = request.nuisances;
+  for (const Observable& observable : observables_) of_case.erase(calibration_of(observable));
+  CaseChange change = point.base.change(request.effects, of_case, request.seed, request.forms);
+  std::sort(change.overrides.begin(), change.overrides.end());
+  std::string settings = text_of({{"step", request.step_factor}});
+  for (const std::string& value : change.overrides) settings += value + ";";
+  if (request.restart) settings += text_of(*request.restart);
+  return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change)};
+}
+
+RunResult CaseSimulator::done(const Job& job) const {
+  const Point& point = points_[static_cast<std::size_t>(job.request->point)];
+  RunResult result;
+  try {
+    result.values =
+        run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor, {}, &store_, job.request->restart);
+  } catch (const std::exception& failure) {
+    result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
+    result.failure = failure.what();
+  }
+  return result;
+}
+
+RunResult CaseSimulator::done_together(const Job& job) const {
+  const Point& point = points_[static_cast<std::size_t>(job.request->point)];
+  // Whatever is asked of it: monitors and summary answer later questions too.
+  const std::string name = numbered("run", job.request->point) + "_" + sha256(point.of_case + job.settings).substr(0, 16);
+  std::vector<std::string> overrides = point.base.from_elsewhere(job.change.overrides);
+  if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
+  RunResult result;
+  try {
+    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name);
+    result.values = answers_of(folder_ / "runs" / name, point.asked);
+  } catch (const Error& failure) {
+    if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;
+    result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
+    result.failure = failure.what();
+  }
+  return result;
+}
+
+RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const {
+  const auto& slots = points_[static_cast<std::size_t>(request.point)].slots;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const Observable& observable = observables_[static_cast<std::size_t>(slots[i].observable)];
+    double& value = raw.values[i];
+    if (is_length(observable.id)) value *= change.picture_scale;
+    if (is_position(observable.id)) value += (1 - change.picture_scale) * picture_size_ * change.picture_centre[observable.id[0] - 'x'];
+    if (observable.id == "area") value *= change.picture_scale * change.picture_scale;
+    const auto deviation = request.nuisances.find(calibration_of(observable));
+    if (deviation == request.nuisances.end() || observable.bias_u <= 0) continue;
+    const double shift = deviation->second * observable.bias_u;
+    value = observable.kind == Observable::Kind::lognormal ? value * std::exp(shift) : value + shift;
+  }
+  return raw;
+}
+
+void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
+  // Every rank fills in its own runs; the bits of the others are zero.
+  constexpr std::size_t text_size = 512;
+  std::vector<std::uint64_t> bits;
+  std::vector<char> failures(fresh.size() * text_size, 0);
+  const int rank = rank_of(comm_), size = size_of(comm_);
+  for (std::size_t j = 0; j < fresh.size(); ++j) {
+    const std::size_t n = slots(fresh[j]->request->point).size(), first = bits.size();
+    bits.resize(first + n, 0);
+    const bool whole_run = is_whole_run(*fresh[j]);
+    if (!whole_run && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
+    const RunResult result = whole_run ? done_together(*fresh[j]) : done(*fresh[j]);
+    for (std::size_t i = 0; i < n; ++i) bits[first + i] = std::bit_cast<std::uint64_t>(result.values[i]);
+    std::strncpy(&failures[j * text_size], result.failure.c_str(), text_size - 1);
+  }
+  if (size > 1) {
+    MPI_Allreduce(MPI_IN_PLACE, bits.data(), static_cast<int>(bits.size()), MPI_UINT64_T, MPI_BOR, comm_);
+    MPI_Allreduce(MPI_IN_PLACE, failures.data(), static_cast<int>(failures.size()), MPI_BYTE, MPI_BOR, comm_);
+  }
+  std::size_t at = 0;
+  for (std::size_t j = 0; j < fresh.size(); ++j) {
+    RunResult result{.values = {}, .failure = &failures[j * text_size]};
+    for (std::size_t i = 0; i < slots(fresh[j]->request->point).size(); ++i) result.values.push_back(std::bit_cast<double>(bits[at++]));
+    kept_.emplace(fresh[j]->key, std::move(result));
+  }
+  together(comm_, [&] {
+    for (const Job* job : fresh) keep(job->key, kept_.at(job->key));
+  });
+  n_runs_ += static_cast<int>(fresh.size());
+}
+
+std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) {
+  std::vector<Job> jobs;
+  jobs.reserve(requests.size());
+  for (const RunRequest& request : requests) {
+    jobs.push_back(job_of(request));
+    used_.insert(jobs.back().key);
+  }
+  std::vector<const Job*> fresh;  // the same on every rank
+  std::set<std::string> listed;
+  for (const Job& job : jobs)
+    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
+
+  // In portions, each of which is kept when it is done: a diagnosis that is stopped goes on from there.
+  constexpr std::size_t per_rank = 8;
+  const std::size_t portion = per_rank * static_cast<std::size_t>(size_of(comm_));
+  for (std::size_t j = 0; j < fresh.size(); j += portion) run_portion(std::span(fresh).subspan(j, std::min(portion, fresh.size() - j)));
+
+  std::vector<RunResult> results;
+  results.reserve(jobs.size());
+  for (const Job& job : jobs) {
+    const RunResult& kept = kept_.at(job.key);
+    if (const std::size_t n = slots(job.request->point).size(); kept.values.size() != n)
+      throw Error(ExitCode::io, "table of runs: \"" + shortened(job.key) + "\" has " + std::to_string(kept.values.size()) +
+                                    " values, its point has " + std::to_string(n) + "; remove the line: that run is then done again");
+    results.push_back(as_observed(*job.request, job.change, kept));
+  }
+  return results;
+}
+
+void CaseSimulator::keep(const std::string& key, const RunResult& result) {
+  if (cache_.descriptor() >= 0) cache_.write(run_table_line({program_.substr(0, 16), key, result}));
+}
+
+void CaseSimulator::open_cache(const std::filesystem::path& file) {
+  const std::string text = shared_text(comm_, file);
+  for (KeptRun& run : run_table(text, file))
+    if (run.program == program_.substr(0, 16)) kept_.emplace(run.key, std::move(run.result));
+  together(comm_, [&] {
+    if (rank_of(comm_) != 0) return;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    // A line that a crash cut off is cut off for good.
+    const std::size_t whole = text.rfind('\n') + 1;
+    if (whole < text.size()) write_atomically(file, std::string_view(text).substr(0, whole));
+    cache_ = OpenFile(file, O_WRONLY | O_CREAT | O_APPEND);
+  });
+}
+
+void CaseSimulator::take_runs(const std::filesystem::path& file) {
+  const std::string text = shared_text(comm_, file);
+  if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs");
+  for (KeptRun& run : run_table(text, file))
+    if (kept_.emplace(run.key, std::move(run.result)).second) taken_.insert(run.key);
+}
+
+int CaseSimulator::n_taken() const {
+  return static_cast<int>(std::count_if(used_.begin(), used_.end(), [&](const std::string& key) { return taken_.contains(key); }));
+}
+
+}  // namespace snag

@@ -1,0 +1,88 @@
+#include "casework/key_changes.hpp"
+
+#include <algorithm>
+
+#include "base/parameter_text.hpp"
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+bool is_number(const toml::node& node) {
+  if (const auto* list = node.as_array()) return !list->empty() && std::all_of(list->begin(), list->end(), is_number);
+  return node.is_number();
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, const toml::table*>> tables_at(const toml::table& root, const std::string& path) {
+  std::vector<std::pair<std::string, const toml::table*>> found{{"", &root}};
+  for (const std::string& step : split(path, '.')) {
+    std::vector<std::pair<std::string, const toml::table*>> next;
+    for (const auto& [prefix, table] : found) {
+      const toml::node* node = table->get(step);
+      if (!node) continue;
+      const std::string name = prefix.empty() ? step : prefix + "." + step;
+      if (const auto* one = node->as_table()) next.emplace_back(name, one);
+      if (const auto* many = node->as_array())
+        for (std::size_t i = 0; i < many->size(); ++i)
+          if (const auto* element = many->get(i)->as_table()) next.emplace_back(name + "." + std::to_string(i), element);
+    }
+    found = std::move(next);
+  }
+  return found;
+}
+
+std::vector<Place> places_of(const toml::table& root, const std::string& key) {
+  const auto dot = key.rfind('.');
+  if (dot == std::string::npos) return {};
+  std::vector<Place> places;
+  for (const auto& [prefix, table] : tables_at(root, key.substr(0, dot))) {
+    const toml::node* value = table->get(key.substr(dot + 1));
+    if (value && is_number(*value)) places.push_back({prefix + "." + key.substr(dot + 1), value});
+  }
+  return places;
+}
+
+std::string scaled_text(const toml::node& node, double factor) {
+  if (const auto* list = node.as_array()) {
+    std::vector<std::string> parts;
+    for (const toml::node& element : *list) parts.push_back(scaled_text(element, factor));
+    return "[" + joined(parts) + "]";
+  }
+  return toml_text(*node.value<double>() * factor);
+}
+
+void KeyChanges::set(const std::string& text) {
+  const auto equals = text.find('=');
+  const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
+  const auto places = places_of(root_, key);
+  for (const Place& place : places) values_[place.key] = value;
+  if (places.empty()) values_[key] = value;
+}
+
+void KeyChanges::scale(const std::string& key, double factor) {
+  for (const Place& place : places_of(root_, key)) {
+    Scaled& scaled = factors_.emplace(place.key, Scaled{place.value, 1}).first->second;
+    scaled.factor *= factor;
+  }
+}
+
+std::vector<std::string> KeyChanges::overrides() const {
+  std::vector<std::string> all;
+  for (const auto& [key, value] : values_)
+    if (!factors_.contains(key)) all.push_back(key + "=" + value);
+  for (const auto& [key, scaled] : factors_) {
+    const auto set = values_.find(key);
+    if (set == values_.end()) {
+      all.push_back(key + "=" + scaled_text(*scaled.value, scaled.factor));
+    } else {
+      const toml::table given = toml::parse("value = " + set->second);
+      all.push_back(key + "=" + scaled_text(*given.get("value"), scaled.factor));
+    }
+  }
+  return all;
+}
+
+}  // namespace snag

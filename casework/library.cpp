@@ -1,0 +1,128 @@
+#include "casework/library.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/parameter_text.hpp"
+#include "base/words.hpp"
+#include "casework/point_case.hpp"
+#include "coupling/fluid_force.hpp"
+#include "dem/candidates.hpp"
+
+namespace snag {
+
+namespace {
+
+/// A setting of the rags: of pieces of any shape.
+LibraryEffect setting_effect(const Candidate& candidate) {
+  LibraryEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
+  if (candidate.prior.key.starts_with("rag."))
+    for (const char* shape : {"disc", "fibre"}) effect.added_to.push_back(shape + candidate.prior.key.substr(3));
+  return effect;
+}
+
+/// The functional forms in which a force is written, the one of a case that names none first.
+std::vector<std::string> forms_of(FluidForce& force) {
+  for (const Parameter& parameter : force.parameters()) {
+    if (parameter.key != "form") continue;
+    std::vector<std::string> forms = parameter.choices;
+    const auto usual = std::find(forms.begin(), forms.end(), *std::get<std::string*>(parameter.target));
+    std::rotate(forms.begin(), usual, usual + 1);
+    return forms;
+  }
+  return {};
+}
+
+std::vector<LibraryEffect> all_of_cases() {
+  std::vector<LibraryEffect> all;
+  for (const std::string& name : fluid_forces().names()) {
+    const auto force = fluid_forces().make(name, "diagnosis");
+    const Card card = force->card();
+    // Gravity is no name in [coupling] forces: it acts where its table is given.
+    if (card.prior) all.push_back({.name = name, .prior = *card.prior, .is_force = name != "gravity", .forms = forms_of(*force)});
+  }
+  for (const Candidate& candidate : dem_candidates()) all.push_back(setting_effect(candidate));
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return all;
+}
+
+/// Why cases with these facts cannot show it; empty: they can.
+std::string reason_against(const Prior& prior, const BaseCase& facts) {
+  if (prior.acts_on_water && facts.prescribed) return "it acts on the water, which is prescribed";
+  const std::vector<std::pair<std::string, std::pair<bool, const char*>>> rules{
+      {"wall", {facts.wall, "there is no wall"}},
+      {"gradient", {facts.gradient, "the flow has no velocity gradient"}},
+      {"turbulence", {facts.turbulence, "the flow has no turbulence"}},
+      {"sheet", {facts.sheet, "there is no sheet"}},
+      {"bonds", {facts.bonds, "there are no bonds"}},
+      {"solid_fraction", {!facts.prescribed, "a prescribed flow has no solid fraction"}},
+      {"gravity", {facts.gravity, "there is no gravity"}},
+      {"contact", {facts.wall || facts.several, "nothing can touch"}},
+      {"several", {facts.several, "there is one particle"}}};
+  for (const std::string& need : prior.needs)
+    for (const auto& [name, rule] : rules)
+      if (name == need && !rule.first) return rule.second;
+  return "";
+}
+
+}  // namespace
+
+const std::vector<LibraryEffect>& library_of_cases() {
+  static const std::vector<LibraryEffect> all = all_of_cases();
+  return all;
+}
+
+const LibraryEffect* library_effect(const std::string& name) {
+  const auto& all = library_of_cases();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const LibraryEffect& effect) { return effect.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string seed_of(const std::string& force, std::uint64_t seed) {
+  return "coupling." + force + ".seed=" + std::to_string(seed % 1000000007);
+}
+
+std::vector<std::string> LibraryEffect::overrides(double theta, int form, std::uint64_t seed,
+                                                  const std::function<std::string(const std::string&)>& base) const {
+  if (name == "gravity") return {prior.key + "=[0.0, 0.0, " + toml_text(-9.81 * theta) + "]"};
+  if (added_to.empty()) {
+    std::vector<std::string> all{prior.key + "=" + toml_text(theta)};
+    if (prior.random) all.push_back(seed_of(name, seed));
+    if (form > 0) all.push_back("coupling." + name + ".form=\"" + forms.at(static_cast<std::size_t>(form)) + "\"");
+    return all;
+  }
+  std::vector<std::string> all;
+  for (const std::string& key : added_to) {
+    double before = 0;
+    const std::string text = base(key);
+    if (text.empty()) continue;  // no such piece
+    std::from_chars(text.data(), text.data() + text.size(), before);
+    all.push_back(key + "=" + toml_text(std::max(0.0, before + theta)));
+  }
+  return all;
+}
+
+std::vector<Effect> library_effects(const BaseCase& facts, const std::vector<std::string>& forces) {
+  std::vector<Effect> all;
+  for (const LibraryEffect& effect : library_of_cases()) {
+    const Prior& p = effect.prior;
+    const bool held = std::find(forces.begin(), forces.end(), effect.name) != forces.end();
+    all.push_back({.name = effect.name,
+                   .parameter = p.meaning,
+                   .unit = p.unit,
+                   .mean = p.mean,
+                   .sd = p.sd,
+                   .minimum = p.minimum,
+                   .maximum = p.maximum,
+                   .random = p.random,
+                   .acts_on_water = p.acts_on_water,
+                   .blind = held ? "the base case holds it" : reason_against(p, facts),
+                   // The mean of random runs is no mixture of their forms.
+                   .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size()))});
+  }
+  for (const std::string& name : effect_models().names()) all.push_back(effect_models().make(name, "diagnosis")->effect(facts));
+  std::sort(all.begin(), all.end(), [](const Effect& a, const Effect& b) { return a.name < b.name; });
+  return all;
+}
+
+}  // namespace snag

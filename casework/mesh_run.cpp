@@ -1,0 +1,129 @@
+#include "casework/mesh_run.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/series.hpp"
+#include "parallel/session.hpp"
+#include "simulation/run.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+nlohmann::json summary_of(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(file_text(folder / "summary.json").value_or(""), nullptr, false);
+}
+
+bool is_done(const std::filesystem::path& folder) {
+  const auto summary = summary_of(folder);
+  return summary.is_object() && summary.value("exit", -1) == 0;
+}
+
+/// A quantity over time, of the first rag where a monitor has several.
+struct Course {
+  std::vector<double> time, value;
+
+  double at(double t) const {
+    const auto next = std::lower_bound(time.begin(), time.end(), t * (1 - 1e-9));
+    if (next == time.end() || (next == time.begin() && *next > t * (1 + 1e-9) + 1e-12)) return nan;
+    const auto i = static_cast<std::size_t>(next - time.begin());
+    if (i == 0 || time[i] == time[i - 1]) return value[i];
+    const double s = std::clamp((t - time[i - 1]) / (time[i] - time[i - 1]), 0.0, 1.0);
+    return value[i - 1] + s * (value[i] - value[i - 1]);
+  }
+  double mean_of_last_half() const {
+    double sum = 0;
+    int n = 0;
+    for (std::size_t i = 0; i < time.size(); ++i)
+      if (time[i] >= 0.5 * time.back()) sum += value[i], ++n;
+    return n > 0 ? sum / n : nan;
+  }
+};
+
+bool has_column(const SeriesTable& table, const std::string& name) {
+  return std::any_of(table.columns.begin(), table.columns.end(),
+                     [&](const std::string& column) { return column == name || column.starts_with(name + " ["); });
+}
+
+/// The monitor that tells a name: rags and pictures first, since others have an x of their own.
+Course course_of(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<std::filesystem::path> files;
+  for (const char* first : {"rags.csv", "silhouettes.csv", "pump.csv"}) files.push_back(folder / "monitors" / first);
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "monitors")) files.push_back(entry.path());
+  std::sort(files.begin() + 3, files.end());
+  for (const auto& file : files) {
+    if (!std::filesystem::exists(file)) continue;
+    const SeriesTable table = read_series(file);
+    if (!has_column(table, name)) continue;
+    const bool of_rags = has_column(table, "rag");
+    Course course;
+    for (std::size_t i = 0; i < table.values.front().size(); ++i) {
+      if (of_rags && table.column("rag")[i] != 0) continue;
+      course.time.push_back(table.column("time")[i]), course.value.push_back(table.column(name)[i]);
+    }
+    return course;
+  }
+  throw Error(ExitCode::usage, folder.string() + ": no monitor of the run has a column \"" + name +
+                                   "\"; an observable is one of x, y, z, vx, vy, vz, area, elongation_ratio, orientation, retention_time, "
+                                   "recirculations, stuck, exited, or a column of a monitor");
+}
+
+double told_of_rag(const nlohmann::json& summary, const std::string& name) {
+  if (!summary.contains("rags") || summary["rags"].empty()) return nan;
+  const auto& rag = summary["rags"].front();
+  const std::string outcome = rag.value("outcome", std::string());
+  if (name == "stuck" || name == "exited") return outcome.starts_with(name) ? 1 : 0;  // stuck_on_tongue, stuck_on_impeller
+  const auto& value = rag.contains(name) ? rag[name] : rag.contains(name + "_s") ? rag[name + "_s"] : nlohmann::json();
+  if (name == "retention_time" && outcome != "exited") return nan;
+  return value.is_number() ? value.get<double>() : nan;
+}
+
+}  // namespace
+
+void run_in_folder(const std::string& case_text, const std::vector<std::string>& overrides, const std::filesystem::path& folder) {
+  auto case_file = folder;
+  case_file += ".toml";
+  int done = 0, begun = 0;
+  together(MPI_COMM_WORLD, [&] {
+    std::filesystem::create_directories(folder.parent_path());
+    if (rank_of(MPI_COMM_WORLD) == 0) write_atomically(case_file, case_text);
+    done = is_done(folder), begun = std::filesystem::exists(folder / "checkpoint");
+  });
+  MPI_Bcast(&done, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  MPI_Bcast(&begun, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  if (done) return;
+  const ExitCode code =
+      run_case({.case_file = case_file, .out = folder, .overrides = overrides, .resume = begun != 0, .overwrite = begun == 0});
+  if (code == ExitCode::stopped)
+    throw Error(code, folder.string() + ": the run was stopped; start the same diagnosis again, it goes on from the checkpoint");
+  if (code != ExitCode::ok)
+    throw Error(code, "exit code " + std::to_string(static_cast<int>(code)) + "; why is in " + (folder / "log.txt").string());
+}
+
+std::vector<double> answers_of(const std::filesystem::path& folder, const std::vector<Asked>& asked) {
+  const auto summary = summary_of(folder);
+  std::map<std::string, Course> courses;
+  std::vector<double> values;
+  for (const Asked& one : asked) {
+    const std::string& name = one.observable;
+    if (name == "retention_time" || name == "recirculations" || name == "stuck" || name == "exited" || name == "time_to_enter") {
+      values.push_back(told_of_rag(summary, name));
+      continue;
+    }
+    if (!courses.contains(name)) courses[name] = course_of(folder, name);
+    values.push_back(std::isnan(one.time) ? courses[name].mean_of_last_half() : courses[name].at(one.time));
+  }
+  return values;
+}
+
+}  // namespace snag

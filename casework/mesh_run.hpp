@@ -1,0 +1,20 @@
+#pragma once
+// A run of a case with a mesh for a diagnosis: a whole `snag run` in a folder of its own, kept there, on all ranks together.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "casework/case_run.hpp"
+
+namespace snag {
+
+/// Runs the case (its resolved text with overrides) in `folder`, or goes on with the run that is there, or only reads it if it is done.
+/// Collective over all ranks; throws Error.
+void run_in_folder(const std::string& case_text, const std::vector<std::string>& overrides, const std::filesystem::path& folder);
+
+/// Answers from a finished run, of its first rag: places, velocities and pictures from its monitors, retention_time, recirculations, stuck,
+/// exited from its summary; any other name is a column of a monitor (head, torque ...): at a time, or, without one, its mean over the last
+/// half of the run. NaN where the run does not tell. Throws Error(usage) for a name that no monitor has, Error(io).
+std::vector<double> answers_of(const std::filesystem::path& folder, const std::vector<Asked>& asked);
+
+}  // namespace snag

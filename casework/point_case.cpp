@@ -1,0 +1,236 @@
+#include "casework/point_case.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/parameter_text.hpp"
+#include "base/words.hpp"
+#include "casework/key_changes.hpp"
+#include "casework/library.hpp"
+#include "simulation/setup/simulation.hpp"
+
+namespace snag {
+
+struct PointCase::Tree {
+  toml::table root;
+};
+
+namespace {
+
+constexpr const char* flow_field = "flow.amplitude";
+/// What sets the flow of water that is computed.
+constexpr std::array set_points{"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s", "boundary.velocity_m_s",
+                                "flow.initial_velocity_m_s"};
+constexpr const char *drag_form = "drag_form", *drag_form_of_point = "drag_form_of_point", *drag_slope = "drag_form.slope";
+
+bool is_zero(const toml::node* node) {
+  if (!node) return true;
+  if (const auto* list = node->as_array()) return std::all_of(list->begin(), list->end(), [](const toml::node& n) { return is_zero(&n); });
+  return node->value<double>().value_or(0) == 0;
+}
+
+Vec3 vector_of(const toml::node* node, const Vec3& fallback) {
+  const auto* list = node ? node->as_array() : nullptr;
+  if (!list || list->size() != 3) return fallback;
+  return {list->get(0)->value_or(0.0), list->get(1)->value_or(0.0), list->get(2)->value_or(0.0)};
+}
+
+BaseCase facts_of(const toml::table& root, const Simulation& run) {
+  BaseCase facts;
+  const auto value = [&](const std::string& key) {
+    const auto places = places_of(root, key);
+    return places.empty() ? nullptr : places.front().value;
+  };
+  facts.prescribed = !run.mesh || run.frozen();
+  facts.wall = !run.walls.empty();
+  facts.gravity = root.contains("gravity");
+  facts.gradient = run.mesh || !is_zero(value("flow.gradient_per_s"));
+  facts.uniform = !is_zero(value("flow.velocity_m_s"));
+  if (run.mesh)
+    facts.uniform = run.frozen() || std::any_of(set_points.begin(), set_points.end(), [&](const char* key) {
+                      const auto places = places_of(root, key);
+                      return std::any_of(places.begin(), places.end(), [](const Place& place) { return !is_zero(place.value); });
+                    });
+  facts.varies = !run.frozen() && (facts.gradient || !is_zero(value("flow.amplitude_m_s")));
+  facts.flows = facts.uniform || (facts.varies && !run.mesh);
+  facts.turbulence = run.mesh || !is_zero(value("flow.turbulent_kinetic_energy_m2_s2"));
+  std::int64_t n = 0;
+  for (const Rag& rag : run.rags->rags()) {
+    n += rag.n_particles;
+    facts.bonds = facts.bonds || rag.n_bonds > 0;
+    facts.sheet = facts.sheet || (rag.n_columns > 1 && rag.n_rows > 1);
+  }
+  facts.several = n > 1, facts.oriented = n > 1;
+  return facts;
+}
+
+std::vector<std::string> listed_forces(const toml::table& root) {
+  std::vector<std::string> names;
+  if (const auto* list = root["coupling"]["forces"].as_array())
+    for (const toml::node& name : *list) names.push_back(name.value_or(std::string()));
+  if (root.contains("gravity")) names.emplace_back("gravity");
+  return names;
+}
+
+/// Adds to the exponent of Re in the drag, beside what the candidate of that name does.
+void add_exponent(double exponent, const std::map<std::string, double>& effects, KeyChanges& keys, std::vector<std::string>& forces) {
+  constexpr const char* name = "drag_exponent";
+  const auto effect = effects.find(name);
+  keys.set(std::string("coupling.") + name + ".exponent=" + toml_text(exponent + (effect == effects.end() ? 0 : effect->second)));
+  if (std::find(forces.begin(), forces.end(), name) == forces.end()) forces.emplace_back(name);
+}
+
+/// v turned by an angle about a unit axis (Rodrigues).
+Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
+}
+
+}  // namespace
+
+PointCase::~PointCase() = default;
+PointCase::PointCase(PointCase&&) noexcept = default;
+PointCase& PointCase::operator=(PointCase&&) noexcept = default;
+
+PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, WaterStore* store)
+    : file_(file), tree_(std::make_unique<Tree>()) {
+  const CaseFile read = CaseFile::read(file, overrides);
+  StartSettings start;
+  read.root().table("start").read(start.section().parameters);
+  const log::Silence silence;
+  const bool whole_run = read.root().has("mesh") && !start.frozen;
+  const Simulation run(read, whole_run ? MPI_COMM_WORLD : MPI_COMM_SELF, {}, store);
+  if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
+  resolved_ = read.resolved(), sha256_ = read.sha256();
+  tree_->root = toml::parse(resolved_);
+  facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
+  forces_ = listed_forces(tree_->root);
+  for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
+  for (const std::string& name : forces_) {
+    const std::string key = "coupling." + name + ".drag_factor";
+    if (!places_of(tree_->root, key).empty()) drag_factors_.push_back(key);
+  }
+  const View view = run.observe_settings.view();
+  right_ = view.right, up_ = view.up;
+}
+
+void PointCase::check_nuisance(const std::string& key) const {
+  if (key == drag_form || key == drag_form_of_point || (key == flow_field && (facts_.prescribed || facts_.flows))) return;
+  if (!places_of(tree_->root, key).empty()) return;
+  throw Error(ExitCode::usage, file_.string() + ": input_u names \"" + key +
+                                   "\", which is no number of this case; give a key of the case with its unit such as "
+                                   "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
+                                   "whole flow field (of computed water: its set-points), \"drag_form\" or \"drag_form_of_point\"");
+}
+
+std::string PointCase::value_of(const std::string& key) const {
+  std::vector<std::string> values;
+  for (const Place& place : places_of(tree_->root, key)) values.push_back(scaled_text(*place.value, 1));
+  return joined(values);
+}
+
+void PointCase::turn(double angle, std::vector<std::string>& overrides) const {
+  const Vec3 axis = cross(right_, up_);
+  for (const char* shape : {"rag", "disc", "fibre"})
+    for (const auto& [path, table] : tables_at(tree_->root, shape)) {
+      const Vec3 along = vector_of(table->get("lengthwise"), {1, 0, 0}), across = vector_of(table->get("crosswise"), {0, 1, 0});
+      overrides.push_back(path + ".lengthwise=" + toml_text(turned(along, axis, angle)));
+      if (std::string(shape) != "fibre") overrides.push_back(path + ".crosswise=" + toml_text(turned(across, axis, angle)));
+    }
+}
+
+CaseChange PointCase::change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances,
+                             std::uint64_t seed, const std::map<std::string, int>& forms_of_effects) const {
+  CaseChange change;
+  RunChange run;
+  KeyChanges keys(tree_->root);
+  std::vector<std::string> forces = forces_;
+  std::erase(forces, "gravity");
+  const std::size_t n_base = forces.size();
+  if (crumpled_) keys.set("rag.seed=" + std::to_string(seed % 1000000007));  // each replicate is another crumple
+  for (const std::string& name : forces) {
+    const LibraryEffect* held = library_effect(name);
+    if (held && held->prior.random) keys.set(seed_of(name, seed));
+  }
+  for (const auto& [name, theta] : effects) {
+    if (theta == 0) continue;  // the base model to the bit
+    if (const auto alternative = alternatives_.find(name); alternative != alternatives_.end()) {
+      for (const std::string& text : alternative->second) keys.set(text);
+      continue;
+    }
+    const auto chosen = forms_of_effects.find(name);
+    const int form = chosen == forms_of_effects.end() ? 0 : chosen->second;
+    if (const LibraryEffect* of_library = library_effect(name)) {
+      if (of_library->is_force && std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
+      for (const std::string& text : of_library->overrides(theta, form, seed, [this](const std::string& key) { return value_of(key); }))
+        keys.set(text);
+    } else {
+      effect_models().make(name, "diagnosis")->change(theta, form, seed, run);
+    }
+  }
+  double exponent = 0;
+  for (const auto& [name, deviation] : nuisances) {
+    if (deviation == 0) continue;
+    if (name == flow_field)
+      run.flow_factor *= 1 + deviation;
+    else if (name == drag_form || name == drag_form_of_point)
+      for (const std::string& key : drag_factors_) keys.scale(key, 1 + deviation);
+    else if (name == drag_slope)
+      exponent += deviation;
+    else
+      keys.scale(name, 1 + deviation);
+  }
+  if (exponent != 0) add_exponent(exponent, effects, keys, forces);
+  if (forces.size() > n_base) {
+    for (std::string& name : forces) name = toml_text(name);
+    keys.set("coupling.forces=[" + joined(forces) + "]");
+  }
+  if (run.flow_factor != 1 && facts_.prescribed) keys.scale("flow.velocity_m_s", run.flow_factor);
+  const double varying = run.flow_factor * run.varying_factor;
+  if (varying != 1)
+    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s", "start.velocity_factor"}) keys.scale(key, varying);
+  if (run.flow_factor != 1 && !facts_.prescribed)
+    for (const char* key : set_points) keys.scale(key, run.flow_factor);
+  change.overrides = keys.overrides();
+  if (run.turn != 0) turn(run.turn, change.overrides);
+  change.picture_scale = run.picture_scale, change.picture_centre = run.picture_centre;
+  return change;
+}
+
+std::string PointCase::with_step_factor(double factor) const {
+  const auto number = [&](const char* key) { return places_of(tree_->root, key).front().value->value<double>().value(); };
+  const double end = number("time.end_s");
+  const auto n = std::max(1.0, std::round(end / number("time.step_s") / factor));
+  return "time.step_s=" + toml_text(end / n);
+}
+
+double PointCase::end() const { return places_of(tree_->root, "time.end_s").front().value->value<double>().value(); }
+
+// Resolved paths are absolute: so a file is told from another text.
+bool PointCase::names_file(const std::string& table, const std::string& key) const {
+  for (const auto& found : tables_at(tree_->root, table)) {
+    const toml::node* value = found.second->get(key);
+    if (value != nullptr && value->value_or(std::string()).starts_with('/')) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> PointCase::from_elsewhere(std::vector<std::string> overrides) const {
+  for (std::string& text : overrides) {
+    const std::size_t equals = text.find('='), dot = text.rfind('.', equals);
+    if (equals == std::string::npos || dot == std::string::npos) continue;
+    if (!names_file(text.substr(0, dot), text.substr(dot + 1, equals - dot - 1))) continue;
+    std::string name = text.substr(equals + 1);
+    std::erase(name, '"');
+    text = text.substr(0, equals + 1) + toml_text(std::filesystem::absolute(file_.parent_path() / name).lexically_normal().string());
+  }
+  return overrides;
+}
+
+CaseFile PointCase::with(const std::vector<std::string>& overrides) const { return CaseFile::parse(resolved_, file_.string(), overrides); }
+
+}  // namespace snag

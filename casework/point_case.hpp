@@ -1,0 +1,84 @@
+#pragma once
+// The base case of an operating point, and how effects and uncertain inputs change it: as values of its keys.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/case_file.hpp"
+#include "diagnosis/effects/effect_model.hpp"
+#include "simulation/setup/water_store.hpp"
+
+namespace snag {
+
+/// One run of a point: values of keys that differ from the base case, and what the camera makes of it.
+struct CaseChange {
+  std::vector<std::string> overrides{};  // "section.key=value"
+  double picture_scale = 1;
+  Vec3 picture_centre{};  // where the scale leaves lengths as they are, in sizes of the picture
+};
+
+class PointCase {
+ public:
+  /// Reads the base case and builds it once, so that what is wrong with it is told at once. Throws Error.
+  /// `overrides`: values of the case that this point replaces; `store`: holds meshes and water of several cases.
+  explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, WaterStore* store = nullptr);
+  ~PointCase();
+  PointCase(PointCase&&) noexcept;
+  PointCase& operator=(PointCase&&) noexcept;
+
+  const BaseCase& facts() const { return facts_; }
+  const std::string& sha256() const { return sha256_; }
+  /// Forces that the base case lists, gravity among them where it is given.
+  const std::vector<std::string>& forces() const { return forces_; }
+  /// The water is computed with the rags: a run of all ranks with an output folder, instead of one in memory.
+  bool is_whole_run() const { return !facts_.prescribed; }
+  /// Runs can go on from a measured state: nothing hangs on the cell that holds a particle.
+  bool restarts() const { return restarts_; }
+
+  /// The case of a run of this seed with effects (theta by name) and nuisances (relative deviation by name). Throws Error(usage) for a name
+  /// that is neither an effect nor a key of the case.
+  /// `forms`: of the effects, by index; what is not there: the first.
+  CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed,
+                    const std::map<std::string, int>& forms = {}) const;
+  /// From now on the effect of that name is these values of the case.
+  void set_alternative(const std::string& effect, const std::vector<std::string>& overrides) { alternatives_[effect] = overrides; }
+  /// The override that changes the number of steps by 1/factor.
+  std::string with_step_factor(double factor) const;
+  /// Time at which a run ends, s.
+  double end() const;
+  const std::string& resolved() const { return resolved_; }
+  /// The same overrides for a copy of the case in another folder: files that they name lie beside the case.
+  std::vector<std::string> from_elsewhere(std::vector<std::string> overrides) const;
+  /// The case file of such a run.
+  CaseFile with(const std::vector<std::string>& overrides) const;
+  /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all
+  /// drag, alike at all points), "drag_form_of_point" (all drag, at each point on its own: Reynolds numbers far apart), or a number of the
+  /// case by its resolved key, such as "particle.density_kg_m3".
+  void check_nuisance(const std::string& key) const;
+  /// Value of a number of the case, as TOML, "" if there is none; two points with equal values share its deviation.
+  std::string value_of(const std::string& key) const;
+
+ private:
+  struct Tree;
+  void turn(double angle, std::vector<std::string>& overrides) const;
+  /// Whether a key of the case holds a path.
+  bool names_file(const std::string& table, const std::string& key) const;
+
+  std::filesystem::path file_;
+  std::string resolved_, sha256_;
+  std::unique_ptr<Tree> tree_;  // of resolved_
+  BaseCase facts_;
+  bool crumpled_ = false;  // a piece starts crumpled, by its seed
+  bool restarts_ = false;
+  std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
+  std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
+  Vec3 right_, up_;                                               // of the camera
+};
+
+/// Effects that this library can add to base cases with these facts, by name; `forces`: those that the base cases hold already.
+std::vector<Effect> library_effects(const BaseCase& facts, const std::vector<std::string>& forces);
+
+}  // namespace snag

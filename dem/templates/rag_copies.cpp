@@ -1,0 +1,52 @@
+#include "dem/templates/rag_copies.hpp"
+
+#include <cstdint>
+
+#include "base/error.hpp"
+#include "base/random_numbers.hpp"
+
+namespace snag {
+
+std::vector<Parameter> RagCopies::parameters() {
+  return {
+      {.key = "copies", .target = &count, .minimum = 1, .maximum = 1e6, .meaning = "Number of equal pieces that this table gives."},
+      {"copy_step", &step, "m", -infinity, infinity, Basis::assumed, "From the centre of one copy to that of the next."},
+      {"copy_interval", &interval, "s", 0, infinity, Basis::assumed, "Each copy is put in this much later than the one before."},
+      {.key = "copy_poses",
+       .target = &poses,
+       .minimum = 1,
+       .maximum = 1e6,
+       .meaning = "Crumpled copies: how many different poses there are, by seeds that count up from `seed`; taken in turn."},
+      setting("release_patch", &release.patch, "Patch of the mesh at which the pieces are put in; centre then counts from there."),
+      {"release_depth", &release.depth, "m", 0, infinity, Basis::assumed, "Of the centre below the patch, into the water."},
+      {"release_spread", &release.spread, "1", 0, 1, Basis::assumed,
+       "0: all at the middle of the patch; 1: anywhere on it; in between: so much of the way from its middle."},
+      {.key = "release_seed", .target = &release.seed, .minimum = 0, .meaning = "Each seed gives other places on the patch."},
+  };
+}
+
+std::vector<RagPiece> copies_of(const RagPiece& piece, const RagCopies& copies, const std::string& where) {
+  const ReleasePlan& release = copies.release;
+  if (release.patch.empty() && (release.depth > 0 || release.spread > 0))
+    throw Error(ExitCode::usage, where + ": release_depth and release_spread need release_patch; give it, or remove them");
+  if (copies.poses > 1 && !piece.plan.crumpled())
+    throw Error(ExitCode::usage,
+                where + ": copy_poses needs pose = \"confined\" or \"hopper\", it is \"" + piece.plan.kind + "\"; set pose, or remove it");
+  std::vector<RagPiece> all(copies.count, piece);
+  for (int k = 0; k < copies.count; ++k) {
+    RagPiece& copy = all[k];
+    if (copies.count > 1 && !piece.rag.name.empty()) copy.rag.name += " " + std::to_string(k + 1);
+    copy.centre += static_cast<double>(k) * copies.step;
+    copy.insert_time += k * copies.interval;
+    copy.plan.seed += k % copies.poses;
+    copy.release = release, copy.release.index = k;
+  }
+  return all;
+}
+
+double release_share(int seed, int index) {
+  const std::uint64_t start = static_cast<std::uint64_t>(seed) << 32 | static_cast<std::uint32_t>(index);
+  return static_cast<double>(mixed(start) >> 11) * 0x1p-53;
+}
+
+}  // namespace snag

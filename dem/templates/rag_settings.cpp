@@ -1,0 +1,210 @@
+#include "dem/templates/rag_settings.hpp"
+
+#include <array>
+
+namespace snag {
+
+namespace {
+
+using Shape = RagSettings::Shape;
+
+struct ShapeText {
+  const char* table;
+  const char* meaning;
+};
+constexpr std::array<ShapeText, 4> shape_texts{{
+    {"rag", "A rectangular sheet of cloth: spheres in an in-line grid, bonded to their four neighbours."},
+    {"disc", "A round sheet of cloth."},
+    {"fibre", "A chain of bonded spheres."},
+    {"particle", "A single sphere."},
+}};
+
+using Records = std::vector<Parameter>;
+
+Parameter number(const char* key, ParameterTarget target, const char* unit, double minimum, Basis basis, const char* meaning) {
+  return {.key = key, .target = target, .unit = unit, .minimum = minimum, .basis = basis, .meaning = meaning};
+}
+
+void add_size(RagSettings& s, Records& r) {
+  if (s.shape == Shape::rag) {
+    r.push_back(number("length", &s.length, "m", 1e-6, Basis::measured, "Side along the lattice's rows, rounded to whole particles."));
+    r.push_back(number("width", &s.width, "m", 1e-6, Basis::measured, "Side across the rows, rounded to whole particles."));
+  }
+  if (s.shape == Shape::fibre) {
+    r.push_back(number("length", &s.length, "m", 1e-6, Basis::assumed, "Length, rounded to whole particles unless n_points is given."));
+    r.push_back({.key = "n_points",
+                 .target = &s.n_points,
+                 .minimum = 0,
+                 .meaning = "Particles; 0: length over particle diameter. Given, the particle radius follows from the length."});
+    r.push_back(number("diameter", &s.diameter, "m", 0, Basis::assumed,
+                       "Of the fibre, for mass, drag and stiffness as a beam; 0: particle diameter."));
+  }
+  if (s.shape == Shape::disc) r.push_back(number("diameter", &s.diameter, "m", 1e-6, Basis::measured, "Of the disc."));
+  if (s.shape == Shape::particle) {
+    r.push_back(number("diameter", &s.diameter, "m", 1e-9, Basis::assumed, "Of the sphere."));
+    r.push_back(number("density", &s.density, "kg/m3", 1e-3, Basis::assumed, "Of the sphere."));
+  } else {
+    r.push_back(number("radius", &s.radius, "m", 1e-7, Basis::literature, "Of a particle (r_p); lattice spacing is twice that."));
+  }
+}
+
+void add_mass(RagSettings& s, Records& r) {
+  if (s.shape == Shape::particle) return;
+  if (s.shape == Shape::fibre) {
+    r.push_back(number("density", &s.density, "kg/m3", 1e-3, Basis::literature, "Of the fibre (polyester)."));
+    return;
+  }
+  r.push_back(number("thickness", &s.thickness, "m", 1e-7, Basis::measured,
+                     "Of the cloth; times (2 r_p)^2 the volume in which a particle feels buoyancy, added mass and pressure gradient."));
+  r.push_back(number("mass_per_area", &s.mass_per_area, "kg/m2", 1e-4, Basis::measured,
+                     "Of the soaked cloth: 0.060 kg/m2 of polyester and water in the rest of the thickness."));
+  r.push_back(
+      setting("as_published", &s.as_published,
+              "Density of the spheres 538 (1 mm/r_p) kg/m3 instead of mass_per_area, as in the coupled simulations of Jensen (2018)."));
+}
+
+void add_plan(PosePlan& p, Records& r) {
+  r.push_back(
+      setting("pose", &p.kind,
+              "How the sheet lies. folded: like a fan. confined: crumpled by a smooth pipe that closes in around the flat sheet, in "
+              "a run of the particles alone. hopper: fallen through a smooth cone into the pipe (Jensen 2018, section 5.2.2).",
+              {"flat", "folded", "confined", "hopper"}));
+  const auto folds = [&](const char* key, int* target, const char* meaning) {
+    r.push_back({.key = key, .target = target, .minimum = 0, .maximum = 1e6, .meaning = meaning});
+  };
+  folds("folds_lengthwise", &p.folds_lengthwise, "folded: number of folds, which shorten the length; layers are 4 r_p apart.");
+  folds("folds_crosswise", &p.folds_crosswise, "folded: the same for the width; cloth is folded in one of the two directions.");
+  r.push_back(number("confine_radius", &p.confine_radius, "m", 0, Basis::assumed,
+                     "confined, hopper: radius of the pipe, whose axis goes through centre."));
+  r.push_back(number("confine_length", &p.confine_length, "m", 0, Basis::assumed,
+                     "confined: length of the pipe, between two ends that close in too; 0: without ends, and the mean of the particles "
+                     "along the axis is at centre."));
+  r.push_back(number("confine_axis", &p.confine_axis, "1", -infinity, Basis::assumed,
+                     "confined, hopper: direction of the pipe, any length; that of gravity for a hopper."));
+  r.push_back({.key = "hopper_angle",
+               .target = &p.hopper_angle,
+               .unit = "rad",
+               .minimum = 0.05,
+               .maximum = 1.5,
+               .meaning = "hopper: of the cone's side to its axis."});
+  r.push_back({.key = "seed",
+               .target = &p.seed,
+               .minimum = 0,
+               .meaning = "confined, hopper: of the slow waves that the sheet begins with; each seed gives another pose."});
+}
+
+void add_pose(RagSettings& s, Records& r) {
+  const bool point = s.shape == Shape::particle;
+  r.push_back(number(point ? "position" : "centre", &s.position, "m", -infinity, Basis::assumed,
+                     point ? "Of the centre." : "Centre of the lattice."));
+  r.push_back(number("velocity", &s.velocity, "m/s", -infinity, Basis::assumed, "At the start."));
+  r.push_back(
+      number("spin", &s.spin, "rad/s", -infinity, Basis::assumed, "Angular velocity of the whole piece about its centre at the start."));
+  r.push_back(number("insert_time", &s.insert_time, "s", 0, Basis::assumed,
+                     "When it is put into the run, into water that has developed by then; walls that turn are where they are then."));
+  r.push_back(setting("with_water", &s.with_water, "The mean velocity of the water at its particles is added to `velocity`."));
+  for (const Parameter& parameter : s.copies.parameters()) r.push_back(parameter);
+  if (point) return;
+  r.push_back(number("lengthwise", &s.lengthwise, "1", -infinity, Basis::assumed, "Direction of the rows, any length."));
+  if (s.shape != Shape::fibre)
+    r.push_back(number("crosswise", &s.crosswise, "1", -infinity, Basis::assumed,
+                       "Direction across the rows; its part along `lengthwise` is taken off."));
+  if (s.shape != Shape::fibre) add_plan(s.plan, r);
+  r.push_back(file_setting(
+      "pose_file", &s.pose_file,
+      "Places of all particles about centre, instead of directions and pose, such as rags/pose_<n>.csv of another run: CSV with a "
+      "header and rows id,x,y,z,qw,qx,qy,qz in m; id = row * n_columns + column."));
+}
+
+void add_bond_direction(const std::string& direction, BondProperties& p, Records& r) {
+  const auto add = [&](const char* key, double* target, const char* unit, const char* meaning) {
+    r.push_back(number((key + direction).c_str(), target, unit, 0, Basis::calibrated, meaning));
+  };
+  add("normal_stiffness_", &p.normal_stiffness, "N/m3", "S_n of `properties = \"given\"`, per unit area of the bond.");
+  add("tangential_stiffness_", &p.tangential_stiffness, "N/m3", "S_t, shear and torsion.");
+  add("bending_stiffness_", &p.bending_stiffness, "N/m3", "S_nb.");
+  add("normal_strength_", &p.normal_strength, "Pa", "Tensile stress at which a bond breaks; 0: never.");
+  add("shear_strength_", &p.shear_strength, "Pa", "Shear stress at which a bond breaks; 0: never.");
+}
+
+void add_bonds(RagSettings& s, Records& r) {
+  if (s.shape == Shape::particle) return;
+  r.push_back(
+      file_setting("passport", &s.passport,
+                   "Bonds as calibrated from tests of the cloth (`snag calibrate`), instead of `properties`: a textile passport such "
+                   "as cases/textile-aro/passport.toml, interpolated in the logarithms between its radii. A fibre takes those "
+                   "lengthwise."));
+  r.push_back(setting(
+      "properties", &s.properties,
+      "Of the bonds: the calibrated ones of Jensen (2018) Tables 3.3 and 3.4 (particle radius 1 to 2 mm, in between interpolated in the "
+      "logarithms), given below, or those of a round elastic beam of the fibre's diameter.",
+      s.shape == Shape::fibre ? std::vector<std::string>{"beam", "published", "given"} : std::vector<std::string>{"published", "given"}));
+  if (s.shape == Shape::fibre) r.push_back(number("youngs_modulus", &s.youngs_modulus, "Pa", 1, Basis::assumed, "Of a fibre as a beam."));
+  add_bond_direction("lengthwise", s.along, r);
+  if (s.shape != Shape::fibre) add_bond_direction("crosswise", s.across, r);
+  r.push_back(number("bond_damping", &s.bond_damping, "1", 0, Basis::literature,
+                     "c_d: damping ratio of the shortest wave; Jensen (2018) App. 1.4, after Guo et al. (2013)."));
+  r.push_back(
+      number("rotation_friction", &s.rotation_friction, "1", 0, Basis::literature,
+             "c_r: moment against relative rotation of bonded particles over normal bond force and radius; Jensen (2018) App. 1.4."));
+  r.push_back(
+      number("contact_radius_ratio", &s.contact_radius_ratio, "1", 1, Basis::literature, "r_c/r_p: a bond longer than 2 r_c breaks."));
+  r.push_back(setting("breakage", &s.breakage, "Whether bonds break, by strength and length."));
+}
+
+}  // namespace
+
+RagSettings::RagSettings(Shape piece_shape) : shape(piece_shape) {
+  if (shape == Shape::disc) diameter = 0.210;
+  if (shape == Shape::particle) diameter = 2e-3;
+  if (shape == Shape::fibre) length = 0.05, properties = "beam";
+}
+
+Section RagSettings::section() {
+  const ShapeText& text = shape_texts[static_cast<std::size_t>(shape)];
+  Records r{setting("name", &name, "Name in outputs; not given: the table and its number.")};
+  add_size(*this, r), add_mass(*this, r), add_pose(*this, r), add_bonds(*this, r);
+  r.push_back(number("shear_modulus", &shear_modulus, "Pa", 1, Basis::literature,
+                     "G of a particle in contacts; not given: 1 MPa (Jensen 2018, Table 3.1), and of a fibre as a beam no more than its "
+                     "own, E/(2 (1 + nu))."));
+  r.push_back({.key = "poisson_ratio",
+               .target = &poisson_ratio,
+               .minimum = 0,
+               .maximum = 0.5,
+               .basis = Basis::assumed,
+               .meaning = "Of a particle in contacts."});
+  return {text.table, text.meaning, r, true};
+}
+
+Section DemSettings::section() {
+  return {"dem",
+          "Motion of the rags within a step of the water.",
+          {number("step", &step, "s", 1e-12, Basis::assumed,
+                  "Sub-step; not given: safety times the stable one. Above the stable one the run is refused."),
+           {.key = "safety",
+            .target = &safety,
+            .minimum = 0.01,
+            .maximum = 1,
+            .basis = Basis::assumed,
+            .meaning = "Share of the stable step that is taken."}}};
+}
+
+std::vector<RagPiece> read_pieces(const CaseFile& file) {
+  std::vector<RagPiece> pieces;
+  for (const Shape shape : {Shape::rag, Shape::disc, Shape::fibre, Shape::particle}) {
+    int count = 0;
+    const std::string name = shape_texts[static_cast<std::size_t>(shape)].table;
+    for (const Table& table : file.root().tables(name)) {
+      RagSettings settings(shape);
+      table.read(settings.section().parameters);
+      for (RagPiece& piece : copies_of(make_piece(settings, table.where(), file.path(".")), settings.copies, table.where())) {
+        ++count;
+        if (piece.rag.name.empty()) piece.rag.name = name + " " + std::to_string(count);
+        pieces.push_back(std::move(piece));
+      }
+    }
+  }
+  return pieces;
+}
+
+}  // namespace snag

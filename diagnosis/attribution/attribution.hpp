@@ -1,0 +1,54 @@
+#pragma once
+// Which effect: screening, re-simulation of what is left, evidence, probabilities, and the cross-check by points left out.
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/attribution/outside.hpp"
+#include "diagnosis/attribution/screening.hpp"
+#include "diagnosis/data/verdict.hpp"
+#include "diagnosis/fitting/fit.hpp"
+
+namespace snag {
+
+/// A hypothesis without a fit of its own: what promised too little in a screening, and pairs of it.
+struct NotFitted {
+  double log_evidence = 0, log_prior = 0;
+};
+
+struct Attribution {
+  std::vector<Fit> fits;             // none first
+  std::vector<std::string> names;    // of the fits
+  std::vector<double> weight;        // of each fit for the verdict: log evidence + log prior, second effects at the price of the rule
+  std::vector<double> log_prior;     // of each fit
+  std::vector<double> not_believed;  // nats of each fit's evidence that a guard takes away
+  std::map<std::string, NotFitted> not_fitted{};
+  std::vector<double> leave_one_out;  // log predictive density of each fit
+  Outside outside;
+  double outside_weight = 0;
+  std::map<std::string, double> screening{}, weak_form{};  // gains over none
+  std::map<std::string, double> probability{};
+  Identifiability identifiability;
+  double sham_rate = 0;
+  std::vector<std::string> notes{};
+
+  int first() const;         // the likeliest fit
+  int first_effect() const;  // the likeliest fit that names an effect; 0 if there is none
+};
+
+/// Candidates of the experiment that this base case can show, by index; why the others cannot goes to `blind`.
+std::vector<int> live_candidates(const Responses& model, std::map<std::string, std::string>& blind);
+
+Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress);
+
+/// Probabilities of all hypotheses from evidence, tempered by the calibration, and prior.
+void set_probabilities(Attribution& attribution);
+
+/// Probability that all of these effects act, alone or beside others.
+double probability_of(const Attribution& attribution, const std::vector<std::string>& effects);
+
+/// Log predictive density of each training point given the others, summed.
+double leave_one_out(const Fit& fit);
+
+}  // namespace snag

@@ -1,0 +1,24 @@
+#pragma once
+// The competitor without physics: at each operating point and observable an unknown smooth deviation from the base model, a Gaussian
+// process in time. It wins where something is missing that no candidate is like.
+//
+//   y - f0 ~ N(J nu, C + K),   K = (s L)^2 g(t) g(t') exp(-(t - t')^2 / 2 l^2),   g = 1 or t/T
+//
+// s: amplitude by observable, over the range L of the motion; l: length. Both from a grid, each choice with its share of the prior. f0 and
+// J are taken where the inputs nu are likeliest under the process.
+#include "diagnosis/fitting/fit.hpp"
+
+namespace snag {
+
+struct Outside {
+  double log_evidence = 0;
+  double length = 0;                // s over the duration
+  bool growing = false;             // g = t/T
+  std::vector<double> amplitude{};  // by observable, relative to its range, and of all spreads between replicates; 0: nothing there
+  Eigen::VectorXd nuisances{};      // the likeliest, in standard uncertainties
+};
+
+/// `none`: the fit of no effect.
+Outside fit_outside(const Responses& model, Fitter& fitter, const Fit& none);
+
+}  // namespace snag

@@ -1,0 +1,245 @@
+#include "diagnosis/attribution/screening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/statistics/statistics.hpp"
+
+namespace snag {
+
+double probe_strength(const Effect& effect) {
+  const double wanted = std::abs(effect.mean) > 0.5 * effect.sd ? effect.mean : effect.mean + effect.sd;
+  return std::clamp(wanted, effect.minimum, effect.maximum);
+}
+
+bool Screening::present(int effect) const {
+  return std::any_of(around_.state.effects.begin(), around_.state.effects.end(), [&](const auto& e) { return e.first == effect; });
+}
+
+Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& candidates, const Linearization& around)
+    : model_(model), fitter_(fitter), around_(around) {
+  const auto& training = model.training();
+  std::vector<Responses::Request> requests;
+  for (const int k : candidates) {
+    if (present(k)) continue;
+    candidates_.push_back(k);
+    const Effect& effect = model.effects()[k];
+    for (int form = 0; form < effect.n_forms + effect.n_deviations; ++form) {
+      State state = around_.state;
+      state.forms.resize(state.effects.size(), 0);
+      state.effects.emplace_back(k, probe_strength(effect)), state.forms.push_back(form);
+      for (const int p : training) requests.push_back({state, p});
+    }
+  }
+  // Effects that are already there are moved by half a standard deviation.
+  for (std::size_t e = 0; e < around_.state.effects.size(); ++e) {
+    State state = around_.state;
+    const Effect& effect = model.effects()[state.effects[e].first];
+    double& theta = state.effects[e].second;
+    theta = theta + 0.5 * effect.sd <= effect.maximum ? theta + 0.5 * effect.sd : std::max(effect.minimum, theta - 0.5 * effect.sd);
+    for (const int p : training) requests.push_back({state, p});
+  }
+  const auto responses = model.run(requests);
+  whitening_ = fitter.whiten(around_);
+  weak_form_.emplace(model, whitening_);
+  rho_ = fitter.residual(around_.responses, whitening_);
+  nuisances_ = fitter.nuisance_columns(around_, whitening_);
+  const Eigen::Index m = nuisances_.cols();
+  nuisance_precision_inverse_ =
+      (nuisances_.transpose() * nuisances_ + Eigen::MatrixXd::Identity(m, m)).llt().solve(Eigen::MatrixXd::Identity(m, m));
+  std::size_t next = 0;
+  const auto take = [&](int k, int n_forms) {
+    for (int form = 0; form < n_forms; ++form) {
+      probed_[k].emplace_back(), signatures_[k].emplace_back();
+      for (std::size_t p = 0; p < training.size(); ++p) {
+        probed_[k].back().push_back(responses[next]);
+        signatures_[k].back().push_back(finite(responses[next++].value - around_.responses[p].value));
+      }
+      columns_[k].push_back(column(k, form, whitening_, rho_));
+    }
+  };
+  for (const int k : candidates_) take(k, model.effects()[k].n_forms + model.effects()[k].n_deviations);
+  for (const auto& [k, theta] : around_.state.effects) take(k, 1);
+}
+
+Eigen::VectorXd Screening::column(int k, int form, const Whitening& whitening, const Eigen::VectorXd& rho) const {
+  const Effect& effect = model_.effects()[k];
+  double moved = probe_strength(effect);
+  for (const auto& [there, theta] : around_.state.effects)
+    if (there == k)
+      moved = theta + 0.5 * effect.sd <= effect.maximum ? 0.5 * effect.sd : std::max(effect.minimum, theta - 0.5 * effect.sd) - theta;
+  return (fitter_.residual(probed_.at(k)[static_cast<std::size_t>(form)], whitening) - rho) * (effect.sd / moved);
+}
+
+// Other forms at the strengths where the linear model puts the effects, and those of the effects around which was screened.
+Eigen::MatrixXd Screening::share_columns(const Screened& screened, const Whitening& whitening, const Eigen::VectorXd& rho) const {
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t e = 0; e < screened.hypothesis.effects.size(); ++e) {
+    const int k = screened.hypothesis.effects[e];
+    if (present(k)) continue;
+    const Eigen::VectorXd lead = column(k, screened.forms[e], whitening, rho);
+    const double strength = screened.theta[static_cast<Eigen::Index>(e)] / model_.effects()[k].sd;
+    const State added{{{k, 0}}, {}, {screened.forms[e]}};
+    for (const OtherForm& other : other_forms(added, model_.effects()))
+      columns.push_back(other.sd * strength * (column(k, other.form, whitening, rho) - lead));
+  }
+  const Eigen::MatrixXd around = fitter_.share_columns(around_, whitening);
+  Eigen::MatrixXd all(rho.size(), around.cols() + static_cast<Eigen::Index>(columns.size()));
+  all.leftCols(around.cols()) = around;
+  for (std::size_t c = 0; c < columns.size(); ++c) all.col(around.cols() + static_cast<Eigen::Index>(c)) = columns[c];
+  return all;
+}
+
+Screened Screening::screen(const Hypothesis& hypothesis) const {
+  const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(nuisances_.cols());
+  Screened result{hypothesis, -std::numeric_limits<double>::infinity(), Eigen::VectorXd(k), std::vector<int>(hypothesis.effects.size(), 0)};
+  LinearModel linear;
+  linear.prior = Eigen::VectorXd::Zero(k + m);
+  linear.prior.segment(k, m) = -around_.state.nuisances;
+  linear.lower.resize(k), linear.upper.resize(k);
+  Eigen::VectorXd there = Eigen::VectorXd::Zero(k);
+  for (int e = 0; e < k; ++e) {
+    const Effect& effect = model_.effects()[hypothesis.effects[e]];
+    for (const auto& [index, theta] : around_.state.effects)
+      if (index == hypothesis.effects[e]) there[e] = theta;
+    linear.prior[e] = (effect.mean - there[e]) / effect.sd;
+    linear.lower[e] = (effect.minimum - there[e]) / effect.sd, linear.upper[e] = (effect.maximum - there[e]) / effect.sd;
+  }
+  // First without an error of form, each form in the lead by turns.
+  linear.rho = rho_, linear.J.resize(rho_.size(), k + m), linear.J.rightCols(m) = nuisances_;
+  std::vector<int> leads(hypothesis.effects.size(), 0);
+  for (bool more = true; more;) {
+    for (int e = 0; e < k; ++e)
+      linear.J.col(e) = columns_.at(hypothesis.effects[e])[static_cast<std::size_t>(leads[static_cast<std::size_t>(e)])];
+    const LinearSolution solution = solve(linear);
+    const double evidence = solution.log_evidence - 0.5 * whitening_.log_determinant;
+    if (evidence > result.log_evidence) {
+      result.log_evidence = evidence, result.forms = leads;
+      for (int e = 0; e < k; ++e) result.theta[e] = there[e] + model_.effects()[hypothesis.effects[e]].sd * solution.d[e];
+    }
+    more = false;
+    for (std::size_t e = 0; e < leads.size() && !more; ++e) {
+      const int index = hypothesis.effects[e];
+      more = ++leads[e] < (present(index) ? 1 : model_.effects()[index].n_forms);
+      if (!more) leads[e] = 0;
+    }
+  }
+  if (k == 0) return result;
+  // Then with it, and with shares of the other forms: both follow the strength.
+  Linearization at = around_;
+  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e) {
+    const int index = hypothesis.effects[e];
+    if (present(index)) continue;
+    at.parts.emplace_back();
+    const double share = result.theta[static_cast<Eigen::Index>(e)] / probe_strength(model_.effects()[index]);
+    for (const Eigen::VectorXd& s : signatures_.at(index)[static_cast<std::size_t>(result.forms[e])]) at.parts.back().push_back(share * s);
+  }
+  const Screened first = result;
+  std::vector<double> evidence;
+  for (const double form : form_errors) {
+    const Whitening whitening = fitter_.whiten(at, form);
+    linear.rho = fitter_.residual(around_.responses, whitening);
+    const Eigen::MatrixXd shares = share_columns(first, whitening, linear.rho);
+    const auto s = static_cast<int>(shares.cols());
+    linear.J.resize(linear.rho.size(), k + m + s), linear.prior.conservativeResize(k + m + s);
+    linear.prior.tail(s).setZero();
+    // Shares that the fit around which was screened has already; effects that are there come before those that are added.
+    const Eigen::Index given = std::min<Eigen::Index>(s, around_.state.shares.size());
+    linear.prior.segment(k + m, given) = -around_.state.shares.head(given);
+    for (int e = 0; e < k; ++e)
+      linear.J.col(e) = column(hypothesis.effects[e], first.forms[static_cast<std::size_t>(e)], whitening, linear.rho);
+    linear.J.middleCols(k, m) = fitter_.nuisance_columns(around_, whitening);
+    linear.J.rightCols(s) = shares;
+    const LinearSolution solution = solve(linear);
+    evidence.push_back(solution.log_evidence - 0.5 * whitening.log_determinant);
+    for (int e = 0; e < k && evidence.back() >= *std::max_element(evidence.begin(), evidence.end()); ++e)
+      result.theta[e] = there[e] + model_.effects()[hypothesis.effects[e]].sd * solution.d[e];
+  }
+  result.log_evidence = log_sum_exp(evidence) - std::log(static_cast<double>(form_errors.size()));
+  // Forms of the effects that are there.
+  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e)
+    for (std::size_t i = 0; i < around_.state.effects.size(); ++i)
+      if (around_.state.effects[i].first == hypothesis.effects[e]) result.forms[e] = around_.state.form(i);
+  return result;
+}
+
+double Screening::weak_gain(int k) const {
+  const auto& weak = *weak_form_;
+  if (weak.size() == 0) return 0;
+  const auto m = nuisances_.cols();
+  LinearModel none{weak(rho_), Eigen::MatrixXd(weak.size(), m), -around_.state.nuisances, {}, {}};
+  for (Eigen::Index j = 0; j < m; ++j) none.J.col(j) = weak(nuisances_.col(j));
+  const double without = solve(none).log_evidence;
+  const Effect& effect = model_.effects()[k];
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& own : columns_.at(k)) {
+    LinearModel with{none.rho, Eigen::MatrixXd(weak.size(), 1 + m), Eigen::VectorXd(1 + m), {}, {}};
+    with.J << weak(own), none.J;
+    with.prior << effect.mean / effect.sd, none.prior;
+    with.lower = Eigen::VectorXd::Constant(1, effect.minimum / effect.sd);
+    with.upper = Eigen::VectorXd::Constant(1, effect.maximum / effect.sd);
+    best = std::max(best, solve(with).log_evidence - without);
+  }
+  return best;
+}
+
+double Screening::projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+  return a.dot(b) - (nuisances_.transpose() * a).dot(nuisance_precision_inverse_ * (nuisances_.transpose() * b));
+}
+
+double Screening::detectability(int k) const {
+  const Effect& effect = model_.effects()[k];
+  return std::sqrt(std::max(0.0, projected(columns_.at(k).front(), columns_.at(k).front()))) * std::abs(probe_strength(effect)) / effect.sd;
+}
+
+bool Screening::changes_runs(int k) const {
+  const auto& forms = signatures_.at(k);
+  return std::any_of(forms.begin(), forms.end(), [](const auto& points) {
+    return std::any_of(points.begin(), points.end(), [](const Eigen::VectorXd& s) { return !s.isZero(0); });
+  });
+}
+
+std::string Screening::failure(int k) const {
+  const auto& leading = probed_.at(k).front();
+  return std::all_of(leading.begin(), leading.end(), [](const Response& r) { return !r.failure.empty(); }) ? leading.front().failure : "";
+}
+
+double Screening::cosine(int a, int b) const {
+  const double norm = std::sqrt(
+      std::max(0.0, projected(columns_.at(a).front(), columns_.at(a).front()) * projected(columns_.at(b).front(), columns_.at(b).front())));
+  return norm > 0 ? projected(columns_.at(a).front(), columns_.at(b).front()) / norm : 0;
+}
+
+double Screening::sham_rate(std::uint64_t seed) const {
+  const int m = static_cast<int>(nuisances_.cols());
+  const auto first = fitter_.first_rows();
+  const auto evidence = [&](const Eigen::VectorXd& own, const Effect& effect) {
+    LinearModel linear{rho_, Eigen::MatrixXd(rho_.size(), 1 + m), Eigen::VectorXd::Zero(1 + m), {}, {}};
+    linear.J.col(0) = own, linear.J.rightCols(m) = nuisances_;
+    linear.prior[0] = effect.mean / effect.sd;
+    linear.lower = Eigen::VectorXd::Constant(1, effect.minimum / effect.sd),
+    linear.upper = Eigen::VectorXd::Constant(1, effect.maximum / effect.sd);
+    return solve(linear).log_evidence;
+  };
+  NormalNumbers random(seed);
+  double best = solve(LinearModel{rho_, nuisances_, Eigen::VectorXd::Zero(m), Eigen::VectorXd(), Eigen::VectorXd()}).log_evidence;
+  std::vector<double> sham;
+  for (const int k : candidates_) {
+    const Effect& effect = model_.effects()[k];
+    best = std::max(best, evidence(columns_.at(k).front(), effect));
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      Eigen::VectorXd own = columns_.at(k).front();
+      for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+        auto part = own.segment(first[p], first[p + 1] - first[p]);
+        part = (random.uniform() < 0.5 ? -1 : 1) * part.reverse().eval();
+      }
+      sham.push_back(evidence(own, effect));
+    }
+  }
+  return sham.empty() ? 0
+                      : static_cast<double>(std::count_if(sham.begin(), sham.end(), [&](double e) { return e > best; })) /
+                            static_cast<double>(sham.size());
+}
+
+}  // namespace snag

@@ -1,0 +1,69 @@
+#pragma once
+// Screening by signatures: what each effect adds to the base model at its probe strength, with the same seeds. Linear in the strength, so
+// good to choose what is worth re-simulating and to tell before any data what could be seen; never the verdict.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/localisation/weak_form.hpp"
+
+namespace snag {
+
+struct Screened {
+  Hypothesis hypothesis;
+  double log_evidence = 0;
+  Eigen::VectorXd theta;     // where the linear model puts the strengths
+  std::vector<int> forms{};  // that lead, by effect
+};
+
+class Screening {
+ public:
+  /// Runs every candidate at its probe strength at the state of `fit` (no effect, or those of a fit already made).
+  Screening(Responses& model, Fitter& fitter, const std::vector<int>& candidates, const Linearization& around);
+
+  /// Evidence of a hypothesis: the effects around which was screened are free too.
+  Screened screen(const Hypothesis& hypothesis) const;
+  /// Gain of one effect alone over none by the accelerations of the paths only (weak_form.hpp), nats; 0 where no path is long enough.
+  double weak_gain(int candidate) const;
+  /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out.
+  double detectability(int candidate) const;
+  /// Whether any run with a candidate, in any of its forms, differs from that without it.
+  bool changes_runs(int candidate) const;
+  /// Why no run with a candidate in its leading form came through; empty: one did.
+  std::string failure(int candidate) const;
+  /// Cosine between two signatures in that metric.
+  double cosine(int a, int b) const;
+  /// Share of sham effects (signatures that run backwards in time with random signs by point) that beat every candidate alone.
+  double sham_rate(std::uint64_t seed) const;
+  const std::vector<int>& candidates() const { return candidates_; }
+  /// Signatures by row of a training point, not whitened.
+  const Eigen::VectorXd& signature(int candidate, int training_point) const {
+    return signatures_.at(candidate).front()[static_cast<std::size_t>(training_point)];
+  }
+
+ private:
+  double projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  Eigen::VectorXd column(int effect, int form, const Whitening& whitening, const Eigen::VectorXd& rho) const;
+  bool present(int effect) const;
+  Eigen::MatrixXd share_columns(const Screened& screened, const Whitening& whitening, const Eigen::VectorXd& rho) const;
+
+  Responses& model_;
+  Fitter& fitter_;
+  std::vector<int> candidates_;
+  const Linearization around_;
+  Whitening whitening_;
+  std::optional<WeakForm> weak_form_;
+  Eigen::VectorXd rho_;
+  Eigen::MatrixXd nuisances_, nuisance_precision_inverse_;
+  // By candidate and form; an effect around which was screened has the form that leads there only.
+  std::map<int, std::vector<std::vector<Response>>> probed_;
+  std::map<int, std::vector<std::vector<Eigen::VectorXd>>> signatures_;
+  std::map<int, std::vector<Eigen::VectorXd>> columns_;  // per prior standard deviation of theta, whitened
+};
+
+/// Strength at which an effect is probed: its prior mean, or one standard deviation where the mean is near zero.
+double probe_strength(const Effect& effect);
+
+}  // namespace snag

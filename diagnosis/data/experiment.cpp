@@ -1,0 +1,259 @@
+#include "diagnosis/data/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <toml++/toml.h>
+
+#include "base/atomic_file.hpp"
+#include "base/case_file.hpp"
+#include "base/error.hpp"
+#include "base/units.hpp"
+#include "base/words.hpp"
+#include "diagnosis/data/experiment_table.hpp"
+#include "diagnosis/data/repeats.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr const char* kinds[] = {"gaussian", "lognormal", "count", "event", "angle"};
+
+Observable read_observable(const Table& table) {
+  Observable observable;
+  std::string kind = "gaussian";
+  table.read(
+      {{.key = "id", .target = &observable.id, .unit = "", .meaning = "name of the measured quantity", .required = true},
+       {.key = "unit", .target = &observable.unit, .unit = "", .meaning = "unit of the values and of noise_u", .required = true},
+       setting("kind", &kind, "How it scatters.", {std::begin(kinds), std::end(kinds)}),
+       {.key = "noise_u", .target = &observable.noise_u, .minimum = 0, .meaning = "Standard uncertainty of one sample."},
+       {.key = "bias_u", .target = &observable.bias_u, .minimum = 0, .meaning = "Uncertainty shared by the calibration group."},
+       {.key = "numerics_u",
+        .target = &observable.numerics_u,
+        .minimum = 0,
+        .meaning =
+            "Of the runs, by grid and step, from a study of your own; where all observables have it no run is made with another step."},
+       setting("calibration_group", &observable.calibration_group, "Samples that share one bias.")});
+  observable.kind = static_cast<Observable::Kind>(std::find(std::begin(kinds), std::end(kinds), kind) - std::begin(kinds));
+  const auto unit = parse_unit(observable.unit);
+  if (!unit || observable.unit.empty())
+    throw Error(ExitCode::usage, table.where() + " " + observable.id + ": unknown unit \"" + observable.unit +
+                                     "\"; write one such as \"m\", \"mm/s\", \"deg\", or \"1\" for a pure number");
+  if (observable.kind != Observable::Kind::lognormal)
+    for (double* u : {&observable.noise_u, &observable.bias_u, &observable.numerics_u}) *u *= unit->factor;
+  return observable;
+}
+
+OperatingPoint read_point(const Table& table, const CaseFile& file) {
+  OperatingPoint point;
+  std::string case_file, role = "train";
+  Parameter case_setting = file_setting("case", &case_file, "the base model of this operating point");
+  case_setting.required = true;
+  table.read({{.key = "id", .target = &point.id, .unit = "", .meaning = "name of the operating point", .required = true},
+              case_setting,
+              setting("set", &point.set, "Values of the case that this point replaces, as for --set: \"time.end_s=0.2\"."),
+              setting("role", &role, "train, or withheld: used for \"how far\" only.", {"train", "withheld"})});
+  point.case_file = file.path(case_file);
+  point.withheld = role == "withheld";
+  point.input_u = table.table("input_u").numbers();
+  for (const auto& [key, u] : point.input_u) {
+    if (!std::isfinite(u) || u < 0)
+      throw Error(ExitCode::usage,
+                  table.where() + " input_u \"" + key + "\" is " + words(u) + "; it is a relative standard uncertainty, 0 or more");
+  }
+  return point;
+}
+
+Region read_region(const Table& table) {
+  Region region;
+  constexpr double far = 1e9;
+  table.read({{.key = "id", .target = &region.id, .unit = "", .meaning = "name of the region", .required = true},
+              {"lower", &region.lower, "m", -far, far, Basis::assumed, "Lowest corner; without it the region has no lower end."},
+              {"upper", &region.upper, "m", -far, far, Basis::assumed, "Highest corner; without it the region has no upper end."}});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (region.lower[axis] < region.upper[axis]) continue;
+    throw Error(ExitCode::usage, table.where() + " " + region.id + ": lower is not below upper along " + "xyz"[axis] + "; swap them");
+  }
+  return region;
+}
+
+template <class Item>
+void reject_repeated_ids(const std::vector<Item>& items, const std::string& section, const std::string& file) {
+  std::set<std::string> seen;
+  for (const Item& item : items) {
+    if (!seen.insert(item.id).second)
+      throw Error(ExitCode::usage, file + ": [[" + section + "]] \"" + item.id + "\" stands twice" +
+                                       (section == "point" ? "; a point serves for training or is withheld, never both" : "") +
+                                       "; keep one of them");
+  }
+}
+
+// One row in SI, and what its kind allows.
+void convert(DatumRow& row, const Observable& observable, const std::string& file) {
+  using Kind = Observable::Kind;
+  Datum& d = row.datum;
+  const double factor = parse_unit(observable.unit)->factor;
+  d.value *= factor, row.sd *= factor;
+  const auto wrong = [&](const std::string& rule) {
+    return Error(ExitCode::usage, file + ":" + std::to_string(row.line) + ": " + observable.id + " is " + words(d.value) + ", but " + rule);
+  };
+  if (observable.kind == Kind::lognormal && d.value <= 0) throw wrong("a lognormal quantity is positive");
+  const bool several = row.n > 1;
+  if (observable.kind == Kind::event && (several ? d.value < 0 || d.value > 1 : d.value != 0 && d.value != 1))
+    throw wrong(several ? "the share of several events is 0 to 1" : "an event is 0 or 1");
+  if (observable.kind == Kind::count && (d.value < 0 || (!several && d.value != std::floor(d.value))))
+    throw wrong("a count is a whole number, 0 or more");
+  if (row.sd > 0 && (observable.kind == Kind::event || observable.kind == Kind::count || d.censored))
+    throw wrong("the scatter of events, counts and censored times follows from their law; leave sd empty");
+  if (d.censored && observable.kind != Kind::lognormal)
+    throw wrong("only lognormal quantities (times) may be censored; give " + observable.id + " kind = \"lognormal\"");
+  if (d.censored && !std::isnan(d.time)) throw wrong("only scalars of a replicate may be censored; leave t_s empty");
+}
+
+auto sort_key(const Datum& d) { return std::tuple(d.point, d.observable, d.replicate, std::isnan(d.time) ? -infinity : d.time); }
+
+// All samples of one observable at one point.
+struct Column {
+  std::set<int> replicates;
+  double minimum = infinity, maximum = -infinity;
+  bool scalar = false, series = false;
+};
+
+void check_columns(const Experiment& experiment, const std::string& file) {
+  using Kind = Observable::Kind;
+  std::vector<std::map<int, Column>> columns(experiment.observables.size());
+  for (const Datum& d : experiment.data) {
+    Column& column = columns[d.observable][d.point];
+    column.replicates.insert(column.replicates.end(), d.replicate);
+    column.minimum = std::min(column.minimum, d.value), column.maximum = std::max(column.maximum, d.value);
+    (std::isnan(d.time) ? column.scalar : column.series) = true;
+  }
+  for (std::size_t o = 0; o < columns.size(); ++o) {
+    const Observable& observable = experiment.observables[o];
+    const std::string where = file + ": observable \"" + observable.id + "\"";
+    if (columns[o].empty()) throw Error(ExitCode::usage, where + " has no rows; measure it or take its [[observable]] out");
+    const bool continuous = observable.kind != Kind::count && observable.kind != Kind::event;
+    double minimum = infinity, maximum = -infinity;
+    for (const auto& [p, column] : columns[o]) {
+      minimum = std::min(minimum, column.minimum), maximum = std::max(maximum, column.maximum);
+      const std::string at = where + " at point \"" + experiment.points[p].id + "\"";
+      if (column.scalar && column.series) throw Error(ExitCode::usage, at + " has rows with and without t_s; make them two observables");
+      if (!continuous && column.series) throw Error(ExitCode::usage, at + " is a count or an event of a replicate; leave t_s empty");
+    }
+    if (!continuous || observable.noise_u > 0) continue;
+    if (minimum == maximum)
+      throw Error(ExitCode::usage,
+                  where + " is constant (" + words(minimum) + " SI) and has no noise_u: nothing says how well it is known; give noise_u");
+    for (const auto& [p, column] : columns[o]) {
+      if (column.replicates.size() < 2)
+        throw Error(ExitCode::usage, where + " has one replicate at point \"" + experiment.points[p].id +
+                                         "\" and no noise_u: nothing says how it scatters; give noise_u or measure it again");
+    }
+  }
+}
+
+void check_points(const Experiment& experiment, const std::string& file) {
+  std::vector<std::vector<double>> values(experiment.points.size());
+  for (const Datum& d : experiment.data) values[d.point].push_back(d.value);
+  bool train = false;
+  for (std::size_t p = 0; p < values.size(); ++p) {
+    const OperatingPoint& point = experiment.points[p];
+    if (values[p].empty())
+      throw Error(ExitCode::usage, file + ": point \"" + point.id + "\" has no rows; measure it or take its [[point]] out");
+    train = train || !point.withheld;
+    // A copy of a withheld point under another name would train on what is withheld. (Equal counts, and tests that end at the same time
+    // before the event, are no copy.)
+    constexpr std::size_t telling = 8;  // distinct values
+    if (std::set(values[p].begin(), values[p].end()).size() < telling) continue;
+    for (std::size_t q = 0; q < p; ++q) {
+      if (experiment.points[q].withheld != point.withheld && values[p] == values[q])
+        throw Error(ExitCode::usage,
+                    file + ": points \"" + experiment.points[q].id + "\" and \"" + point.id +
+                        "\" hold the same values, but one is withheld and the other is for training; withheld data must not "
+                        "be trained on: take one of them out");
+    }
+  }
+  if (!train) throw Error(ExitCode::usage, file + ": every point is withheld; at least one must have role = \"train\"");
+}
+
+// candidates = "all" or a list of names: the only key that is a text or a list.
+std::vector<std::string> overrides_of_candidates(const std::string& text) {
+  try {
+    const auto candidates = toml::parse(text)["model"]["candidates"].value<std::string>();
+    if (candidates && *candidates == "all") return {"model.candidates=[]"};
+  } catch (const toml::parse_error&) {  // told with its line by CaseFile
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string calibration_of(const Observable& observable) {
+  return observable.calibration_group.empty() ? "bias of " + observable.id : observable.calibration_group;
+}
+
+Experiment read_experiment(const std::filesystem::path& path) {
+  const auto text = file_text(path);
+  if (!text) throw Error(ExitCode::io, path.string() + ": cannot be read; check the path");
+  const CaseFile file = CaseFile::read(path, overrides_of_candidates(*text));
+  const Table root = file.root();
+  Experiment experiment;
+  std::string data;
+  Parameter data_file = file_setting("data", &data, "the CSV of the measurements");
+  data_file.required = true;
+  root.table("experiment").read({setting("name", &experiment.name, "Name of the experiment."), data_file});
+  for (const Table& table : root.tables("observable")) experiment.observables.push_back(read_observable(table));
+  for (const Table& table : root.tables("point")) experiment.points.push_back(read_point(table, file));
+  for (const Table& table : root.tables("region")) experiment.regions.push_back(read_region(table));
+  std::vector<std::string> points;
+  for (const OperatingPoint& point : experiment.points) points.push_back(point.id);
+  experiment.alternatives = read_alternatives(root, points);
+  root.table("model").read(
+      {setting("candidates", &experiment.candidates, "\"all\" or names."), setting("pairs", &experiment.pairs, "Pairs of effects.")});
+  int seed = 1;
+  std::string runs;
+  root.table("budget").read({{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Most runs of the model."},
+                             {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Of random numbers."},
+                             file_setting("runs", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv.")});
+  if (!runs.empty()) experiment.runs = file.path(runs);
+  experiment.seed = static_cast<std::uint64_t>(seed);
+  file.reject_unread();
+  if (experiment.name.empty()) experiment.name = path.stem().string();
+  const std::string name = path.string();
+  if (experiment.observables.empty()) throw Error(ExitCode::usage, name + ": no [[observable]]; at least one is needed");
+  if (experiment.points.empty()) throw Error(ExitCode::usage, name + ": no [[point]]; at least one is needed");
+  reject_repeated_ids(experiment.observables, "observable", name);
+  reject_repeated_ids(experiment.points, "point", name);
+  reject_repeated_ids(experiment.regions, "region", name);
+
+  const std::string data_name = file.path(data).string();
+  const auto data_text = file_text(data_name);
+  if (!data_text) throw Error(ExitCode::io, data_name + ": the data cannot be read; check [experiment] data of " + name);
+  DataTable table = read_data_table(*data_text, data_name, experiment);
+  std::vector<std::pair<Datum, int>> samples;  // with their lines
+  for (DatumRow& row : table.rows) {
+    const Observable& observable = experiment.observables[row.datum.observable];
+    convert(row, observable, data_name);
+    if (row.n == 1)
+      samples.emplace_back(row.datum, row.line);
+    else
+      for (const Datum& repeat : repeats_of(row, observable)) samples.emplace_back(repeat, row.line);
+  }
+  std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return sort_key(a.first) < sort_key(b.first); });
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i > 0 && sort_key(samples[i - 1].first) == sort_key(samples[i].first))
+      throw Error(ExitCode::usage, data_name + ":" + std::to_string(samples[i].second) +
+                                       ": the same point, replicate, time and observable as line " + std::to_string(samples[i - 1].second) +
+                                       "; keep one of them");
+    experiment.data.push_back(samples[i].first);
+  }
+  experiment.data_sha256 = table.data_sha256, experiment.withheld_sha256 = table.withheld_sha256;
+  check_points(experiment, data_name);
+  check_columns(experiment, data_name);
+  return experiment;
+}
+
+}  // namespace snag

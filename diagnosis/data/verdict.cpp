@@ -1,0 +1,112 @@
+#include "diagnosis/data/verdict.hpp"
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+namespace snag {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no NaN: what could not be computed is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json numbers(const std::map<std::string, double>& values) {
+  Json json = Json::object();
+  for (const auto& [name, value] : values) json[name] = number(value);
+  return json;
+}
+
+Json cell(const GapCell& c) {
+  Json json{{"observable", c.observable}, {"region", c.region}};
+  json["window_s"] = std::isnan(c.window[0]) ? Json(nullptr) : Json{c.window[0], c.window[1]};
+  json["point"] = c.point;
+  json["z"] = number(c.z);
+  json["significant"] = c.significant;
+  json["onset"] = c.onset;
+  json["blind"] = c.blind;
+  json["p"] = number(c.p);
+  json["test"] = c.test;
+  json["withheld"] = c.withheld;
+  json["measured"] = number(c.measured);
+  json["simulated"] = number(c.simulated);
+  json["u_val"] = number(c.u_val);
+  json["u_num"] = number(c.u_num);
+  json["u_input"] = number(c.u_input);
+  json["u_D"] = number(c.u_D);
+  json["u_S"] = number(c.u_S);
+  json["restart_z"] = number(c.restart_z);
+  json["origin"] = c.origin;
+  return json;
+}
+
+Json curve(const GapCurve& c) {
+  Json json{{"observable", c.observable}, {"unit", c.unit}, {"point", c.point}};
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    for (const double value : values) json[name].push_back(number(value));
+  };
+  add("t_s", c.time), add("measured", c.measured), add("u", c.u), add("base", c.base), add("with_effect", c.with_effect);
+  return json;
+}
+
+Json parameter(const EffectEstimate& e) {
+  return {{"mean", number(e.mean)},           {"sd", number(e.sd)},      {"unit", e.unit}, {"per_point", numbers(e.per_point)},
+          {"cochran_p", number(e.cochran_p)}, {"absorbing", e.absorbing}};
+}
+
+Json shrinkage(const Shrinkage& s) { return {{"mean", number(s.mean)}, {"low", number(s.low)}, {"high", number(s.high)}}; }
+
+Json identifiability(const Identifiability& i) {
+  Json json{{"detectability", numbers(i.detectability)}, {"ties", i.ties}, {"next_experiment", i.next_experiment}, {"blind", i.blind}};
+  for (const auto& [name, row] : i.cosines) json["cosines"][name] = numbers(row);
+  return json;
+}
+
+Json how_far(const Verdict& v) {
+  if (!v.gap.computable) return "not computable";
+  Json json = Json::object();
+  for (const auto& [name, s] : v.shrinkage) json[name] = shrinkage(s);
+  json["rejected"] = Json::object();
+  for (const auto& [name, s] : v.shrinkage_rejected) json["rejected"][name] = shrinkage(s);
+  json["regression"] = shrinkage(v.shrinkage_regression);
+  return json;
+}
+
+}  // namespace
+
+std::string verdict_json(const Verdict& v) {
+  Json json{{"name", v.name}, {"verdict", v.verdict}, {"effects", v.effects}, {"wording", v.wording}, {"tie", v.tie}};
+  json["probability"] = numbers(v.probability);
+  json["acts"] = numbers(v.acts);
+  json["parameters"] = Json::object();
+  for (const auto& [name, e] : v.parameters) json["parameters"][name] = parameter(e);
+  json["where"] = Json::array();
+  for (const GapCell& c : v.where) json["where"].push_back(cell(c));
+  json["curves"] = Json::array();
+  for (const GapCurve& c : v.curves) json["curves"].push_back(curve(c));
+  json["shrinkage"] = how_far(v);
+  json["gap"] = v.gap.computable ? Json{{"before", number(v.gap.before)},
+                                        {"after", number(v.gap.after)},
+                                        {"floor", number(v.gap.floor)},
+                                        {"remainder", number(v.gap.remainder)}}
+                                 : Json("not computable");
+  json["identifiability"] = identifiability(v.identifiability);
+  json["evidence"] = {{"log_evidence", numbers(v.log_evidence)},
+                      {"leave_one_point_out", numbers(v.leave_one_out)},
+                      {"screening", numbers(v.screening)},
+                      {"weak_form", numbers(v.weak_form)},
+                      {"sham_rate", v.sham_rate},
+                      {"temperature", v.temperature}};
+  json["nuisances"] = numbers(v.nuisances);
+  json["checks"] = Json::object();
+  for (const PredictiveCheck& check : v.checks) json["checks"][check.name] = {{"value", number(check.value)}, {"p", number(check.p)}};
+  json["notes"] = v.notes;
+  json["runs"] = v.runs;
+  json["data_sha256"] = v.data_sha256;
+  json["withheld_sha256"] = v.withheld_sha256;
+  return json.dump(1) + "\n";
+}
+
+}  // namespace snag

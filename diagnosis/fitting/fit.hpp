@@ -1,0 +1,110 @@
+#pragma once
+// The fit of one hypothesis (none, one effect, two) to the training points, and its Laplace evidence:
+//
+//   Phi = 1/2 |rho|^2 + 1/2 |nu|^2 + 1/2 |xi|^2 + 1/2 |t|^2,   rho = C^-1/2 (y - f(theta, nu, xi)),   t = (theta - mean)/sd
+//   log Z = log of the integral of exp(-Phi) over nu, xi and the physical range of theta - 1/2 log |2 pi C| - 1/2 log of the other rows'
+//   variance ratios
+//
+// xi: shares of the other forms under which the laws of the effects are written (State::shares). The spread between them is what is known
+// of the form of a law, so one of them in full is one standard deviation.
+// C = data + numerics (from two time steps) + scatter of the runs/N + form error of each effect; the last three at the fitted state.
+#include <Eigen/Dense>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "diagnosis/fitting/response.hpp"
+#include "diagnosis/statistics/linear_model.hpp"
+
+namespace snag {
+
+/// The covariances of the points with their factors.
+struct Whitening {
+  std::vector<Eigen::LLT<Eigen::MatrixXd>> factor;  // by training point, Gaussian rows
+  std::vector<double> log_ratio;                    // by training point, of the other rows' variances over those of their data
+  double log_determinant = 0;                       // of 2 pi C, over all of them, and the ratios
+};
+
+/// What is known of the model at one state: everything that the covariance and the linear model of a hypothesis need.
+struct Linearization {
+  State state;
+  std::vector<Response> responses;                  // by training point
+  std::vector<Eigen::VectorXd> numerical_error;     // f(2 dt) - f(dt) less chance, or as stated, by training point
+  std::vector<std::vector<Response>> by_nuisance;   // [nuisance][training point] after half a standard uncertainty; empty: not there
+  std::vector<std::vector<Response>> by_share;      // [other form][training point] with half more of it
+  std::vector<Response> origin;                     // responses that these two depart from
+  std::vector<std::vector<Eigen::VectorXd>> parts;  // [effect of the hypothesis][training point]: what it adds to f
+};
+
+/// Shares of an effect's contribution that its law may be wrong by, at one standard deviation; which of them holds is part of a
+/// hypothesis. Laws of forces on particles differ by about a tenth between authors in the ranges where they are used; an operating point
+/// or a scale is exact. Without it a surplus second effect mops up the error of form of the first.
+inline constexpr std::array form_errors{0.0, 0.03, 0.1};
+inline constexpr double widest_form_error = form_errors.back();
+
+inline constexpr double nuisance_step = 0.5;  // standard uncertainties
+
+struct Hypothesis {
+  std::vector<int> effects;  // indices of Simulator::effects, in alphabetical order of their names
+};
+/// "none", "added_mass", "added_mass+lift".
+std::string name_of(const Hypothesis& hypothesis, const std::vector<Effect>& effects);
+
+struct Fit {
+  Hypothesis hypothesis;
+  Linearization at;  // the fitted state; its responses are those of the runs there
+  Whitening whitening;
+  LinearModel linear;          // around the fitted state: strengths in prior standard deviations, nuisances, shares of other forms
+  LinearSolution solution;     // of it; d is what a last step would change
+  std::vector<int> first_row;  // of each training point in rho, and the end
+  double log_evidence = 0;     // over all errors of form
+  double form_error = 0;       // the likeliest
+  Eigen::VectorXd theta, theta_sd;
+  Eigen::VectorXd residual;  // rho at the optimum of the linear model
+};
+
+class Fitter {
+ public:
+  explicit Fitter(Responses& model);
+
+  const Linearization& base() const { return base_; }
+  /// The state's responses, numerical error and derivatives by nuisances.
+  Linearization linearize(const State& state, const Hypothesis& hypothesis);
+  Whitening whiten(const Linearization& at, double form_error = widest_form_error) const;
+  /// Residual over all training points.
+  Eigen::VectorXd residual(const std::vector<Response>& responses, const Whitening& whitening) const;
+  /// Derivative of the residual by the nuisances of a linearization, and by its shares of other forms.
+  Eigen::MatrixXd nuisance_columns(const Linearization& at, const Whitening& whitening) const {
+    return columns(at, at.by_nuisance, whitening);
+  }
+  Eigen::MatrixXd share_columns(const Linearization& at, const Whitening& whitening) const { return columns(at, at.by_share, whitening); }
+  std::vector<int> first_rows() const;
+  /// Runs a training point that a fit of so many effects takes, about; far from linear, or with many forms, it takes a multiple.
+  int runs_of_fit(int n_effects) const;
+  /// Runs that [budget] still allows, those for the gap before and after at the withheld points aside.
+  int runs_left() const;
+  /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
+  /// share it takes the lead, and the better of the two fits is kept, as far as the budget goes.
+  Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
+
+ private:
+  Fit fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms);
+  Eigen::MatrixXd columns(const Linearization& at, const std::vector<std::vector<Response>>& moved, const Whitening& whitening) const;
+  State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
+  Linearization start_from_base(const State& state);
+  void add_shares(Linearization& at);
+  Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
+                                 const Whitening& whitening);
+  void descend(Fit& fit, Eigen::VectorXd& x, int iterations);
+  void linearize_at_fit(Fit& fit, const Eigen::VectorXd& x, double form_error);
+  double objective(const Fit& fit, const Eigen::VectorXd& x, const std::vector<Response>& responses) const;
+
+  Responses& model_;
+  Linearization base_;
+};
+
+/// Covariance of the Gaussian rows of one point.
+Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& response, const Eigen::VectorXd& numerical_error,
+                                 const std::vector<const Eigen::VectorXd*>& parts, double form_error = widest_form_error);
+
+}  // namespace snag

@@ -1,0 +1,123 @@
+#pragma once
+// Runs of the model, brought to the rows of the data: what a state of the model (strengths of effects, deviations of nuisances) answers at
+// each operating point.
+#include <Eigen/Dense>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/data/summary.hpp"
+
+namespace snag {
+
+/// The model with some effects and some deviations of its inputs.
+struct State {
+  std::vector<std::pair<int, double>> effects{};  // index into Simulator::effects, theta
+  Eigen::VectorXd nuisances;                      // in standard uncertainties, by index of Nuisances
+  std::vector<int> forms{};                       // that leads, by effect; what is not there: the first
+  Eigen::VectorXd shares{};                       // of the other forms, in standard deviations, see other_forms(); what is not there: 0
+  std::optional<Restart> restart{};               // of where the pieces are, on the way
+  int form(std::size_t effect) const { return effect < forms.size() ? forms[effect] : 0; }
+};
+
+/// Another form of an effect than the one that leads. A state answers with the mixture
+///   f = f_lead + sum over the other forms of sd share (f_form - f_lead),
+/// so that what lies between or beyond the forms has a place too. The law that holds is taken to be one of the forms give or take a third
+/// of what they differ by; a deviation is one standard deviation as it is.
+struct OtherForm {
+  std::size_t effect = 0;  // position in State::effects
+  int form = 0;
+  double sd = 1;
+};
+std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>& effects);
+
+/// What the runs of a state say at one point.
+struct Response {
+  Eigen::VectorXd value;    // by row: on the scale of Row::value (spread: variance over the seeds)
+  Eigen::VectorXd scatter;  // by row: variance of one run
+  Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
+  int n_runs = 1;
+  std::string failure;      // why none of its runs came through; empty: one did
+  std::vector<bool> later;  // by row: no run came to this time before it ended; `value` is the end
+};
+
+/// One deviation that is free in every hypothesis.
+struct FreeNuisance {
+  std::string name;
+  double u = 0;              // relative (calibration groups: 1)
+  std::vector<int> points;   // that share it
+  int bias_observable = -1;  // an additive bias of this observable, which needs no runs; -1: an input of the simulator
+  bool of_data = false;      // an error of the measurement, not of the model
+};
+
+/// The state with the leading forms only.
+State lead_of(State state);
+/// Zero for what has no number.
+Eigen::VectorXd finite(const Eigen::VectorXd& values);
+/// What was run beside the lead, beside the mixture: changes of inputs and steps are taken from the leading forms, which saves a run a
+/// form.
+Response beside(const Response& mixture, const Response& lead, Response moved);
+
+class Responses {
+ public:
+  Responses(const Experiment& experiment, Simulator& simulator);
+
+  const Experiment& experiment() const { return experiment_; }
+  const std::vector<Effect>& effects() const { return simulator_.effects(); }
+  const std::vector<FreeNuisance>& nuisances() const { return nuisances_; }
+  const std::vector<PointSummary>& points() const { return points_; }
+  const std::vector<int>& training() const { return training_; }
+  const std::vector<int>& withheld() const { return withheld_; }
+  /// The base model answers with another result for another seed.
+  bool base_is_random() const { return base_is_random_; }
+  /// Seeds a state is run with, and as many as fill in the distribution that a random effect makes (where the base model is random, every
+  /// run is dear, and these are the same).
+  int n_seeds(const State& state) const;
+  int n_seeds_of_distribution(const State& state) const;
+  int n_runs() const { return simulator_.n_runs(); }
+  /// Runs that [budget] still allows.
+  int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
+  State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }
+  bool acts_at(int nuisance, int point) const;
+  bool restarts(int point) const { return simulator_.restarts(point); }
+
+  struct Request {
+    State state;
+    int point = 0;
+    double step_factor = 1;
+    int n_seeds = 0;  // 0: as many as the state needs
+  };
+  /// One batch of runs.
+  std::vector<Response> run(const std::vector<Request>& requests);
+  /// The same state at several points.
+  std::vector<Response> run(const State& state, const std::vector<int>& points, double step_factor = 1);
+
+ private:
+  int seeds_of(const Request& request) const { return request.n_seeds > 0 ? request.n_seeds : n_seeds(request.state); }
+  std::vector<RunRequest> requests_of(const Request& request) const;
+  struct Part {
+    Request request;
+    double share = 0;
+  };
+  std::vector<Part> parts_of(const Request& request) const;
+  void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
+  Response response(const Request& request, std::span<const RunResult> results) const;
+  void find_randomness();
+  void leave_out_rows_without_answer();
+
+  const Experiment& experiment_;
+  Simulator& simulator_;
+  std::vector<FreeNuisance> nuisances_;
+  std::vector<PointSummary> points_;
+  std::vector<int> training_, withheld_;
+  bool base_is_random_ = false;
+  int seeds_of_random_ = 8;
+};
+
+/// Residual of a response against the data: Gaussian rows whitened with the Cholesky factor of their covariance, then the others.
+/// Of a time that no run came to, the model says that it is later than the end of the run, no more.
+Eigen::VectorXd residual(const PointSummary& point, const Response& response, const Eigen::LLT<Eigen::MatrixXd>& covariance);
+/// Sum over the rows that are not Gaussian of the logarithm of their variance ratio.
+double log_variance_ratio(const PointSummary& point, const Response& response);
+
+}  // namespace snag

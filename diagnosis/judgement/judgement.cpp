@@ -1,0 +1,261 @@
+#include "diagnosis/judgement/judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/words.hpp"
+#include "diagnosis/attribution/calibration.hpp"
+#include "diagnosis/judgement/checks.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double attributed = 0.9, suspected = 0.5;
+constexpr double check_limit = 1e-3, constancy_limit = 1e-3;
+/// Rankings by evidence and by points left out differ where the other leader is ahead by more than this; less is chance.
+constexpr double rankings_differ = 2;
+
+std::vector<std::string> effect_names(const Responses& model, const Fit& fit) {
+  std::vector<std::string> names;
+  for (const int k : fit.hypothesis.effects) names.push_back(model.effects()[k].name);
+  return names;
+}
+
+// A second effect without a cell of its own is not believed: its weight falls below that of its better half.
+void drop_surplus_effects(const Responses& model, Attribution& a) {
+  for (std::size_t i = 0; i < a.fits.size(); ++i) {
+    if (a.fits[i].hypothesis.effects.size() < 2) continue;
+    int half = -1;
+    for (std::size_t j = 0; j < a.fits.size(); ++j) {
+      const auto& effects = a.fits[i].hypothesis.effects;
+      const bool part =
+          a.fits[j].hypothesis.effects.size() == 1 && std::count(effects.begin(), effects.end(), a.fits[j].hypothesis.effects[0]) > 0;
+      if (part && (half < 0 || a.weight[j] > a.weight[half])) half = static_cast<int>(j);
+    }
+    if (half < 0 || has_cell_of_its_own(model, a.fits[i], a.fits[half])) continue;
+    constexpr double behind = 1;
+    if (a.weight[i] > a.weight[half] - behind) {
+      a.notes.push_back("The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
+      a.weight[i] = a.weight[half] - behind;
+      // What it is credited with beside its better half is what chance gives: nothing.
+      a.not_believed[i] = std::max(0.0, a.fits[i].log_evidence - a.fits[static_cast<std::size_t>(half)].log_evidence);
+    }
+  }
+}
+
+// Hypotheses that hold nine tenths of the probability together, the likeliest first. What was not fitted has its share, but no verdict
+// rests on it.
+std::vector<std::string> shared_verdict(const Attribution& a) {
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, p] : a.probability) order.emplace_back(-p, name);
+  std::sort(order.begin(), order.end());
+  std::vector<std::string> shared;
+  double sum = 0;
+  for (const auto& [minus_p, name] : order) {
+    if (!a.not_fitted.contains(name)) shared.push_back(name);
+    sum -= minus_p;
+    if (sum >= attributed) break;
+  }
+  return shared;
+}
+
+bool all_blind(const Responses& model, const Attribution& a) {
+  std::map<std::string, std::string> unused;
+  auto live = live_candidates(model, unused);
+  // A random effect has no signature to be too small.
+  std::erase_if(live, [&](int k) { return model.effects()[k].random; });
+  return std::all_of(live.begin(), live.end(), [&](int k) { return a.identifiability.blind.contains(model.effects()[k].name); });
+}
+
+class Judge {
+ public:
+  Judge(const Responses& model, Attribution& attribution, Verdict& verdict) : model_(model), a_(attribution), v_(verdict) {}
+
+  int judge() {
+    drop_surplus_effects(model_, a_);
+    set_probabilities(a_);
+    v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.weak_form = a_.weak_form,
+    v_.sham_rate = a_.sham_rate;
+    v_.temperature = calibration().temperature;
+    for (std::size_t i = 0; i < a_.fits.size(); ++i) {
+      v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence - a_.fits[0].log_evidence;
+      v_.leave_one_out[a_.names[i]] = a_.leave_one_out[i] - a_.leave_one_out[0];
+    }
+    v_.log_evidence["outside"] = a_.outside.log_evidence - a_.fits[0].log_evidence;
+    const int first = a_.first();
+    const bool outside_leads = a_.outside_weight > a_.weight[first];
+    v_.checks = predictive_checks(model_, a_.fits[first], model_.experiment().seed);
+    if (outside_leads || fails_checks())
+      outside(outside_leads);
+    else if (a_.fits[first].hypothesis.effects.empty())
+      none();
+    else
+      effects(first);
+    for (const auto& [name, p] : v_.probability)
+      for (const std::string& effect : split(name, '+'))
+        if (effect != "none" && effect != "outside") v_.acts[effect] += p;
+    const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.first_effect();
+    for (const int i : std::set<int>{reported, a_.first_effect()}) note_parameters(i);
+    note_inputs(a_.fits[first]);
+    return reported;
+  }
+
+ private:
+  bool fails_checks() {
+    for (const PredictiveCheck& check : v_.checks) {
+      if (check.p >= check_limit) continue;
+      v_.notes.push_back("Data like these are not expected under " + a_.names[a_.first()] + ": " + check.name + " is " +
+                         words(check.value) + ", p = " + words(check.p) + ".");
+      return true;
+    }
+    return false;
+  }
+
+  void outside(bool leads) {
+    v_.verdict = v_.wording = "outside";
+    // Checks that fail leave no hypothesis of the library standing, whatever their odds among each other.
+    if (!leads) {
+      const double kept = 0.05;
+      for (auto& [name, p] : v_.probability) p = name == "outside" ? 1 - kept * (1 - p) : kept * p;
+    }
+    const int best = a_.first_effect();
+    if (best == 0) return;
+    v_.effects = effect_names(model_, a_.fits[best]);
+    v_.notes.push_back(a_.names[best] + " describes the gap best among the effects of the library, but only in part; it is not the cause.");
+  }
+
+  // Effects that cannot be seen are as likely as ever, but they are no gap. A tie is where data that speak against none weigh as much.
+  void none() {
+    constexpr double speaks = 1;  // nats
+    const double none = a_.fits.front().log_evidence;
+    double against = a_.outside.log_evidence > none + speaks ? v_.probability.at("outside") : 0;
+    for (std::size_t i = 1; i < a_.fits.size(); ++i)
+      if (a_.fits[i].log_evidence - a_.not_believed[i] > none + speaks) against += v_.probability.at(a_.names[i]);
+    if (against > v_.probability.at("none")) {
+      tie(shared_verdict(a_));
+      return;
+    }
+    v_.verdict = all_blind(model_, a_) ? "blind" : "none";
+    v_.wording = v_.verdict == "blind" ? "blind" : "no gap beyond u_val";
+  }
+
+  void tie(const std::vector<std::string>& shared) {
+    v_.verdict = "tie", v_.wording = "undecided", v_.tie = shared;
+    const int best = a_.first_effect();
+    if (best > 0) v_.effects = effect_names(model_, a_.fits[best]);
+  }
+
+  void effects(int first) {
+    const int rival = best_predictor(first);
+    v_.effects = effect_names(model_, a_.fits[first]);
+    // Whether a further effect acts that is too weak to be named does not make the named ones less certain.
+    const double p = v_.p_effects = probability_of(a_, v_.effects);
+    const bool several_points = model_.training().size() > 1;
+    if (p < suspected) {
+      tie(shared_verdict(a_));
+    } else if (const int twin = equal_rival(first); twin >= 0) {
+      tie({a_.names[first], a_.names[twin]});
+    } else if (several_points && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ) {
+      tie({a_.names[first], a_.names[rival]});
+      v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
+                         " predicts operating points that were left out better.");
+    } else {
+      v_.verdict = "effects";
+      v_.wording = p >= attributed && guards_hold(first) ? "attributed" : "suspected";
+      note_weak_second(first);
+    }
+  }
+
+  // The rule of 6 nats is stricter than the probabilities.
+  void note_weak_second(int first) {
+    const auto likeliest =
+        std::max_element(v_.probability.begin(), v_.probability.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const std::vector<std::string> acting = split(likeliest->first, '+');
+    const auto acts = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
+    if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
+    v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + words(v_.probability.at(a_.names[first])) + ") is " +
+                       likeliest->first + " (" + words(likeliest->second) +
+                       "), but a second effect is named only where it brings 6 nats and has a cell of its own.");
+  }
+
+  // Another hypothesis with as many effects that the data cannot tell from the first; -1 if there is none.
+  int equal_rival(int first) const {
+    constexpr double equal = 1;  // nats
+    for (int i = 0; i < static_cast<int>(a_.fits.size()); ++i) {
+      if (i != first && a_.fits[i].hypothesis.effects.size() == a_.fits[first].hypothesis.effects.size() &&
+          a_.weight[i] > a_.weight[first] - equal)
+        return i;
+    }
+    return -1;
+  }
+
+  // The hypothesis that predicts left-out points best. One that lives on nuisances far outside their priors is no rival: predictions learn
+  // shared nuisances from the other points and do not ask how likely they are. Nor is a second effect that the rule of 6 nats refused.
+  int best_predictor(int first) const {
+    int best = first;
+    for (int i = 0; i < static_cast<int>(a_.fits.size()); ++i) {
+      const Fit& fit = a_.fits[i];
+      const auto &own = a_.fits[first].hypothesis.effects, &other = fit.hypothesis.effects;
+      const bool surplus = other.size() > own.size() &&
+                           std::all_of(own.begin(), own.end(), [&](int k) { return std::count(other.begin(), other.end(), k) > 0; });
+      const Eigen::Index bounded = fit.linear.lower.size(), m = static_cast<Eigen::Index>(model_.nuisances().size());
+      const Eigen::VectorXd nuisances = (fit.solution.d - fit.linear.prior).segment(bounded, m);
+      constexpr double far = 3;
+      const bool in_band = m == 0 || nuisances.cwiseAbs().maxCoeff() < far;
+      if (!surplus && in_band && a_.leave_one_out[i] > a_.leave_one_out[best]) best = i;
+    }
+    return best;
+  }
+
+  bool guards_hold(int first) {
+    bool hold = true;
+    const auto all = estimates(model_, a_.fits[first]);
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      const std::string& name = v_.effects[e];
+      if (all[e].absorbing)
+        v_.notes.push_back("The strength of " + name + ", " + words(all[e].mean) +
+                           ", is more than 3 standard deviations off what is expected: it may take up something else."),
+            hold = false;
+      if (all[e].cochran_p < constancy_limit)
+        v_.notes.push_back("The strength of " + name + " differs between operating points (Cochran p = " + words(all[e].cochran_p) + ")."),
+            hold = false;
+    }
+    constexpr double working_false_rate = 0.2;
+    if (a_.sham_rate > working_false_rate)
+      v_.notes.push_back("Sham effects would be chosen in " + words(100 * a_.sham_rate) +
+                         " % of the cases: the screening cannot tell an effect from chance here."),
+          hold = false;
+    return hold;
+  }
+
+  void note_inputs(const Fit& fit) {
+    const Eigen::VectorXd fitted = fit.solution.d - fit.linear.prior;
+    const auto& nuisances = model_.nuisances();
+    for (std::size_t j = 0; j < nuisances.size(); ++j) {
+      std::vector<std::string> points;
+      for (const int p : nuisances[j].points) points.push_back(model_.experiment().points[p].id);
+      const bool everywhere = points.size() == model_.experiment().points.size();
+      v_.nuisances[nuisances[j].name + (everywhere ? "" : "@" + joined(points))] =
+          fitted[fit.linear.lower.size() + static_cast<Eigen::Index>(j)];
+    }
+  }
+
+  void note_parameters(int fit) {
+    if (fit == 0) return;
+    const auto all = estimates(model_, a_.fits[fit]);
+    const auto names = effect_names(model_, a_.fits[fit]);
+    for (std::size_t e = 0; e < all.size(); ++e) v_.parameters[names[e]] = all[e];
+  }
+
+  const Responses& model_;
+  Attribution& a_;
+  Verdict& v_;
+};
+
+}  // namespace
+
+int judge(const Responses& model, Attribution& attribution, Verdict& verdict) { return Judge(model, attribution, verdict).judge(); }
+
+}  // namespace snag

@@ -1,0 +1,11 @@
+#pragma once
+// From weights, checks and guards to fixed words.
+#include "diagnosis/attribution/attribution.hpp"
+#include "diagnosis/data/verdict.hpp"
+
+namespace snag {
+
+/// Fills the verdict's words, probabilities, parameters, checks and notes. Returns the index of the fit that the verdict rests on.
+int judge(const Responses& model, Attribution& attribution, Verdict& verdict);
+
+}  // namespace snag

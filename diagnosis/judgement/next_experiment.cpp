@@ -1,0 +1,124 @@
+#include "diagnosis/judgement/next_experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+struct Proposal {
+  double T = 0;  // of one more replicate: square of the difference in its standard uncertainties
+  std::string observable, point;
+  double time = 0;  // s, where the predictions differ most
+};
+
+// T of one observable at one point, rows begin .. end.
+Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int begin, int end) {
+  const PointSummary& point = model.points()[model.training()[p]];
+  const int n = end - begin;
+  const Row& first = point.rows[begin];
+  Eigen::VectorXd difference = (a.at.responses[p].value - b.at.responses[p].value).segment(begin, n);
+  difference = finite(difference);
+  Eigen::MatrixXd C = point.covariance.block(begin, begin, n, n) * std::max(1, first.n_replicates);
+  const Eigen::VectorXd numerical = a.at.numerical_error[p].segment(begin, n);
+  C += numerical * numerical.transpose();
+  for (const auto& by_nuisance : a.at.by_nuisance) {
+    if (by_nuisance[p].value.size() == 0) continue;
+    const Eigen::VectorXd change = (by_nuisance[p].value - a.at.origin[p].value).segment(begin, n) / nuisance_step;
+    if (change.allFinite()) C += change * change.transpose();
+  }
+  C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
+  Proposal result{difference.dot(C.llt().solve(difference)), model.experiment().observables[first.observable].id,
+                  model.experiment().points[point.point].id, first.begin};
+  double largest = 0;
+  for (int i = 0; i < n; ++i) {
+    const double size = std::abs(difference[i]) / std::sqrt(C(i, i));
+    if (size > largest) largest = size, result.time = 0.5 * (point.rows[begin + i].begin + point.rows[begin + i].end);
+  }
+  return result;
+}
+
+// The same of a row with a likelihood of its own, by the variance of one replicate; spreads are no measurement of one.
+Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int row) {
+  const PointSummary& point = model.points()[model.training()[p]];
+  const Row& own = point.rows[row];
+  const double difference = a.at.responses[p].value[row] - b.at.responses[p].value[row],
+               mean = 0.5 * (a.at.responses[p].value[row] + b.at.responses[p].value[row]);
+  double variance = 0;
+  if (own.kind == Row::Kind::time) variance = own.sigma * own.sigma;
+  if (own.kind == Row::Kind::count) variance = mean * std::max(1.0, own.sigma);
+  if (own.kind == Row::Kind::event) variance = mean * (1 - mean);
+  Proposal result{0, model.experiment().observables[own.observable].id, model.experiment().points[point.point].id, own.begin};
+  if (std::isfinite(difference) && variance > 0) result.T = difference * difference / variance;
+  return result;
+}
+
+// Where the fit leaves most, summed over the rows of an observable at a point.
+std::string what_remains(const Responses& model, const Fit& fit) {
+  std::map<std::pair<std::string, std::string>, double> left;  // by observable and point
+  for (std::size_t p = 0; p < model.training().size(); ++p) {
+    const PointSummary& point = model.points()[model.training()[p]];
+    for (std::size_t i = 0; i < point.rows.size(); ++i)
+      left[{model.experiment().observables[point.rows[i].observable].id, model.experiment().points[point.point].id}] +=
+          std::pow(fit.residual[fit.first_row[p] + static_cast<int>(i)], 2);
+  }
+  const auto most = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return "What no effect explains shows most in " + most->first.first + " at point " + most->first.second +
+         ": measured at further operating points around it, it would tell what the missing cause depends on.";
+}
+
+/// More digits are not known of a prediction.
+std::string two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+/// A hypothesis in a sentence.
+std::string spoken(std::string name) {
+  if (name == "none") return "no missing effect";
+  if (const auto plus = name.find('+'); plus != std::string::npos) name.replace(plus, 1, " with ");
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+}  // namespace
+
+std::string next_experiment(const Responses& model, const Attribution& attribution, bool outside) {
+  const int first = attribution.first();
+  if (outside) return what_remains(model, attribution.fits[first]);
+  int second = -1;
+  for (int i = 0; i < static_cast<int>(attribution.fits.size()); ++i)
+    if (i != first && (second < 0 || attribution.weight[i] > attribution.weight[second])) second = i;
+  if (second < 0) return "";
+  const Fit &a = attribution.fits[first], &b = attribution.fits[second];
+  // Derivatives by the inputs are known where a fit linearized them.
+  if (a.at.by_nuisance.empty() && !model.nuisances().empty()) return "";
+  Proposal best;
+  for (std::size_t p = 0; p < model.training().size(); ++p) {
+    const PointSummary& point = model.points()[model.training()[p]];
+    for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
+      while (end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable) ++end;
+      const Proposal tried = proposal(model, a, b, p, begin, end);
+      if (tried.T > best.T) best = tried;
+    }
+    for (int row = point.n_gaussian; row < static_cast<int>(point.rows.size()); ++row)
+      if (const Proposal tried = proposal(model, a, b, p, row); tried.T > best.T) best = tried;
+  }
+  const std::string both = spoken(attribution.names[first]) + " from " + spoken(attribution.names[second]);
+  constexpr double wanted_nats = 6, most_replicates = 1000;
+  const double replicates = std::ceil(2 * wanted_nats / std::max(best.T, 1e-300));
+  if (replicates > most_replicates)
+    return "No number of repeats of these measurements would tell " + both + "; that takes another operating point or observable.";
+  return "To tell " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
+         (std::isnan(best.time) ? "" : ", above all around t = " + words(best.time) + " s") +
+         ": there the two predict what differs most, by " + two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
+         (replicates > 1 ? words(replicates) + " more repeats" : "One more") + " would settle it.";
+}
+
+}  // namespace snag

@@ -1,0 +1,328 @@
+#include "report/verdict_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "base/version.hpp"
+#include "base/words.hpp"
+#include "report/html.hpp"
+#include "report/line_plot.hpp"
+#include "report/page.hpp"
+
+namespace snag {
+
+namespace {
+
+std::string percent(double share) {
+  if (std::isnan(share)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, share < 0.1 && share > 0 ? "%.1f %%" : "%.0f %%", 100 * share);
+  return text;
+}
+
+struct Bar {
+  std::string label, text;
+  double length = 0;
+  bool strong = false;
+};
+
+/// Level bars with their labels on the left and numbers on the right.
+std::string bars(const std::vector<Bar>& all) {
+  constexpr double width = 760, left = 230, right = 90, height = 24;
+  double longest = 0;
+  for (const Bar& bar : all) longest = std::max(longest, bar.length);
+  std::string svg =
+      "<svg viewBox=\"0 0 760 " + std::to_string(static_cast<int>(height * static_cast<double>(all.size()) + 4)) + "\" role=\"img\">\n";
+  double y = 2;
+  for (const Bar& bar : all) {
+    const double length = longest > 0 && std::isfinite(bar.length) ? (width - left - right) * bar.length / longest : 0;
+    const std::string middle = words(y + 0.66 * height);
+    svg += "<text x=\"" + words(left - 8) + "\" y=\"" + middle + "\" text-anchor=\"end\">" + escaped(bar.label) + "</text><rect x=\"" +
+           words(left) + "\" y=\"" + words(y + 3) + "\" width=\"" + words(length) + "\" height=\"" + words(height - 6) + "\" fill=\"" +
+           (bar.strong ? "#0072b2" : "#a9b7c6") + "\"/><text x=\"" + words(left + length + 6) + "\" y=\"" + middle + "\">" + bar.text +
+           "</text>\n";
+    y += height;
+  }
+  return svg + "</svg>\n";
+}
+
+std::string which(const Verdict& v) {
+  std::vector<std::pair<double, std::string>> sorted;
+  for (const auto& [name, p] : v.acts) sorted.emplace_back(p, name);
+  for (const char* name : {"none", "outside"}) sorted.emplace_back(v.probability.at(name), name);
+  std::sort(sorted.rbegin(), sorted.rend());
+  std::vector<Bar> all;
+  for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 10); ++i)
+    all.push_back({sorted[i].second, percent(sorted[i].first), sorted[i].first, i == 0});
+  return bars(all) +
+         "<p>Of an effect: how probable it is that it acts, alone or beside another; what these data cannot show is as probable as it was "
+         "before them. None: nothing is missing. Outside: what is missing is not in the library.</p>\n";
+}
+
+std::string strengths(const Verdict& v) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, estimate] : v.parameters)
+    rows.push_back(
+        {escaped(name) + (estimate.absorbing ? " (far from what is physically expected: it may take up something else)" : ""),
+         html::number(estimate.mean) + " ± " + html::number(estimate.sd) + (estimate.unit == "1" ? "" : " " + escaped(estimate.unit)),
+         html::number(estimate.cochran_p)});
+  return rows.empty() ? "" : html::table({"Strength", "fitted", "p that the points agree on it"}, rows);
+}
+
+std::string how_far(const Verdict& v) {
+  if (!v.gap.computable)
+    return "<p>Not computable: this takes paths or means of scalars at three operating points or more that the fit did not see, and runs "
+           "left in the budget for the chosen hypothesis there. Only the evidence speaks.</p>\n";
+  std::string text = bars({{"gap before", html::number(v.gap.before), v.gap.before, false},
+                           {"gap after", html::number(v.gap.after), v.gap.after, true},
+                           {"noise floor", html::number(v.gap.floor), v.gap.floor, false},
+                           {"remainder", html::number(v.gap.remainder), v.gap.remainder, false}});
+  const auto row = [](const std::string& name, const Shrinkage& s) {
+    return std::vector<std::string>{escaped(name), percent(s.mean), std::isnan(s.mean) ? "-" : percent(s.low) + " to " + percent(s.high)};
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, s] : v.shrinkage) rows.push_back(row(name, s));
+  for (const auto& [name, s] : v.shrinkage_rejected) rows.push_back(row(name + ", rejected", s));
+  rows.push_back(row("a correction without physics", v.shrinkage_regression));
+  return text +
+         "<p>Mean square differences at the withheld points, in units of the data's own uncertainty, less what noise alone makes (the "
+         "noise "
+         "floor). Remainder: what is left of the gap after the best that was tried. A dash: the withheld points show no gap beyond "
+         "noise.</p>\n" +
+         html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
+}
+
+/// White where |z| is zero, over yellow to dark red at six and more.
+std::string heat(double z) {
+  const double t = std::min(std::abs(z) / 6, 1.0);
+  const auto channel = [t](double at_zero, double at_half, double at_one) {
+    return static_cast<int>(t < 0.5 ? at_zero + 2 * t * (at_half - at_zero) : at_half + (2 * t - 1) * (at_one - at_half));
+  };
+  char text[32];
+  std::snprintf(text, sizeof text, "rgb(%d,%d,%d)", channel(255, 254, 165), channel(255, 196, 15), channel(255, 79, 21));
+  return text;
+}
+
+/// A square for every cell: points beside each other, observables and the parts of their time below each other.
+std::string map_of_gap(const Verdict& v) {
+  constexpr double left = 190, top = 26, width = 56, height = 24;
+  std::vector<std::string> points, rows;
+  const auto place = [](std::vector<std::string>& list, const std::string& name) {
+    const auto found = std::find(list.begin(), list.end(), name);
+    if (found != list.end()) return static_cast<double>(found - list.begin());
+    list.push_back(name);
+    return static_cast<double>(list.size() - 1);
+  };
+  std::map<std::pair<std::string, std::string>, int> part;  // windows of an observable at a point so far
+  std::string cells;
+  for (const GapCell& c : v.where) {
+    std::string row = c.observable + (c.region == "all" ? "" : ", " + c.region);
+    if (const int n = ++part[{c.point, row}]; !std::isnan(c.window[0])) row += ", part " + std::to_string(n);
+    const double x = left + width * place(points, c.point), y = top + height * place(rows, row);
+    char z[32];
+    std::snprintf(z, sizeof z, std::abs(c.z) < 9.95 ? "%.1f" : "%.0f", c.z);
+    cells += "<rect x=\"" + words(x) + "\" y=\"" + words(y) + "\" width=\"" + words(width - 2) + "\" height=\"" + words(height - 2) +
+             "\" fill=\"" + heat(c.z) + "\"" + (c.origin == "born" ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" +
+             words(x + width / 2 - 1) + "\" y=\"" + words(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
+             (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
+  }
+  std::string labels;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    labels += "<text x=\"" + words(left + width * (static_cast<double>(i) + 0.5) - 1) + "\" y=\"18\" text-anchor=\"middle\">" +
+              escaped(points[i]) + "</text>\n";
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    labels += "<text x=\"" + words(left - 8) + "\" y=\"" + words(top + height * (static_cast<double>(i) + 0.66)) +
+              "\" text-anchor=\"end\">" + escaped(rows[i]) + "</text>\n";
+  const double all_width = std::max(760.0, left + width * static_cast<double>(points.size()));
+  return "<svg viewBox=\"0 0 " + words(all_width) + " " + words(top + height * static_cast<double>(rows.size()) + 4) +
+         "\" role=\"img\">\n" + labels + cells + "</svg>\n";
+}
+
+/// A place on the measured way of a point: the means of its coordinates over a part of the time, and the largest |z| of them there.
+struct Place {
+  std::map<std::string, double> at;  // by observable, m
+  double z = 0;
+};
+
+/// Ways in the plane of the two coordinates that change most, each place coloured by |z|.
+std::string map_of_ways(const Verdict& v) {
+  std::map<std::string, std::map<double, Place>> ways;  // by point and begin of the part
+  std::map<std::string, std::array<double, 2>> ranges;  // by coordinate
+  for (const GapCell& c : v.where) {
+    if (std::isnan(c.window[0]) || (c.observable != "x" && c.observable != "y" && c.observable != "z")) continue;
+    Place& place = ways[c.point][c.window[0]];
+    place.at[c.observable] = c.measured, place.z = std::max(place.z, std::abs(c.z));
+    auto& [low, high] = ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;
+    low = std::min(low, c.measured), high = std::max(high, c.measured);
+  }
+  std::vector<std::string> axes;
+  for (const auto& [axis, range] : ranges) axes.push_back(axis);
+  std::stable_sort(axes.begin(), axes.end(),
+                   [&](const std::string& a, const std::string& b) { return ranges[a][1] - ranges[a][0] > ranges[b][1] - ranges[b][0]; });
+  if (axes.size() < 2) return "";
+  axes.resize(2), std::sort(axes.begin(), axes.end());  // x across, z or y up
+  constexpr double width = 760, height = 330, left = 90, right = 40, top = 14, bottom = 44;
+  const auto across = [&](double value) {
+    return left + (width - left - right) * (value - ranges[axes[0]][0]) / std::max(ranges[axes[0]][1] - ranges[axes[0]][0], 1e-300);
+  };
+  const auto up = [&](double value) {
+    return height - bottom -
+           (height - top - bottom) * (value - ranges[axes[1]][0]) / std::max(ranges[axes[1]][1] - ranges[axes[1]][0], 1e-300);
+  };
+  std::string lines, dots;
+  for (const auto& [point, way] : ways) {
+    std::string line;
+    for (const auto& [begin, place] : way) {
+      if (!place.at.contains(axes[0]) || !place.at.contains(axes[1])) continue;
+      const std::string x = words(across(place.at.at(axes[0]))), y = words(up(place.at.at(axes[1])));
+      line += x + "," + y + " ";
+      dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"8\" fill=\"" + heat(place.z) + "\" stroke=\"#596575\"/>";
+      if (begin == way.rbegin()->first)
+        dots += "<text x=\"" + words(across(place.at.at(axes[0])) + 12) + "\" y=\"" + y + "\">" + escaped(point) + "</text>\n";
+    }
+    lines += "<polyline points=\"" + line + "\" fill=\"none\" stroke=\"#a9b7c6\"/>\n";
+  }
+  const auto ends = [&](const std::string& axis, double low_x, double low_y, double high_x, double high_y, const char* anchor) {
+    return "<text x=\"" + words(low_x) + "\" y=\"" + words(low_y) + "\" text-anchor=\"" + anchor + "\">" + html::number(ranges[axis][0]) +
+           "</text><text x=\"" + words(high_x) + "\" y=\"" + words(high_y) + "\" text-anchor=\"" + anchor + "\">" +
+           html::number(ranges[axis][1]) + "</text>\n";
+  };
+  return "<svg viewBox=\"0 0 " + words(width) + " " + words(height) + "\" role=\"img\" aria-label=\"Ways\">\n<rect x=\"" +
+         words(left - 16) + "\" y=\"" + words(top - 12) + "\" width=\"" + words(width - left - right + 50) + "\" height=\"" +
+         words(height - top - bottom + 24) + "\" fill=\"none\" stroke=\"#dde3ea\"/>\n" + lines + dots +
+         ends(axes[0], left, height - 14, width - right, height - 14, "middle") +
+         ends(axes[1], left - 22, height - bottom, left - 22, top + 8, "end") + "<text x=\"" + words(0.5 * (left + width - right)) +
+         "\" y=\"" + words(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
+         words(0.5 * height) + "\" transform=\"rotate(-90 14 " + words(0.5 * height) + ")\" text-anchor=\"middle\">measured " + axes[1] +
+         " [m]</text>\n</svg>\n<p>The measured ways, part by part of their time, in the same colours: the largest difference of a "
+         "coordinate over its "
+         "uncertainty there.</p>\n";
+}
+
+/// What a cell is to the others.
+std::string remark_on(const GapCell& cell) {
+  std::string remark;
+  if (cell.onset) remark += "begins here ";
+  if (!cell.origin.empty())
+    remark += (cell.origin == "born" ? "born here" : cell.origin) + std::string(" (restarted: ") + html::number(cell.restart_z) + ") ";
+  if (cell.blind && !cell.significant) remark += "blind ";
+  return remark + (cell.withheld ? "withheld" : "");
+}
+
+std::string window(const GapCell& cell) {
+  return std::isnan(cell.window[0]) ? "whole run" : words(cell.window[0]) + " to " + words(cell.window[1]) + " s";
+}
+
+/// Data and simulation of the paths that differ most: as they are, and beside it what is left of the measured values.
+std::string curves(const Verdict& v) {
+  std::string plots, effects;
+  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
+  const std::string with = (v.verdict == "outside" ? "in part: with " : "with ") + effects + ", inputs fitted";
+  for (const GapCurve& c : v.curves) {
+    const auto less_measured = [&](std::vector<double> values) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] -= c.measured[i];
+      return values;
+    };
+    const std::string title = c.observable + " at " + c.point, label = c.observable + (c.unit == "1" ? "" : " [" + c.unit + "]");
+    LinePlot path{.title = title, .x_label = "t [s]", .y_label = label, .lines = {}}, rest = path;
+    rest.title += ": simulated less measured", rest.y_label = "difference of " + label;
+    path.lines = {{.label = "measured", .x = c.time, .y = c.measured, .dotted = true}, {.label = "base model", .x = c.time, .y = c.base}};
+    const std::vector<double> zero(c.time.size(), 0.0);
+    rest.lines = {{.label = "measured", .x = c.time, .y = zero, .dotted = true},
+                  {.label = "base model", .x = c.time, .y = less_measured(c.base)}};
+    if (!c.with_effect.empty()) {
+      path.lines.push_back({.label = with, .x = c.time, .y = c.with_effect});
+      rest.lines.push_back({.label = with, .x = c.time, .y = less_measured(c.with_effect)});
+    }
+    for (LinePlot* plot : {&path, &rest}) {
+      PlotBand band{.label = "measured ± 2 u", .x = c.time, .low = plot->lines.front().y, .high = plot->lines.front().y};
+      for (std::size_t i = 0; i < c.u.size(); ++i) band.low[i] -= 2 * c.u[i], band.high[i] += 2 * c.u[i];
+      plot->bands = {band};
+      plots += figure(*plot);
+    }
+  }
+  return plots.empty() ? ""
+                       : "<p>The paths that differ most. u: standard uncertainty of the measured mean, noise, scatter and bias; what is "
+                         "uncertain of the inputs comes on top of it for the base model.</p>\n<div class=\"plots\">" +
+                             plots + "</div>\n";
+}
+
+std::string where(const Verdict& v) {
+  std::vector<const GapCell*> cells;
+  for (const GapCell& cell : v.where) cells.push_back(&cell);
+  std::stable_sort(cells.begin(), cells.end(), [](const GapCell* a, const GapCell* b) { return std::abs(a->z) > std::abs(b->z); });
+  constexpr std::size_t shown = 8;
+  std::vector<std::vector<std::string>> rows, more;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const GapCell& c = *cells[i];
+    (i < shown ? rows : more)
+        .push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
+                    html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
+                    (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark_on(c)});
+  }
+  const std::vector<std::string> header{"Cell", "measured (SI)", "simulated", "u of the difference", "difference/u", ""};
+  const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
+  return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
+         " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
+         "standard uncertainty; points beside each other. Where a run that goes on from the measured state at the begin of a part differs "
+         "again, that part makes a gap of its own (framed: born here); where it agrees, the gap is inherited from before.</p>\n" +
+         map_of_gap(v) + map_of_ways(v) + curves(v) + html::table(header, rows) +
+         (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
+}
+
+std::string evidence(const Verdict& v) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, nats] : v.log_evidence) {
+    const auto left_out = v.leave_one_out.find(name);
+    const auto p = v.probability.find(name);
+    rows.push_back({escaped(name), html::number(nats), left_out == v.leave_one_out.end() ? "" : html::number(left_out->second),
+                    p == v.probability.end() ? "" : percent(p->second)});
+  }
+  std::string text = html::table({"Hypothesis", "evidence over none, nats", "points left out one by one, nats", "probability"}, rows);
+  rows.clear();
+  for (const PredictiveCheck& check : v.checks) rows.push_back({escaped(check.name), html::number(check.value), html::number(check.p)});
+  if (!rows.empty()) text += html::table({"Does the first hypothesis explain the data?", "value", "p"}, rows);
+  for (const std::string& note : v.notes) text += "<p>" + escaped(note) + "</p>\n";
+  return text + "<p>" + std::to_string(v.runs) + " runs. Data sha256 " + v.data_sha256 + ".</p>\n";
+}
+
+std::string next(const Verdict& v) {
+  std::string text;
+  for (const auto& tie : v.identifiability.ties) text += "<p>These look alike in this experiment: " + escaped(joined(tie)) + ".</p>\n";
+  if (!v.identifiability.next_experiment.empty()) text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});
+  return text + (rows.empty() ? "" : html::table({"Effect at its expected strength", "signal over uncertainty", ""}, rows));
+}
+
+}  // namespace
+
+std::string verdict_sentence(const Verdict& v) {
+  if (v.verdict == "none") return "No gap beyond the uncertainty: nothing is missing that these data could show.";
+  if (v.verdict == "outside")
+    return "There is a gap, and no effect of the library explains it." +
+           (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
+  if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
+  if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
+  return "The gap comes from " + joined(v.effects) + ": " + v.wording + ", probability " + percent(v.p_effects) + ".";
+}
+
+std::string verdict_page(const Verdict& v) {
+  std::string page =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: " +
+      escaped(v.name) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n<h1>" + escaped(v.name) +
+      "</h1>\n<p class=\"origin\">Diagnosis of the gap between simulation and measurement, by version " + version_number + " (" +
+      version_git + ")</p>\n<p class=\"outcome\">" + escaped(verdict_sentence(v)) + "</p>\n";
+  page += section("Which effect", which(v) + strengths(v));
+  page += section("How far the gap shrinks", how_far(v));
+  page += section("Where the gap is", where(v));
+  page += section("What to measure next", next(v));
+  page += section("The evidence", evidence(v));
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace snag

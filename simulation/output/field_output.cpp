@@ -1,0 +1,149 @@
+#include "simulation/output/field_output.hpp"
+
+#include <array>
+
+#include "base/words.hpp"
+#include "mesh/skewness.hpp"
+#include "mesh/wall_surface.hpp"
+#include "parallel/rows.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "solver/fields/rotating_zone.hpp"
+
+namespace snag {
+
+namespace {
+
+std::uint8_t vtk_type(CellShape shape) {
+  switch (shape) {
+    case CellShape::tetrahedron:
+      return 10;
+    case CellShape::hexahedron:
+      return 12;
+    case CellShape::prism:
+      return 13;
+    case CellShape::pyramid:
+      return 14;
+  }
+  return 0;
+}
+
+VtkPiece grid_of(const Mesh& mesh) {
+  VtkPiece piece;
+  piece.points = mesh.node;
+  piece.connectivity.assign(mesh.cell_node.begin(), mesh.cell_node.end());
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    piece.offsets.push_back(mesh.cell_node_start[c + 1]);
+    piece.types.push_back(vtk_type(mesh.cell_shape[c]));
+  }
+  return piece;
+}
+
+}  // namespace
+
+FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time)
+    : folder_(std::move(folder)),
+      mesh_(mesh),
+      single_precision_(single_precision),
+      piece_(grid_of(mesh)),
+      collection_(folder_ / "water.pvd", resume, from_time) {
+  const std::vector<int> skew = skew_cells(mesh_);
+  if (sum(mesh_.comm, static_cast<std::int64_t>(skew.size())) == 0) return;
+  skew_ = {"skew [1]", 1, std::vector<double>(static_cast<std::size_t>(mesh_.n_cells)), true};
+  for (const int c : skew) skew_->values[static_cast<std::size_t>(c)] = 1;
+}
+
+void FieldOutput::write(const Flow& flow) {
+  const int n = mesh_.n_cells, rank = rank_of(mesh_.comm), size = size_of(mesh_.comm);
+  const auto owned = [&](const std::string& name, const auto& values) {
+    return vtk_array(name, std::span(values).first(static_cast<std::size_t>(n)), single_precision_);
+  };
+  piece_.cell_arrays = {owned("velocity [m/s]", flow.velocity),
+                        owned("pressure [Pa]", flow.pressure),
+                        owned("solid_fraction [1]", flow.solid_fraction),
+                        owned("reaction [N/m3]", flow.reaction),
+                        {"rank [1]", 1, std::vector<double>(n, rank), true}};
+  if (!flow.eddy_viscosity.empty())
+    for (const auto& [name, values] :
+         {std::pair{"turbulent_kinetic_energy [m2/s2]", &flow.turbulent_kinetic_energy},
+          std::pair{"dissipation_rate [m2/s3]", &flow.dissipation_rate}, std::pair{"eddy_viscosity [m2/s]", &flow.eddy_viscosity}})
+      piece_.cell_arrays.push_back(owned(name, *values));
+  if (flow.rotating_zone) {
+    piece_.points = mesh_.node;  // they may have turned
+    VtkArray turning{"turning [1]", 1, {}, true};
+    for (int c = 0; c < n; ++c) turning.values.push_back(mesh_.cell_zone[c] == flow.rotating_zone->zone());
+    piece_.cell_arrays.push_back(std::move(turning));
+  }
+  if (skew_) piece_.cell_arrays.push_back(*skew_);
+  piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
+  const std::string stem = numbered("water", flow.time_step);
+  std::vector<std::string> pieces;
+  for (int r = 0; r < size; ++r) pieces.push_back(stem + "_" + std::to_string(r) + ".vtu");
+  together(mesh_.comm, [&] {
+    write_vtk(folder_ / pieces[rank], VtkKind::unstructured_grid, piece_);
+    if (rank != 0) return;
+    write_parallel_vtk(folder_ / (stem + ".pvtu"), VtkKind::unstructured_grid, piece_, pieces);
+    collection_.add(flow.time, stem + ".pvtu");
+  });
+}
+
+WallOutput::WallOutput(std::filesystem::path folder, const Flow& flow, bool resume, double from_time) : folder_(std::move(folder)) {
+  if (flow.rotating_zone) collection_.emplace(folder_ / "walls.pvd", resume, from_time);
+}
+
+void WallOutput::initial(const Flow& flow) {
+  if (collection_) return write(flow);
+  const VtkPiece walls = walls_of(flow);
+  together(flow.mesh.comm, [&] {
+    if (rank_of(flow.mesh.comm) == 0) write_vtk(folder_ / "walls.vtp", VtkKind::polygons, walls);
+  });
+}
+
+void WallOutput::write(const Flow& flow) {
+  if (!collection_) return;
+  const VtkPiece walls = walls_of(flow);
+  const std::string file = numbered("walls", flow.time_step) + ".vtp";
+  together(flow.mesh.comm, [&] {
+    if (rank_of(flow.mesh.comm) != 0) return;
+    write_vtk(folder_ / file, VtkKind::polygons, walls);
+    collection_->add(flow.time, file);
+  });
+}
+
+VtkPiece WallOutput::walls_of(const Flow& flow) const {
+  const Mesh& mesh = flow.mesh;
+  std::vector<std::string> names;
+  for (const Patch& patch : mesh.patches) names.push_back(patch.name);
+  const WallSurface surface = wall_surface(mesh, names);
+  const auto of_faces = [&](const char* name, const std::vector<double>& values) {
+    std::vector<double> mine;
+    for (const Patch& patch : mesh.patches)
+      for (int f = patch.first; f < patch.end(); ++f) mine.push_back(values[f - mesh.n_interior]);
+    const std::vector<double> all = gathered(mesh.comm, mine);
+    VtkArray array{name, 1, {}, true};
+    for (const WallTriangle& triangle : surface.triangles) array.values.push_back(all[static_cast<std::size_t>(triangle.face)]);
+    return array;
+  };
+  VtkPiece piece;
+  VtkArray part{"patch [1]", 1, {}, true};
+  for (const WallTriangle& triangle : surface.triangles) {
+    for (const Vec3& node : triangle.node) {
+      piece.connectivity.push_back(static_cast<std::int64_t>(piece.points.size()));
+      piece.points.push_back(node);
+    }
+    piece.offsets.push_back(static_cast<std::int64_t>(piece.points.size()));
+    part.values.push_back(triangle.part);
+  }
+  piece.cell_arrays.push_back(std::move(part));
+  if (collection_) {
+    std::vector<double> turning;
+    for (int f = mesh.n_interior; f < mesh.n_faces; ++f) turning.push_back(mesh.cell_zone[mesh.owner[f]] == flow.rotating_zone->zone());
+    piece.cell_arrays.push_back(of_faces("turning [1]", turning));
+    piece.cell_arrays.push_back(of_faces("pressure [Pa]", flow.boundary_pressure));
+    if (sum(mesh.comm, static_cast<std::int64_t>(flow.y_plus.size())) > 0) piece.cell_arrays.push_back(of_faces("y_plus [1]", flow.y_plus));
+    piece.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
+  }
+  return piece;
+}
+
+}  // namespace snag

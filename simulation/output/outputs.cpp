@@ -1,0 +1,375 @@
+#include "simulation/output/outputs.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/log.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "simulation/setup/checks.hpp"
+#include "solver/fields/rotating_zone.hpp"
+#include "solver/monitors.hpp"
+
+namespace snag {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Without intervals in the case: enough pictures for a film of the rags, few enough fields for a disk.
+constexpr int default_n_fields = 20, default_n_rag_pictures = 100;
+
+const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
+                                    "checkpoint",         "pictures"};
+
+std::vector<std::string> residual_columns() {
+  return {"time [s]",
+          "time_step [1]",
+          "courant_max [1]",
+          "courant_mean [1]",
+          "momentum_residual [1]",
+          "momentum_sweeps_iterations [1]",
+          "pressure_residual [1]",
+          "pressure_iterations [1]",
+          "continuity_local [1]",
+          "continuity_global [m3/s]"};
+}
+
+/// Walls on which a turbulence model gives y+. Collective.
+std::vector<int> walls_with_y_plus(const FlowSolver& water) {
+  std::vector<int> walls;
+  if (sum(MPI_COMM_WORLD, static_cast<std::int64_t>(water.flow.y_plus.size())) == 0) return walls;
+  for (int p = 0; p < static_cast<int>(water.flow.mesh.patches.size()); ++p)
+    if (water.boundary().is_wall(p)) walls.push_back(p);
+  return walls;
+}
+
+std::vector<std::string> wall_columns(const Mesh& mesh, const std::vector<int>& walls) {
+  std::vector<std::string> columns{"time [s]"};
+  for (const int p : walls)
+    for (const char* end : {"_y_plus_min [1]", "_y_plus_mean [1]", "_y_plus_max [1]"}) columns.push_back(mesh.patches[p].name + end);
+  return columns;
+}
+
+/// The code of a run: that of the first check that fails where all else went well. Says which.
+ExitCode judged(const Summary& summary, ExitCode exit) {
+  if (exit != ExitCode::ok) return exit;
+  for (const CheckedValue& one : checked(summary_json(summary))) {
+    if (!one.fails()) continue;
+    log::error("a check failed: " + failure_in_words(one));
+    if (exit == ExitCode::ok) exit = one.check.code;
+  }
+  int code = static_cast<int>(exit);  // some of the summary is known on rank 0 only
+  MPI_Bcast(&code, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return static_cast<ExitCode>(code);
+}
+
+RotorState rotor_state(const RotatingZone& zone, double time) {
+  return {{zone.origin(), zone.axis(), zone.speed(time)}, zone.angle(time), zone.slides()};
+}
+
+}  // namespace
+
+void check_output_folder(const fs::path& folder, bool resume, bool overwrite) {
+  std::error_code ignored;
+  if (resume || overwrite || !fs::exists(folder, ignored)) return;
+  for (const char* name : {"summary.json", "checkpoint", "monitors"}) {
+    if (fs::exists(folder / name, ignored))
+      throw Error(ExitCode::usage, folder.string() + ": holds the results of a run already (" + name +
+                                       "), which are never overwritten unasked; choose another --out, or --resume, or --overwrite");
+  }
+}
+
+void prepare_output_folder(const fs::path& folder, bool fresh) {
+  try {
+    if (fresh) {
+      for (const char* name : result_names) fs::remove_all(folder / name);
+    }
+    for (const char* name : {"monitors", "fields", "rags", "walls", "checkpoint"}) fs::create_directories(folder / name);
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(ExitCode::io, folder.string() + ": cannot be written (" + failure.code().message() + "); choose another --out");
+  }
+}
+
+Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun)
+    : folder_(std::move(folder)), file_(file), simulation_(simulation), begun_(begun) {
+  const double from = simulation.time(), end = simulation.time_settings.end;
+  fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
+  rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
+  if (simulation.water) {
+    walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
+    for (int p = 0; p < static_cast<int>(simulation.mesh->patches.size()); ++p)
+      if (!simulation.water->boundary().is_wall(p)) openings_ += patch_area(simulation.water->flow, p);
+  }
+  const bool root = rank_of(MPI_COMM_WORLD) == 0;
+  together(MPI_COMM_WORLD, [&] {
+    if (!root) return;
+    write_atomically(folder_ / "case.resolved.toml", file.resolved());
+    const auto open = [&](const std::string& name, const std::vector<std::string>& columns) {
+      return Series(folder_ / "monitors" / (name + ".csv"), columns, resume, from);
+    };
+    timing_ = open("timing", {"time [s]", "flow_s [s]", "dem_s [s]", "coupling_s [s]", "output_s [s]"});
+    if (simulation.water) {
+      residuals_ = open("residuals", residual_columns());
+      std::vector<std::string> columns{"time [s]"};
+      for (const Patch& patch : simulation.mesh->patches) {
+        for (const char* quantity : {"_flow [m3/s]", "_pressure [Pa]", "_force_x [N]", "_force_y [N]", "_force_z [N]"})
+          columns.push_back(patch.name + quantity);
+      }
+      patches_ = open("patches", columns);
+      if (!walls_with_y_plus_.empty()) wall_ = open("wall", wall_columns(*simulation.mesh, walls_with_y_plus_));
+    }
+    if (simulation.rags)
+      silhouettes_ =
+          open("silhouettes", {"time [s]", "rag [1]", "area [m2]", "x [m]", "y [m]", "elongation_ratio [1]", "orientation [rad]"});
+    if (simulation.coupled) coupling_ = open("coupling", CoupledSolver::columns());
+  });
+  if (simulation.water) {
+    fields_ =
+        std::make_unique<FieldOutput>(folder_ / "fields", *simulation.mesh, simulation.output_settings.single_precision, resume, from);
+    walls_ = std::make_unique<WallOutput>(folder_ / "walls", simulation.water->flow, resume, from);
+  }
+  if (simulation.pump) {
+    const Flow& flow = simulation.water->flow;
+    pump_ = std::make_unique<PumpOutput>(folder_ / "monitors", flow, *simulation.pump, rotor_state(*flow.rotating_zone, 0), resume, from);
+  }
+  if (simulation.rags) {
+    rag_monitors_ =
+        std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
+    elongation_at_start_.resize(simulation.rags->rags().size());
+    rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
+    forces_ = rag_forces(*simulation.rags, nullptr, 0);
+  }
+}
+
+void Outputs::initial() {
+  if (walls_) walls_->initial(simulation_.water->flow);
+  if (fields_) fields_->write(simulation_.water->flow);
+  if (rag_output_) write_rags();
+}
+
+bool Outputs::due(double interval) const {
+  if (interval <= 0) return true;
+  // Counted in whole intervals, so that it does not depend on where a run was resumed.
+  const double step = simulation_.time_settings.step, time = simulation_.time();
+  return std::floor(time / interval + 1e-6) > std::floor((time - step) / interval + 1e-6);
+}
+
+void Outputs::after_step() {
+  const double begun = MPI_Wtime();
+  write_monitors();
+  together(MPI_COMM_WORLD, [&] {
+    for (const Series* each : series()) each->check();
+  });
+  const bool last = simulation_.has_ended();
+  if (fields_ && (last || due(fields_interval_))) {
+    fields_->write(simulation_.water->flow);
+    walls_->write(simulation_.water->flow);
+  }
+  if (rag_output_ && (last || due(rags_interval_))) write_rags();
+  seconds_ += MPI_Wtime() - begun;
+}
+
+void Outputs::write_rags() {
+  rag_output_->write(*simulation_.rags, forces_, simulation_.time_step(), simulation_.time());
+  if (rank_of(MPI_COMM_WORLD) != 0) return;
+  for (std::size_t rag = 0; rag < rag_output_->silhouettes().size(); ++rag) {
+    const Silhouette& seen = rag_output_->silhouettes()[rag];
+    if (elongation_at_start_[rag] == 0 && seen.area > 0) elongation_at_start_[rag] = seen.elongation_ratio;
+    silhouettes_.add({simulation_.time(), static_cast<double>(rag), seen.area, seen.x, seen.y, seen.elongation_ratio, seen.orientation});
+  }
+}
+
+void Outputs::write_monitors() {
+  const double time = simulation_.time();
+  const bool root = rank_of(MPI_COMM_WORLD) == 0;
+  if (simulation_.water) write_water_monitors();
+  if (simulation_.water && simulation_.water->flow.rotating_zone) write_rotor_monitors();
+  if (!walls_with_y_plus_.empty()) write_wall_monitors();
+  if (simulation_.rags) {
+    forces_ = rag_forces(*simulation_.rags, simulation_.coupled.get(), simulation_.time_settings.step);
+    rag_monitors_->after_step(*simulation_.rags, *simulation_.passage, forces_, time);
+  }
+  if (simulation_.coupled) {
+    largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
+    if (root) coupling_.add(simulation_.coupled->record());
+  }
+  const Effort spent = effort();
+  if (root) timing_.add({time, spent.flow, spent.rags, spent.coupling, spent.output});
+}
+
+Outputs::Effort Outputs::effort() const {
+  Effort all = effort_before_;
+  const auto spent = simulation_.seconds();
+  all.wall += MPI_Wtime() - begun_;
+  all.flow += spent.flow, all.rags += spent.rags, all.coupling += spent.coupling, all.output += seconds_;
+  if (simulation_.rags) all.particle_steps += static_cast<double>(sum(MPI_COMM_WORLD, simulation_.rags->n_particle_steps()));
+  return all;
+}
+
+std::vector<const Series*> Outputs::series() const {
+  std::vector<const Series*> all{&residuals_, &patches_, &wall_, &silhouettes_, &coupling_, &timing_};
+  const auto append = [&](const std::vector<const Series*>& more) { all.insert(all.end(), more.begin(), more.end()); };
+  if (rag_monitors_) append(rag_monitors_->series());
+  if (pump_) append(pump_->series());
+  return all;
+}
+
+void Outputs::sync() const {
+  together(MPI_COMM_WORLD, [&] {
+    for (const Series* each : series()) each->check(), each->sync();
+  });
+}
+
+void Outputs::write_water_monitors() {
+  const StepReport& report = simulation_.flow_report;
+  std::vector<double> patches{simulation_.time()};
+  double through = 0;
+  const Flow& flow = simulation_.water->flow;
+  for (int p = 0; p < static_cast<int>(simulation_.mesh->patches.size()); ++p) {
+    const double rate = flow_rate(flow, p);
+    const Vec3 force = patch_force(flow, p, {}).force();
+    patches.insert(patches.end(), {rate, mean_pressure(flow, p), force.x, force.y, force.z});
+    through += std::abs(rate) / 2;
+  }
+  largest_through_ = std::max(largest_through_, through);
+  if (!report.outer.empty()) largest_imbalance_ = std::max(largest_imbalance_, report.outer.back().continuity.final);
+  if (rank_of(MPI_COMM_WORLD) != 0) return;
+  patches_.add(patches);
+  if (report.outer.empty()) return;
+  const OuterReport& last = report.outer.back();
+  residuals_.add({simulation_.time(), static_cast<double>(simulation_.time_step()), report.courant_max, report.courant_mean,
+                  last.momentum.final, static_cast<double>(last.momentum.sweeps), last.continuity.final,
+                  static_cast<double>(last.continuity.iterations), report.continuity_local, report.continuity_global});
+}
+
+void Outputs::write_wall_monitors() {
+  std::vector<double> record{simulation_.time()};
+  for (const int patch : walls_with_y_plus_) {
+    const YPlus found = y_plus_of(simulation_.water->flow, patch);
+    record.insert(record.end(), {found.lowest, found.mean, found.highest});
+  }
+  if (rank_of(MPI_COMM_WORLD) == 0) wall_.add(record);
+}
+
+void Outputs::write_rotor_monitors() {
+  const Flow& flow = simulation_.water->flow;
+  largest_closure_ = std::max(largest_closure_, flow.rotating_zone->mesh().closure());
+  if (pump_) pump_->after_step(flow, rotor_state(*flow.rotating_zone, flow.time));
+}
+
+void Outputs::save(CheckpointWriter& writer) const {
+  writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_, largest_through_});
+  const Effort spent = effort();
+  writer.shared("effort", std::vector<double>{spent.wall, spent.flow, spent.rags, spent.coupling, spent.output, spent.particle_steps});
+  if (rag_monitors_) {
+    writer.shared("rag_monitors", rag_monitors_->state());
+    writer.shared("elongation_at_start", elongation_at_start_);
+    writer.shared("silhouettes", rag_output_->state());
+  }
+  if (!pump_) return;
+  pump_->save(writer);
+  write_phase();
+}
+
+void Outputs::load(CheckpointReader& reader) {
+  const std::vector<double> kept = reader.shared("outputs");
+  largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2], largest_through_ = kept[3];
+  const std::vector<double> spent = reader.shared("effort");
+  effort_before_ = {spent[0], spent[1], spent[2], spent[3], spent[4], spent[5]};
+  if (rag_monitors_) {
+    rag_monitors_->restore(reader.shared("rag_monitors"));
+    elongation_at_start_ = reader.shared("elongation_at_start");
+    rag_output_->restore(reader.shared("silhouettes"));
+  }
+  if (pump_) pump_->load(reader);
+}
+
+void Outputs::summarise_rags(Summary& summary) const {
+  if (!simulation_.rags) return;
+  const RagSystem& rags = *simulation_.rags;
+  const RagCounts left = rags.count();
+  summary.conservation.particles_lost = summary.conservation.bonds_lost = 0;
+  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
+    const Rag& rag = rags.rags()[r];
+    RagSummary one;
+    one.id = static_cast<int>(r), one.name = rag.name;
+    one.particles = left.particles[r], one.bonds = left.bonds[r].whole, one.broken_bonds = left.bonds[r].broken;
+    one.verdict = simulation_.passage->verdict(r);
+    one.elongation_ratio = simulation_.passage->last_elongation(r);
+    if (!rag_output_->silhouettes().empty()) {
+      one.projected_area = rag_output_->silhouettes()[r].area;
+      if (one.projected_area > 0) one.elongation_ratio = rag_output_->silhouettes()[r].elongation_ratio;
+    }
+    one.max_wall_overlap_over_radius = rag_monitors_->max_wall_overlap(r), one.max_overlap_over_radius = rag_monitors_->max_overlap();
+    one.bond_strain_p99 = rag_monitors_->max_bond_strain_p99(r), one.elongation_ratio_at_start = elongation_at_start_[r];
+    summary.rags.push_back(one);
+    if (rags.presence(static_cast<int>(r)) == RagSystem::Presence::waiting) continue;
+    *summary.conservation.particles_lost += rag.n_particles - one.particles;
+    *summary.conservation.bonds_lost += rag.n_bonds - one.bonds - one.broken_bonds;
+  }
+}
+
+void Outputs::summarise_passages(Summary& summary) const {
+  if (!pump_) return;
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
+    const PumpRecord pump(folder_ / "monitors");
+    for (RagSummary& rag : summary.rags) rag.pump = pump.passage(rag.verdict.entered.value_or(NAN), rag.verdict.exited.value_or(NAN));
+  });
+}
+
+void Outputs::write_phase() const {
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) == 0) pump_->write_phase();
+  });
+}
+
+void Outputs::summarise_checks(Summary& s) const {
+  if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
+    s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps()};
+    constexpr double least_share = 0.01;  // at shut-off nothing passes but round-off
+    const double scale = std::max(largest_through_, least_share * water->watch().speed() * openings_);
+    if (scale > 0) s.conservation.mass_imbalance = largest_imbalance_ / scale;
+    if (const RotatingZone* zone = water->flow.rotating_zone) {
+      s.mesh.facets = zone->mesh().n_facets_global();
+      s.conservation.interface_closure = largest_closure_;
+    }
+  }
+  if (simulation_.coupled && simulation_.water && simulation_.coupled->coupling().settings.two_way())
+    s.conservation.momentum_exchange = largest_exchange_;
+  if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
+}
+
+ExitCode Outputs::finish(ExitCode exit, const std::string& error) {
+  Summary s;
+  s.case_name = simulation_.case_settings.name;
+  s.case_sha256 = file_.sha256();
+  s.ranks = size_of(MPI_COMM_WORLD), s.error = error;
+  s.simulated = simulation_.time(), s.time_steps = simulation_.time_step();
+  if (simulation_.mesh)
+    s.mesh = {simulation_.mesh->n_cells_global, simulation_.mesh->n_interior_global, 0, simulation_.mesh_quality.min_quality};
+  summarise_rags(s);
+  const Effort spent = effort();
+  s.wall = spent.wall;
+  s.performance = {spent.flow, spent.rags, spent.coupling, spent.output, 0, spent.particle_steps, peak_memory()};
+  if (simulation_.mesh)
+    s.performance.cell_steps = static_cast<double>(simulation_.time_step()) * static_cast<double>(simulation_.mesh->n_cells_global);
+  summarise_checks(s);
+  if (pump_) {
+    s.pump = pump_->summary();
+    write_phase();
+    summarise_passages(s);
+  }
+  const ExitCode code = judged(s, exit);
+  s.exit = static_cast<int>(code);
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
+  });
+  if (const std::string results = results_in_words(s); !results.empty()) log::info(results);
+  return code;
+}
+
+}  // namespace snag

@@ -1,0 +1,86 @@
+#pragma once
+// The output folder of a run: what is written when, and what a resume keeps.
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "base/atomic_file.hpp"
+#include "base/case_file.hpp"
+#include "base/series.hpp"
+#include "simulation/output/field_output.hpp"
+#include "simulation/output/pump_output.hpp"
+#include "simulation/output/rag_monitors.hpp"
+#include "simulation/output/rag_output.hpp"
+#include "simulation/output/summary.hpp"
+#include "simulation/setup/simulation.hpp"
+
+namespace snag {
+
+/// Throws Error(usage) if the folder holds results of a run that this one would replace without being asked to. Rank 0 only; changes
+/// nothing.
+void check_output_folder(const std::filesystem::path& folder, bool resume, bool overwrite);
+
+/// Makes the folder and its sub-folders; removes the results of an earlier run if `fresh`. Rank 0 only; throws Error(io).
+void prepare_output_folder(const std::filesystem::path& folder, bool fresh);
+
+class Outputs {
+ public:
+  /// Opens monitors and collections; after a resume what lies behind the simulation's time is cut. `begun`: MPI_Wtime() at the beginning
+  /// of this process. Collective; throws Error(io).
+  Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun);
+  /// Monitors of the step just done, and fields where they are due. Collective; throws Error(io).
+  void after_step();
+  /// State before the first step. Collective.
+  void initial();
+  /// summary.json, with what ended the run early; returns the code of the run: that of a check that fails where all else went well.
+  /// Collective.
+  ExitCode finish(ExitCode exit, const std::string& error = "");
+  /// The disk has all monitors. Collective; throws Error(io).
+  void sync() const;
+  /// What a resume needs of the past of this run. Collective.
+  void save(CheckpointWriter& writer) const;
+  void load(CheckpointReader& reader);
+
+ private:
+  /// Wall clock and work that led to the present state, in all processes of the run.
+  struct Effort {
+    double wall = 0, flow = 0, rags = 0, coupling = 0, output = 0;  // s
+    double particle_steps = 0;
+  };
+  Effort effort() const;
+  /// Open on rank 0.
+  std::vector<const Series*> series() const;
+  void write_monitors();
+  void write_water_monitors();
+  void write_rotor_monitors();
+  void write_phase() const;
+  void write_wall_monitors();
+  void write_rags();
+  void summarise_rags(Summary& summary) const;
+  void summarise_passages(Summary& summary) const;
+  void summarise_checks(Summary& summary) const;
+  bool due(double interval) const;
+
+  std::filesystem::path folder_;
+  const CaseFile& file_;
+  Simulation& simulation_;
+  Series residuals_, patches_, wall_, silhouettes_, coupling_, timing_;  // open on rank 0
+  std::unique_ptr<FieldOutput> fields_;
+  std::unique_ptr<WallOutput> walls_;
+  std::unique_ptr<RagMonitors> rag_monitors_;
+  std::vector<double> elongation_at_start_;  // [n_rags] of the first silhouette, on rank 0; 0: not seen yet
+  std::unique_ptr<RagOutput> rag_output_;
+  RagForces forces_;  // of the last step
+  std::unique_ptr<PumpOutput> pump_;
+  double fields_interval_ = 0, rags_interval_ = 0;  // s
+  double seconds_ = 0;                              // spent here by this process
+  double begun_;                                    // MPI_Wtime()
+  Effort effort_before_;                            // up to the checkpoint that was resumed
+  std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
+  double openings_ = 0;                             // area of all patches but walls, m2
+
+  // over the whole run, kept by checkpoints: relative, m3/s, relative, m3/s
+  double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0, largest_through_ = 0;
+};
+
+}  // namespace snag

@@ -1,0 +1,43 @@
+#pragma once
+// Monitors of the rags, a row a step and rag: rags.csv (the piece as a whole), passage.csv (where in the pump it is, with [passage]),
+// rag_forces.csv (forces over its particles), and contacts.csv, a row a step. A rag that is not in the run yet has no row.
+#include <filesystem>
+#include <vector>
+
+#include "base/series.hpp"
+#include "dem/rag_system.hpp"
+#include "simulation/output/rag_forces.hpp"
+#include "simulation/setup/passage.hpp"
+
+namespace snag {
+
+class RagMonitors {
+ public:
+  /// A resumed run keeps rows up to from_time. Rank 0 writes; collective; throws Error(io).
+  RagMonitors(const std::filesystem::path& folder, const RagSystem& rags, bool with_passage, bool resume, double from_time);
+  /// The step just done; starts the measures of the contacts anew. Collective; throws Error(io).
+  void after_step(RagSystem& rags, const Passage& passage, const RagForces& forces, double time);
+
+  // over the whole run, kept by checkpoints
+  double max_overlap() const { return max_overlap_; }
+  double max_wall_overlap(std::size_t rag) const { return max_wall_overlap_[rag]; }
+  double max_bond_strain_p99(std::size_t rag) const { return max_bond_strain_p99_[rag]; }
+  std::int64_t most_beyond_walls() const { return static_cast<std::int64_t>(most_beyond_walls_); }
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);
+  /// The files; open on rank 0.
+  std::vector<const Series*> series() const { return {&rags_, &contacts_, &passage_, &forces_}; }
+
+ private:
+  void measure_contacts(RagSystem& rags, double time);
+  void add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double strain_p99, double time);
+  void add_passage(std::size_t rag, const Passage& passage, double time);
+  void add_forces(std::size_t rag, const RagForceSpread& spread, double time);
+
+  Series rags_, contacts_, passage_, forces_;  // open on rank 0
+  bool with_passage_;
+  double max_overlap_ = 0, most_beyond_walls_ = 0;
+  std::vector<double> max_wall_overlap_, max_bond_strain_p99_;  // [n_rags]
+};
+
+}  // namespace snag

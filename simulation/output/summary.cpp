@@ -1,0 +1,224 @@
+#include "simulation/output/summary.hpp"
+
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/version.hpp"
+#include "base/words.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+
+std::string signed_percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%+.2g %%", 100 * share);
+  return text;
+}
+
+/// Null where there is no value.
+template <class T>
+nlohmann::ordered_json or_null(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json events_json(const RagVerdict& rag) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (const auto& event : rag.events) events.push_back({{"t_s", event.time}, {"angle_deg", or_null(event.angle)}, {"what", event.what}});
+  return events;
+}
+
+nlohmann::ordered_json volute_json(const RagVerdict& rag) {
+  nlohmann::ordered_json bins = nlohmann::ordered_json::array();
+  for (int bin = 0; rag.volute && bin < n_volute_bins; ++bin) {
+    const double time = rag.volute->time[bin];
+    nlohmann::ordered_json radius;
+    if (time > 0) radius = rag.volute->radius_time[bin] / time;
+    bins.push_back({{"angle_deg", (bin + 0.5) * 360 / n_volute_bins}, {"time_s", time}, {"mean_radius_m", radius}});
+  }
+  return bins;
+}
+
+nlohmann::ordered_json tension_json(const RagVerdict& rag) {
+  if (!rag.max_tension_time) return {};
+  const Vec3& x = rag.max_tension_place;
+  return {{"t_s", *rag.max_tension_time}, {"x_m", {x.x, x.y, x.z}}, {"angle_deg", or_null(rag.max_tension_angle)}};
+}
+
+/// Of the pump before, while and after a rag passes; null where it is not known.
+nlohmann::ordered_json passage_json(const PumpPassage& pump) {
+  nlohmann::ordered_json json;
+  const auto add = [&](const std::string& name, const std::string& unit, double PumpMeans::*value) {
+    for (const auto& [when, means] : {std::pair{"before", &pump.before}, {"passing", &pump.passing}, {"after", &pump.after}})
+      json[name + "_" + when + "_" + unit] = *means ? nlohmann::ordered_json((**means).*value) : nlohmann::ordered_json();
+    json[name + "_change_rel"] = or_null(pump.change(value));
+  };
+  add("head", "m", &PumpMeans::head);
+  add("shaft_power", "W", &PumpMeans::shaft_power);
+  return json;
+}
+
+nlohmann::ordered_json rag_json(const RagSummary& rag) {
+  const RagVerdict& verdict = rag.verdict;
+  return {{"id", rag.id},
+          {"name", rag.name},
+          {"particles", rag.particles},
+          {"bonds", rag.bonds},
+          {"broken_bonds", rag.broken_bonds},
+          {"outcome", verdict.outcome},
+          {"retention_time_s", or_null(verdict.retention_time)},
+          {"time_to_enter_s", or_null(verdict.time_to_enter)},
+          {"recirculations", or_null(verdict.recirculations)},
+          {"stuck_on_tongue_s", or_null(verdict.stuck_on_tongue)},
+          {"stuck_on_impeller_s", or_null(verdict.stuck_on_impeller)},
+          {"wall_contact_s", verdict.wall_contact},
+          {"wall_contact_by_zone_s",
+           {{"impeller", verdict.impeller_contact}, {"tongue", or_null(verdict.tongue_contact)}, {"other", verdict.other_contact}}},
+          {"pump", passage_json(rag.pump)},
+          {"elongation_ratio_at_start", rag.elongation_ratio_at_start},
+          {"elongation_ratio", rag.elongation_ratio},
+          {"projected_area_m2", rag.projected_area},
+          {"max_wall_overlap_over_radius", rag.max_wall_overlap_over_radius},
+          {"max_overlap_over_radius", rag.max_overlap_over_radius},
+          {"bond_strain_p99", rag.bond_strain_p99},
+          {"max_bond_tension_N", verdict.max_tension},
+          {"max_bond_tension_at", tension_json(verdict)},
+          {"volute", volute_json(verdict)},
+          {"events", events_json(verdict)}};
+}
+
+nlohmann::ordered_json pump_json(const PumpSummary& pump) {
+  return {{"flow_m3_s", pump.flow},
+          {"head_m", pump.head},
+          {"head_total_m", pump.head_total},
+          {"torque_Nm", pump.torque},
+          {"shaft_power_W", pump.shaft_power},
+          {"efficiency", pump.efficiency},
+          {"revolutions", pump.revolutions}};
+}
+
+nlohmann::ordered_json water_json(const WaterSummary& water) {
+  return {{"speed_scale_m_s", water.speed_scale},
+          {"max_speed_over_scale", water.max_speed_over_scale},
+          {"unsolved_steps", water.unsolved_steps}};
+}
+
+/// A summary in which nothing is missing.
+Summary full_summary() {
+  Summary full;
+  full.pump.emplace();
+  full.water.emplace();
+  full.error = "none";
+  RagVerdict& rag = full.rags.emplace_back().verdict;
+  rag.volute.emplace(), rag.max_tension_time = 0;
+  rag.events.push_back({});
+  return full;
+}
+
+}  // namespace
+
+bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
+  const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
+  const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
+  return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
+}
+
+nlohmann::ordered_json summary_json(const Summary& s) {
+  nlohmann::ordered_json rags = nlohmann::ordered_json::array();
+  for (const RagSummary& rag : s.rags) rags.push_back(rag_json(rag));
+  const auto& p = s.performance;
+  const auto& kept = s.conservation;
+  nlohmann::ordered_json json = {{"version", version_number},
+                                 {"git", version_git},
+                                 {"case", s.case_name},
+                                 {"case_sha256", s.case_sha256},
+                                 {"ranks", s.ranks},
+                                 {"wall_s", s.wall},
+                                 {"exit", s.exit},
+                                 {"simulated_s", s.simulated},
+                                 {"time_steps", s.time_steps},
+                                 {"mesh",
+                                  {{"cells", s.mesh.cells},
+                                   {"interior_faces", s.mesh.interior_faces},
+                                   {"facets", s.mesh.facets},
+                                   {"min_quality", s.mesh.min_quality}}},
+                                 {"performance",
+                                  {{"flow_cell_steps_per_s", rate(p.cell_steps, p.flow)},
+                                   {"dem_particle_steps_per_s", rate(p.particle_steps, p.dem)},
+                                   {"flow_s", p.flow},
+                                   {"dem_s", p.dem},
+                                   {"coupling_s", p.coupling},
+                                   {"output_s", p.output},
+                                   {"peak_memory_bytes", p.peak_memory}}},
+                                 {"pump", s.pump ? pump_json(*s.pump) : nlohmann::ordered_json()},
+                                 {"rags", rags},
+                                 {"water", s.water ? water_json(*s.water) : nlohmann::ordered_json()},
+                                 {"conservation",
+                                  {{"mass_imbalance_rel", or_null(kept.mass_imbalance)},
+                                   {"momentum_exchange_rel", or_null(kept.momentum_exchange)},
+                                   {"interface_closure_rel", or_null(kept.interface_closure)},
+                                   {"particles_lost", or_null(kept.particles_lost)},
+                                   {"bonds_lost", or_null(kept.bonds_lost)},
+                                   {"particles_beyond_walls", or_null(kept.particles_beyond_walls)}}}};
+  if (!s.pump) json.erase("pump");
+  if (!s.water) json.erase("water");
+  if (!s.error.empty()) json["error"] = s.error;
+  return json;
+}
+
+void write_summary(const std::filesystem::path& file, const Summary& summary) {
+  write_atomically(file, summary_json(summary).dump(2) + "\n");
+}
+
+std::vector<std::string> summary_keys() {
+  std::vector<std::string> keys;
+  const nlohmann::ordered_json flat = summary_json(full_summary()).flatten();
+  for (const auto& [place, value] : flat.items()) {
+    const std::vector<std::string> words = split(place.substr(1), '/');
+    // Of a list its first entry stands for all.
+    if (std::any_of(words.begin(), words.end(), [](const std::string& word) { return std::isdigit(word[0]) && word != "0"; })) continue;
+    std::string key;
+    for (const std::string& word : words) key += (key.empty() ? "" : ".") + word;
+    keys.push_back(key);
+  }
+  return keys;
+}
+
+std::string results_in_words(const Summary& summary) {
+  const auto seconds = [](const std::optional<double>& time) { return time ? words(*time) + " s" : std::string("-"); };
+  std::string text;
+  for (const RagSummary& rag : summary.rags) {
+    const RagVerdict& verdict = rag.verdict;
+    text += (text.empty() ? "" : "\n") + rag.name + ": " + verdict.outcome;
+    if (verdict.recirculations)
+      text += ", retention time " + seconds(verdict.retention_time) + ", time to enter " + seconds(verdict.time_to_enter) +
+              ", recirculations " + std::to_string(*verdict.recirculations);
+    text += ", wall contact " + seconds(verdict.wall_contact);
+    if (verdict.recirculations)
+      text += " (impeller " + seconds(verdict.impeller_contact) + ", tongue " + seconds(verdict.tongue_contact) + ")";
+    if (const auto head = rag.pump.change(&PumpMeans::head), power = rag.pump.change(&PumpMeans::shaft_power); head && power)
+      text += ", head " + signed_percent(*head) + " and shaft power " + signed_percent(*power) + " while it passed";
+  }
+  if (summary.pump)
+    text += (text.empty() ? "" : "\n") + ("pump: head " + words(summary.pump->head) + " m at " + words(1e3 * summary.pump->flow) + " L/s");
+  return text;
+}
+
+std::int64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return sum(MPI_COMM_WORLD, static_cast<std::int64_t>(usage.ru_maxrss) * 1024);
+}
+
+}  // namespace snag

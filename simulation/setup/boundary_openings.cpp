@@ -1,0 +1,30 @@
+#include "simulation/setup/boundary_openings.hpp"
+
+#include <algorithm>
+
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary) {
+  std::vector<Opening> found;
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const Patch& patch = mesh.patches[p];
+    if (boundary.fixes(static_cast<int>(p)) != Fixes::pressure) continue;
+    std::vector<Vec3> vectors, moments;
+    std::vector<double> areas;
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const double area = norm(mesh.face_vector[f]);
+      vectors.push_back(mesh.face_vector[f]), moments.push_back(area * mesh.face_centre[f]), areas.push_back(area);
+    }
+    Opening opening{patch.name, sum(mesh.comm, moments) / sum(mesh.comm, areas), unit(sum(mesh.comm, vectors)), 0,
+                    boundary.is_way_out(static_cast<int>(p))};
+    double radius = 0;
+    for (int f = patch.first; f < patch.end(); ++f) radius = std::max(radius, norm(mesh.face_centre[f] - opening.centre));
+    opening.radius = maximum(mesh.comm, radius);
+    found.push_back(opening);
+  }
+  return found;
+}
+
+}  // namespace snag

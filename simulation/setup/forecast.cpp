@@ -1,0 +1,217 @@
+#include "simulation/setup/forecast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/progress.hpp"
+#include "base/words.hpp"
+#include "dem/particles/tile_particles.hpp"
+#include "mesh/bounding_box.hpp"
+#include "mesh/geometry.hpp"
+#include "parallel/quantile.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "solver/monitors.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double largest_turn = 30;      // degrees a step: 12 steps a revolution; the second order in time then errs by 9 %
+constexpr double advised_turn = 6;       // degrees a step; up to 5.8 the head of a pump was within 0.2 % of that of small steps
+constexpr double good_turn = 5;          // degrees a step, for the remedies
+constexpr double advised_courant = 100;  // of the median cell without a rotor
+constexpr double transition = 4000;      // Reynolds number of a pipe from which the flow is turbulent
+constexpr double least_body = 1e-4;      // volume of a body over the power 3/2 of its surface; 0.09 for a sphere
+constexpr double whole_extent = 0.99;    // of the mesh
+constexpr double friction_speed = 0.05;  // u_tau/U
+constexpr double viscous_layer = 11;     // y+ below which the standard wall function does not hold
+// Orders of magnitude on one core of a present workstation; timing.csv of a run has those of this machine.
+constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 6e3, bytes_per_particle = 2e3,
+                 bytes_of_program = 1e8;
+
+double degrees_a_step(const FlowSolver& water, double step) {
+  const RotatingZone* zone = water.flow.rotating_zone;
+  return zone && zone->slides() ? std::abs(zone->full_speed()) * step * 180 / std::numbers::pi : 0;
+}
+
+void foresee_step(const Simulation& simulation, Forecast& result) {
+  const FlowSolver& water = *simulation.water;
+  const double step = simulation.time_settings.step, turn = degrees_a_step(water, step);
+  const std::vector<double> courant = water.watch().courant_of(step);
+  const auto of_cells = [&](double share) { return quantile(simulation.mesh->comm, courant, share); };
+  const double median = of_cells(0.5);
+  result.text += "speed of the case " + rounded(water.watch().speed()) + " m/s (" + water.watch().source() + "): Courant number a step " +
+                 rounded(median) + " in the median cell, " + rounded(of_cells(0.99)) + " in 1 of 100, " + rounded(of_cells(1)) +
+                 " in the smallest\n";
+  if (turn > 0) result.text += "the rotor turns " + rounded(turn) + " degrees a step\n";
+  if (turn > advised_turn)
+    result.warnings.push_back("[time] step: the rotor turns " + rounded(turn) + " degrees a step, advised at most " +
+                              rounded(advised_turn) + "; step_ms = " + rounded(1e3 * step * good_turn / turn) + " gives " +
+                              rounded(good_turn));
+  if (turn == 0 && median > advised_courant)
+    result.warnings.push_back("[time] step: at the speed of the case the median cell has a Courant number of " + rounded(median) +
+                              ", advised at most " + rounded(advised_courant) +
+                              "; step_ms = " + rounded(1e3 * step * advised_courant / median) + " gives that");
+}
+
+/// Speed of the water along a patch, m/s: that of the rim where the patch turns, else that of the case without the rotor's.
+double speed_at(const Simulation& simulation, int patch) {
+  const Mesh& mesh = *simulation.mesh;
+  const RotatingZone* zone = simulation.water->flow.rotating_zone;
+  double speed = 0;
+  for (int f = mesh.patches[patch].first; zone && f < mesh.patches[patch].end(); ++f)
+    if (mesh.cell_zone[mesh.owner[f]] == zone->zone())
+      speed = std::max(speed, norm(cross(zone->full_speed() * zone->axis(), mesh.face_centre[f] - zone->origin())));
+  speed = maximum(mesh.comm, speed);
+  return speed > 0 ? speed : simulation.water->watch().speed();
+}
+
+void foresee_walls(const Simulation& simulation, Forecast& result) {
+  const Mesh& mesh = *simulation.mesh;
+  const Flow& flow = simulation.water->flow;
+  const double nu = flow.dynamic_viscosity / flow.density;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+    if (!simulation.water->boundary().is_wall(p) || mesh.patches[p].count_global == 0) continue;
+    const double u_tau = friction_speed * speed_at(simulation, p);
+    std::vector<double> y_plus;
+    for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f)
+      y_plus.push_back(std::abs(dot(mesh.delta[f], mesh.face_vector[f])) / norm(mesh.face_vector[f]) * u_tau / nu);
+    const auto of_faces = [&](double share) { return quantile(mesh.comm, y_plus, share); };
+    const double median = of_faces(0.5);
+    result.text += "y+ on " + mesh.patches[p].name + ": about " + rounded(of_faces(0)) + " to " + rounded(of_faces(1)) + ", median " +
+                   rounded(median) + "\n";
+    if (median < viscous_layer)
+      result.warnings.push_back("[turbulence] on patch \"" + mesh.patches[p].name + "\" y+ is about " + rounded(median) +
+                                ", advised 30 to 300: below " + rounded(viscous_layer) +
+                                " the wall function makes friction too large by half; use thicker cells at the wall");
+  }
+}
+
+/// A length that the Reynolds number is of, m, and what it is.
+struct Width {
+  double length = 0;
+  std::string of;
+};
+
+/// The flow is around the walls, not between them: the walls enclose a volume without water,  1/3 sum (x_f - x_m).S < 0.
+bool is_external(const Simulation& simulation) {
+  const Mesh& mesh = *simulation.mesh;
+  const BoundarySet& boundary = simulation.water->boundary();
+  Vec3 moment, vector;  // sum |S| x_f, m3; sum S, m2
+  double area = 0, volume = 0;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
+    for (int f = mesh.patches[p].first; f < mesh.patches[p].end() && boundary.is_wall(p); ++f) {
+      const double magnitude = norm(mesh.face_vector[f]);
+      moment += magnitude * mesh.face_centre[f], vector += mesh.face_vector[f], area += magnitude;
+      volume += dot(mesh.face_centre[f], mesh.face_vector[f]) / 3;
+    }
+  area = sum(mesh.comm, area);
+  if (area == 0) return false;
+  const Vec3 mean = sum(mesh.comm, std::span<const Vec3>(&moment, 1)) / area;
+  volume = sum(mesh.comm, volume) - dot(mean, sum(mesh.comm, std::span<const Vec3>(&vector, 1))) / 3;
+  return volume < -least_body * std::pow(area, 1.5);
+}
+
+/// Of the widest wall patch: its largest extent along an axis in which it does not reach through the whole mesh, as a cylinder between two
+/// planes of symmetry does.
+Width body_width(const Simulation& simulation) {
+  const Mesh& mesh = *simulation.mesh;
+  const Vec3 domain = bounding_box(mesh).size();
+  Width widest;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+    if (!simulation.water->boundary().is_wall(p)) continue;
+    const Patch& patch = mesh.patches[p];
+    std::vector<Vec3> nodes;
+    for (int f = patch.first; f < patch.end(); ++f)
+      for (const int node : row(mesh.face_node_start, mesh.face_node, f)) nodes.push_back(mesh.node[node]);
+    const Vec3 size = bounding_box(mesh.comm, nodes).size();
+    for (int axis = 0; axis < 3; ++axis)
+      if (size[axis] < whole_extent * domain[axis] && size[axis] > widest.length) widest = {size[axis], "body " + patch.name};
+  }
+  return widest;
+}
+
+/// Of the widest patch that water passes.
+Width opening_width(const Simulation& simulation) {
+  const Mesh& mesh = *simulation.mesh;
+  Width widest;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
+    if (simulation.water->boundary().is_wall(p) || simulation.water->boundary().fixes(p) == Fixes::symmetry) continue;
+    const double width = std::sqrt(4 * patch_area(simulation.water->flow, p) / std::numbers::pi);
+    if (width > widest.length) widest = {width, "patch " + mesh.patches[p].name};
+  }
+  return widest;
+}
+
+/// Laminar where the flow is turbulent.
+void foresee_transition(const Simulation& simulation, Forecast& result) {
+  const Flow& flow = simulation.water->flow;
+  const Width width = is_external(simulation) ? body_width(simulation) : opening_width(simulation);
+  if (width.length == 0) return;
+  const double Re = simulation.water->watch().speed() * width.length * flow.density / flow.dynamic_viscosity;
+  result.text +=
+      "Reynolds number " + rounded(Re) + " with the speed of the case and the width of " + width.of + ", " + rounded(width.length) + " m\n";
+  if (flow.turbulent_kinetic_energy.empty() && !simulation.laminar_asked() && Re > transition)
+    result.warnings.push_back("the flow is computed as laminar at a Reynolds number of " + rounded(Re) + ", turbulent above some " +
+                              rounded(transition) +
+                              "; give [turbulence] model = \"k_epsilon\", or model = \"laminar\" where that is meant");
+}
+
+void foresee_cost(const Simulation& simulation, Forecast& result) {
+  const std::int64_t n_steps = simulation.time_settings.n_steps();
+  const double step = simulation.time_settings.step;
+  double cost = 0, memory = bytes_of_program;  // s, bytes
+  result.text += std::to_string(n_steps) + " steps of " + rounded(step) + " s";
+  if (simulation.mesh && !simulation.frozen()) {
+    cost += static_cast<double>(n_steps * simulation.mesh->n_cells_global) * seconds_per_cell_step;
+    memory += static_cast<double>(simulation.mesh->n_cells_global) * bytes_per_cell;
+  }
+  if (simulation.rags) {
+    const double sub_steps = std::max(1.0, std::ceil(step / simulation.rags->stable_step() * (1 - 1e-12)));
+    result.text += ", each of " + counted(static_cast<std::int64_t>(sub_steps), "sub-step") + " of the rags";
+    cost += static_cast<double>(simulation.rags->n_particles() * n_steps) * sub_steps * seconds_per_particle_step;
+    memory += static_cast<double>(simulation.rags->n_particles()) * bytes_per_particle;
+  }
+  const int ranks = size_of(MPI_COMM_WORLD);
+  result.text += "\ncost: about " + duration(cost / ranks) + " on " + counted(ranks, "rank") + ", " + rounded(memory / 1e9) + " GB";
+}
+
+}  // namespace
+
+Forecast forecast(const Simulation& simulation) {
+  Forecast result;
+  if (simulation.water && !simulation.frozen()) {
+    foresee_step(simulation, result);
+    foresee_transition(simulation, result);
+    if (!simulation.water->flow.turbulent_kinetic_energy.empty()) foresee_walls(simulation, result);
+  }
+  foresee_cost(simulation, result);
+  return result;
+}
+
+void check_turn(const FlowSolver& water, double step) {
+  const double turn = degrees_a_step(water, step);
+  if (turn > largest_turn)
+    throw Error(ExitCode::usage, "[time] step = " + words(step) + " s: the rotor turns " + rounded(turn) +
+                                     " degrees in it, must not exceed " + rounded(largest_turn) +
+                                     "; step_ms = " + rounded(1e3 * step * good_turn / turn) + " gives " + rounded(good_turn));
+}
+
+std::vector<Vec3> places_of_cloth(const Simulation& simulation) {
+  std::vector<Vec3> places;
+  const RagSystem& rags = *simulation.rags;
+  for (const Tile& tile : rags.tiles()) for_particles(tile, [&](int k, int, int) { places.push_back(tile.vector(Tile::x, k)); });
+  for (std::size_t r = 0; r < rags.rags().size() && rank_of(rags.comm()) == 0; ++r) {
+    if (rags.presence(static_cast<int>(r)) != RagSystem::Presence::waiting) continue;
+    const RagPiece& piece = rags.pieces()[r];
+    for (int row = 0; row < rags.rags()[r].n_rows; ++row)
+      for (int column = 0; column < rags.rags()[r].n_columns; ++column)
+        if (piece.exists(column, row)) places.push_back(piece.pose(column, row).position);
+  }
+  return places;
+}
+
+}  // namespace snag

@@ -1,0 +1,36 @@
+#pragma once
+// Poses that are made for a run: made once, told in the log, and kept beside the results for other runs and for a resume.
+#include <mpi.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dem/contacts/contact_settings.hpp"
+#include "dem/templates/lattice.hpp"
+
+namespace snag {
+
+class CheckpointReader;
+class CheckpointWriter;
+
+class RagPoses {
+ public:
+  /// Makes the poses that take a run of their own, or reads them from the checkpoint `stored` of the run that is resumed (null: there is
+  /// none). Collective; throws Error(usage, io).
+  RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored);
+
+  /// How each pose was made, and what a camera beside the pipe sees of it, for the log.
+  const std::vector<std::string>& lines() const { return lines_; }
+  /// pose_<number of the piece, from 0>.csv for each piece that does not lie flat. Rank 0 only; throws Error(io).
+  void write(const std::filesystem::path& folder) const;
+  /// The poses that took a run of their own. Collective.
+  void save(CheckpointWriter& writer) const;
+
+ private:
+  std::vector<std::string> lines_;
+  std::vector<RagPiece> pieces_;  // those that do not lie flat
+  std::vector<std::size_t> numbers_;
+};
+
+}  // namespace snag

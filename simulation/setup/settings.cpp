@@ -1,0 +1,78 @@
+#include "simulation/setup/settings.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/words.hpp"
+
+namespace snag {
+
+Section CaseSettings::section() {
+  return {"case",
+          "What this case is.",
+          {setting("name", &name, "Short name, used in reports."), setting("description", &description, "One sentence.")}};
+}
+
+Section MeshSettings::section() {
+  return {"mesh",
+          "The mesh of the water: gmsh .msh (2.2 or 4.1, ascii or binary) with named physical volumes and surfaces. Without it there is no "
+          "water.",
+          {file_setting("file", &file, "Mesh file, relative to the case file."),
+           {"scale", &scale, "1", 1e-9, 1e9, Basis::assumed, "Metres in one unit of length of the file (0.001 for millimetres)."},
+           setting("geometry", &geometry, "Instead of a file: the mesh is made for this run, as by `snag mesh`.",
+                   {"", "pump", "pipe", "channel", "box", "tank"}),
+           file_setting("parameters", &parameters, "Parameter file of the geometry, relative to the case file; not given: its defaults.")}};
+}
+
+Section PeriodicSettings::section() {
+  return {"periodic",
+          "Two patches that are one surface: what leaves through one enters through the other.",
+          {setting("first", &pair.first, "Patch."),
+           setting("second", &pair.second, "Patch on which the first one falls."),
+           {"translation", &pair.translation, "m", -1e6, 1e6, Basis::assumed, "Shift from the first patch to the second."}},
+          true};
+}
+
+Section TimeSettings::section() {
+  return {
+      "time",
+      "Start is at zero; the rags take as many smaller steps within one step as they need.",
+      {{.key = "end", .target = &end, .unit = "s", .minimum = 0, .maximum = 1e9, .meaning = "Time to simulate.", .may_move = true},
+       {"step", &step, "s", 1e-12, 1e6, Basis::assumed, "Step of the water and of the coupling."},
+       setting("end_when_rags_left", &end_when_rags_left, "End earlier, as soon as every rag has gone out through an outlet."),
+       {"run_on", &run_on, "s", 0, 1e9, Basis::assumed,
+        "With end_when_rags_left: time that the run goes on after the last rag has gone out; a revolution or more gives the head after the "
+        "passage."}}};
+}
+
+std::int64_t TimeSettings::n_steps() const {
+  if (run_on > 0 && !end_when_rags_left)
+    throw Error(ExitCode::usage, "[time] run_on = " + words(run_on) + " s has no effect without end_when_rags_left = true; give both");
+  const double steps = end / step;
+  const auto n = std::llround(steps);
+  if (std::abs(steps - static_cast<double>(n)) > 1e-6)
+    throw Error(ExitCode::usage, "[time] end_s = " + words(end) + " is " + std::to_string(steps) + " steps of step_s = " + words(step) +
+                                     ", but must be a whole number of them; change one of the two");
+  return n;
+}
+
+Section OutputSettings::section() {
+  return {"output",
+          "Files for ParaView; monitors are written every step.",
+          {{"fields_interval", &fields_interval, "s", 0, 1e9, Basis::assumed,
+            "Time between fields of the water; not given: 20 of them over the run."},
+           {"rags_interval", &rags_interval, "s", 0, 1e9, Basis::assumed,
+            "Time between pictures of the rags; not given: 100 of them over the run."},
+           setting("report", &report, "Write report.html at the end."),
+           setting("single_precision", &single_precision, "Fields as 32-bit numbers; false: 64-bit.")}};
+}
+
+Section CheckpointSettings::section() {
+  return {"checkpoint",
+          "Two alternating slots; one more is written when the run is told to stop (SIGTERM, SIGINT, SIGUSR1, or a file named stop in the "
+          "output folder).",
+          {{"interval", &interval, "s", 0, 1e9, Basis::assumed, "Simulated time between checkpoints; not given: by wall clock only."},
+           {"wall_interval", &wall_interval, "s", 0, 1e9, Basis::assumed, "Wall-clock time between checkpoints."}}};
+}
+
+}  // namespace snag

@@ -1,0 +1,355 @@
+#include "simulation/setup/simulation.hpp"
+
+#include <unistd.h>
+
+#include "base/error.hpp"
+#include "base/log.hpp"
+#include "base/words.hpp"
+#include "dem/contacts/contact_settings.hpp"
+#include "dem/contacts/contact_solver.hpp"
+#include "mesh/import/import.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+#include "simulation/setup/boundary_openings.hpp"
+#include "simulation/setup/coupling_remedy.hpp"
+#include "simulation/setup/forecast.hpp"
+#include "simulation/setup/mesh_generator.hpp"
+#include "simulation/setup/rag_release.hpp"
+#include "simulation/setup/start_check.hpp"
+#include "solver/fields/rotating_zone.hpp"
+
+namespace snag {
+
+namespace {
+
+/// A mesh made for this run only, removed when it has been read.
+struct TemporaryMesh {
+  std::filesystem::path file;
+  ~TemporaryMesh() {
+    std::error_code ignored;
+    if (file.empty()) return;
+    std::filesystem::remove(file, ignored);
+    std::filesystem::remove(file.replace_extension(".resolved.toml"), ignored);  // what snag-mesh writes beside it
+  }
+};
+
+/// Reads the table of a settings struct.
+template <class Settings>
+void read(const Table& root, Settings& settings) {
+  const Section section = settings.section();
+  root.table(section.name).read(section.parameters);
+}
+
+std::filesystem::path made_mesh(MPI_Comm comm, const MeshSettings& settings, const CaseFile& file) {
+  int process = static_cast<int>(getpid());
+  MPI_Bcast(&process, 1, MPI_INT, 0, comm);
+  auto path = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(process) + ".msh");
+  std::vector<std::string> arguments{settings.geometry};
+  if (!settings.parameters.empty()) arguments.push_back(file.path(settings.parameters).string());
+  arguments.insert(arguments.end(), {"--out", path.string()});
+  const ExitCode code = generate_mesh(comm, arguments);
+  if (code != ExitCode::ok)
+    throw Error(code,
+                "[mesh] geometry = \"" + settings.geometry + "\": no mesh was made; try snag mesh " + settings.geometry + " by itself");
+  return path;
+}
+
+}  // namespace
+
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, WaterStore* store)
+    : comm_(comm), stored_(std::move(stored)), store_(store) {
+  const Table root = file.root();
+  read(root, case_settings);
+  read(root, time_settings);
+  read(root, output_settings);
+  read(root, checkpoint_settings);
+  read(root, observe_settings);
+  read(root, start_settings_);
+  start_folder_ = file.path(start_settings_.from);
+  time_settings.n_steps();
+  read_mesh(file);
+  build_water(file);
+  read_pump(root);
+  build_rags(file);
+  couple(file);
+  if (!water && !rags) throw Error(ExitCode::usage, root.where() + " has neither a mesh nor a rag: nothing to run; give [mesh] or [[rag]]");
+  file.reject_unread();
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::read_mesh(const CaseFile& file) {
+  read(file.root(), mesh_settings_);
+  ImportOptions options{.scale = mesh_settings_.scale, .partition = stored_.partition};
+  for (const Table& table : file.root().tables("periodic")) {
+    PeriodicSettings periodic;
+    table.read(periodic.section().parameters);
+    options.periodic.push_back(periodic.pair);
+    periodic_ = true;
+  }
+  if (mesh_settings_.file.empty() == mesh_settings_.geometry.empty()) {
+    if (mesh_settings_.file.empty()) return;
+    throw Error(ExitCode::usage, "[mesh] gives both a file and a geometry; keep one of them");
+  }
+  // Only standing meshes are shared: a turning one is left at some angle by the run before.
+  mesh_key_ = joined({file.path(mesh_settings_.file).string(), file.path(mesh_settings_.parameters).string(), mesh_settings_.geometry,
+                      words(mesh_settings_.scale)});
+  StoredMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
+  if (!kept || !kept->mesh) {
+    TemporaryMesh made;
+    if (!mesh_settings_.geometry.empty()) made.file = made_mesh(comm_, mesh_settings_, file);
+    const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
+    StoredMesh fresh{.mesh = std::make_shared<Mesh>(import_gmsh(path, comm_, options)), .quality = {}};
+    fresh.quality = quality(*fresh.mesh);
+    if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());
+    mesh = fresh.mesh, mesh_quality = fresh.quality;
+    if (kept) *kept = std::move(fresh);
+    return;
+  }
+  mesh = kept->mesh, mesh_quality = kept->quality;
+}
+
+void Simulation::build_water(const CaseFile& file) {
+  if (!mesh) {
+    if (!file.root().has("flow")) return;
+    prescribed_.emplace();
+    read(file.root(), *prescribed_);
+    return;
+  }
+  FlowSettings settings;
+  read(file.root(), settings);
+  const auto gap_picture = std::filesystem::path(file.file()).replace_extension(".interface_gap.vtp");
+  auto zone = read_rotating_zone(file.root(), *mesh, gap_picture);
+  if (start_settings_.frozen && zone)
+    throw Error(ExitCode::usage, "[start] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
+  auto boundaries = read_boundaries(file.root());
+  auto turbulence = read_turbulence(file.root());
+  laminar_asked_ = file.root().table("turbulence").has("model");
+  if (store_ && start_settings_.frozen) {
+    std::string conditions;
+    for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
+    const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map), words(settings.density),
+                             words(settings.viscosity()), words(turbulence != nullptr), conditions});
+    stored_water_ = &store_->waters[key];
+    water = stored_water_->solver;
+  }
+  if (!water) water = std::make_shared<FlowSolver>(*mesh, settings, std::move(boundaries), std::move(turbulence), std::move(zone));
+  if (stored_water_) stored_water_->solver = water;
+  check_turn(*water, time_settings.step);
+  if (!start_settings_.frozen) water->foresee(time_settings.end);
+}
+
+void Simulation::read_pump(const Table& root) {
+  if (!root.has("pump")) return;
+  read(root, pump.emplace());
+  if (!water || !water->flow.rotating_zone)
+    throw Error(ExitCode::usage,
+                root.table("pump").where() + " is read off a rotor, and nothing turns here; add [rotating_zone], or remove [pump]");
+}
+
+void Simulation::build_rags(const CaseFile& file) {
+  const RotatingZone* zone = water ? water->flow.rotating_zone : nullptr;
+  std::optional<WallMotion> rotor;
+  if (zone) rotor = {.axis = zone->axis(), .origin = zone->origin(), .speed = zone->full_speed(), .velocity = {}, .ramp = zone->ramp()};
+  walls = read_walls(file, mesh.get(), rotor ? &*rotor : nullptr);
+  ContactSettings contacts;
+  file.root().table("contact").read(contacts.parameters());
+  impact_speed_ = contacts.impact_speed;
+  DemSettings settings;
+  read(file.root(), settings);
+  std::vector<RagPiece> pieces = read_pieces(file);
+  std::optional<Shaft> shaft;
+  if (zone) shaft = {zone->origin(), zone->axis(), zone->full_speed()};
+  std::optional<PassageGeometry> way = read_passage(file.root(), shaft);
+  if (pieces.empty()) return;
+  if (zone && !zone->slides())
+    throw Error(ExitCode::usage,
+                "[rotating_zone] motion = \"frame\" with rags: the mesh would stand while the walls turn; use \"sliding\"");
+  place_at_patches(mesh.get(), pieces);
+  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint);
+  rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
+  rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
+  if (way) rags->contacts()->mark_line({way->tongue(), way->direction(), way->tongue_reach()});
+  passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, std::move(way),
+                                      rags->rags().size());
+}
+
+void Simulation::couple(const CaseFile& file) {
+  if (!rags) return;
+  const Vec3 gravity = read_gravity(file.root());
+  if (water) {
+    const bool frozen = start_settings_.frozen;
+    Coupling coupling = read_coupling(file.root());
+    if (frozen && coupling.settings.two_way())
+      throw Error(ExitCode::usage,
+                  "[start] frozen with [coupling] mode = \"two_way\": water that stands cannot feel the rags; use \"one_way\"");
+    coupled = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
+  } else if (prescribed_) {
+    coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
+  } else {
+    rags->set_gravity(gravity);
+  }
+  if (coupled) coupled->set_walls(walls);
+  speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), impact_speed_);
+  if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
+}
+
+/// Particles that were just moved.
+void Simulation::bound_speeds() {
+  check_speeds(*rags, speed_bounds_->at(rags->time(), water.get(), prescribed_ ? &*prescribed_ : nullptr, *rags),
+               coupled ? &coupled->coupling() : nullptr);
+}
+
+void Simulation::move_water(double dt) {
+  if (rags) bound_speeds();  // before the water feels what has diverged
+  if (start_settings_.frozen) return water->hold(dt);
+  try {
+    flow_report = water->advance(dt);
+  } catch (const Error& failure) {
+    const std::string remedy = coupling_remedy(coupled ? &coupled->coupling() : nullptr);
+    if (failure.code != ExitCode::diverged || remedy.empty()) throw;
+    throw Error(failure.code, std::string(failure.what()) + "; particles act on this water: " + remedy);
+  }
+}
+
+void Simulation::step() {
+  const double begun = MPI_Wtime();
+  // At the beginning of a step: what the last one left behind for the outputs belongs to the rags that were there.
+  if (rags && time_step_ > 0) remove_rags(), insert_rags();
+  if (coupled) {
+    coupled->step(time_settings.step);
+  } else if (water) {
+    move_water(time_settings.step);
+  } else {
+    rags->migrate();
+    rags->advance(time_settings.step);
+  }
+  if (!water) bound_speeds();
+  if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
+  check_inside();
+  ++time_step_;
+  if (passage) passage->observe(*rags, time(), time_settings.step);
+}
+
+bool Simulation::rags_have_left() const {
+  if (!time_settings.end_when_rags_left || !passage) return false;
+  const std::optional<double> left = passage->all_exited_at();
+  return left && time() > *left + time_settings.run_on - 0.5 * time_settings.step;
+}
+
+/// A rag of which every particle has left the mesh by an outlet feels nothing any more, and would only cost time.
+void Simulation::remove_rags() {
+  for (int r = 0; r < static_cast<int>(rags->rags().size()); ++r) {
+    const Rag& rag = rags->rags()[static_cast<std::size_t>(r)];
+    if (rags->presence(r) != RagSystem::Presence::present || passage->n_out()[r] < rag.n_particles) continue;
+    rags->remove(r);
+    log::info(rag.name + ": left the mesh as a whole at " + words(time()) + " s, taken out of the run");
+  }
+}
+
+void Simulation::insert_rags() {
+  if (!rags) return;
+  std::vector<int> fresh;
+  double crowding = 0;
+  for (int r = 0; r < static_cast<int>(rags->rags().size()); ++r) {
+    const RagPiece& piece = rags->pieces()[static_cast<std::size_t>(r)];
+    if (rags->presence(r) == RagSystem::Presence::removed) continue;
+    if (rags->presence(r) == RagSystem::Presence::present) {
+      if (time_step_ == 0) fresh.push_back(r);
+      continue;
+    }
+    if (piece.insert_time > time() + 1e-6 * time_settings.step) {
+      if (time_step_ == 0) check_waiting(*this, r);
+      continue;
+    }
+    if (fresh.empty() && time_step_ > 0) crowding = overlap_of_particles(*rags);
+    rags->insert(r);
+    fresh.push_back(r);
+    if (piece.with_water) push_with_water(r);
+    if (time_step_ > 0) log::info(piece.rag.name + ": put in at " + words(time()) + " s");
+  }
+  check_start(*this, fresh, crowding);
+}
+
+void Simulation::push_with_water(int rag) {
+  const std::optional<Vec3> velocity = coupled ? coupled->water_velocity(rag) : std::nullopt;
+  if (!velocity)
+    throw Error(ExitCode::usage, rags->rags()[static_cast<std::size_t>(rag)].name +
+                                     ": with_water = true, but this case computes no water; give velocity, or [mesh] and [flow]");
+  rags->push(rag, *velocity);
+}
+
+/// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.
+void Simulation::check_inside() {
+  if (!coupled || !mesh || (strays_told_ && !periodic_)) return;
+  std::int64_t n = coupled->report().particles_outside;
+  for (const std::int64_t out : passage->n_out()) n -= out;
+  if (n <= 0) return;
+  const std::string found = "rags: " + std::to_string(n) + " particles are outside the mesh at t = " + words(time()) +
+                            " s and did not leave by a pressure outlet";
+  if (periodic_)
+    throw Error(ExitCode::invariant,
+                found + "; particles are not carried through periodic patches yet: shorten the run, or make the domain longer");
+  log::warning(found + "; they feel the water of the nearest cell: is a [[wall]] missing?");
+  strays_told_ = true;
+}
+
+std::string Simulation::start() {
+  const bool frozen = start_settings_.frozen;
+  if (start_settings_.from.empty()) {
+    if (frozen) throw Error(ExitCode::usage, "[start] frozen: there is no water to stand still; give from, the output folder of a run");
+    return {};
+  }
+  if (!water) throw Error(ExitCode::usage, "[start] from: this case computes no water; remove it, or give [mesh]");
+  if (!frozen) return start_flow(*water, start_settings_, start_folder_).told;
+  StoredWater own;
+  StoredWater& kept = stored_water_ ? *stored_water_ : own;
+  std::string told = "start: frozen water of " + start_folder_.string();
+  if (!kept.as_started) {
+    const StartedFlow from = start_flow(*water, start_settings_, start_folder_);
+    told = from.told + ", frozen";
+    water->start(from.time);
+    kept.as_started.emplace(water->flow);
+  }
+  scale_flow(water->flow, *kept.as_started, start_settings_.velocity_factor);
+  return told;
+}
+
+void Simulation::save(CheckpointWriter& writer) const {
+  if (mesh) {
+    std::vector<std::int64_t> partition;
+    for (const int rank : partition_of(*mesh)) partition.push_back(rank);
+    writer.shared("mesh/partition", std::span<const std::int64_t>(partition));
+    save_cell_centres(writer, *mesh);
+  }
+  if (water) water->save(writer);
+  if (rags) {
+    poses->save(writer);
+    rags->save(writer);
+    writer.shared("passage", std::span<const double>(passage->state()));
+  }
+  if (coupled) coupled->save(writer);
+}
+
+void Simulation::load(CheckpointReader& reader) {
+  time_step_ = reader.stamp().time_step;
+  if (water) water->load(reader);
+  if (rags) {
+    rags->load(reader);
+    passage->restore(reader.shared("passage"));
+  }
+  if (coupled) coupled->load(reader);
+}
+
+Simulation::Seconds Simulation::seconds() const {
+  Seconds spent;
+  if (coupled) {
+    spent = {coupled->seconds().flow, coupled->seconds().rags, coupled->seconds().coupling};
+  } else {
+    (water ? spent.flow : spent.rags) = alone_seconds_;
+  }
+  return {maximum(comm_, spent.flow), maximum(comm_, spent.rags), maximum(comm_, spent.coupling)};
+}
+
+}  // namespace snag

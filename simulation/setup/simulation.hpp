@@ -1,0 +1,109 @@
+#pragma once
+// Everything a case is made of, put together: mesh, water, walls, rags, coupling. Each part may be absent.
+#include <memory>
+#include <optional>
+
+#include "base/case_file.hpp"
+#include "coupling/coupled_solver.hpp"
+#include "dem/rag_system.hpp"
+#include "dem/walls/walls.hpp"
+#include "mesh/quality.hpp"
+#include "simulation/setup/observe_settings.hpp"
+#include "simulation/setup/passage.hpp"
+#include "simulation/setup/rag_poses.hpp"
+#include "simulation/setup/settings.hpp"
+#include "simulation/setup/speed_bounds.hpp"
+#include "simulation/setup/start_flow.hpp"
+#include "simulation/setup/water_store.hpp"
+#include "solver/flow_solver.hpp"
+#include "solver/pump_monitor.hpp"
+
+namespace snag {
+
+class Simulation {
+ public:
+  /// Of a run that is resumed.
+  struct Stored {
+    std::optional<std::vector<int>> partition;  // rank of every cell
+    CheckpointReader* checkpoint;               // null: none; with the poses; only while the simulation is built
+  };
+  /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn.
+  /// Collective; throws Error.
+  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, WaterStore* store = nullptr);
+  ~Simulation();
+
+  /// One step of time.step: water, rags, or both. Collective; throws Error.
+  void step();
+  double time() const { return static_cast<double>(time_step_) * time_settings.step; }
+  std::int64_t time_step() const { return time_step_; }
+  /// All rags have left, and the case is to end then: now, or run_on ago.
+  bool rags_have_left() const;
+  /// There is no step left to do.
+  bool has_ended() const { return time_step_ >= time_settings.n_steps() || rags_have_left(); }
+
+  /// Initial fields of the water from another run, if [start] names one; returns a line for the log, empty without. Collective; throws
+  /// Error.
+  std::string start();
+  /// The water stays as [start] gives it.
+  bool frozen() const { return start_settings_.frozen; }
+  /// The case says that the water is laminar; it is not only for want of a model.
+  bool laminar_asked() const { return laminar_asked_; }
+  /// Puts in the rags whose time has come, and checks them; to be called once before the first step, later ones do it themselves.
+  /// Collective; throws Error(usage).
+  void insert_rags();
+  void save(CheckpointWriter& writer) const;
+  void load(CheckpointReader& reader);
+
+  CaseSettings case_settings;
+  TimeSettings time_settings;
+  OutputSettings output_settings;
+  CheckpointSettings checkpoint_settings;
+  ObserveSettings observe_settings;
+
+  // absent parts are null
+  std::shared_ptr<Mesh> mesh;
+  MeshQuality mesh_quality;
+  WallSet walls;
+  std::shared_ptr<FlowSolver> water;
+  std::optional<PumpSettings> pump;  // of a case with a rotating zone
+  std::unique_ptr<RagPoses> poses;
+  std::unique_ptr<RagSystem> rags;
+  std::unique_ptr<CoupledSolver> coupled;
+  std::unique_ptr<Passage> passage;
+  StepReport flow_report;  // of the last step
+
+  struct Seconds {
+    double flow = 0, rags = 0, coupling = 0;
+  };
+  /// Wall clock spent since the start of this process, of the slowest rank. Collective.
+  Seconds seconds() const;
+
+ private:
+  void read_mesh(const CaseFile& file);
+  void build_water(const CaseFile& file);
+  void read_pump(const Table& root);
+  void build_rags(const CaseFile& file);
+  void couple(const CaseFile& file);
+  void move_water(double dt);
+  void bound_speeds();
+  void push_with_water(int rag);
+  void remove_rags();
+  void check_inside();
+
+  MPI_Comm comm_;
+  MeshSettings mesh_settings_;
+  StartSettings start_settings_;
+  std::filesystem::path start_folder_;
+  Stored stored_;
+  WaterStore* store_;
+  StoredWater* stored_water_ = nullptr;  // of the store, for frozen water
+  std::string mesh_key_;                 // of the store
+  std::optional<PrescribedFlow> prescribed_;
+  double impact_speed_ = 0;                    // m/s, of the contacts
+  std::unique_ptr<SpeedBounds> speed_bounds_;  // of the rags
+  std::int64_t time_step_ = 0;
+  double alone_seconds_ = 0;  // of water or rags without coupling
+  bool laminar_asked_ = false, periodic_ = false, strays_told_ = false;
+};
+
+}  // namespace snag

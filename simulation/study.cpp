@@ -1,0 +1,270 @@
+#include "simulation/study.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "base/atomic_file.hpp"
+#include "base/folder_lock.hpp"
+#include "base/log.hpp"
+#include "base/words.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/session.hpp"
+#include "simulation/output/summary.hpp"
+#include "simulation/run.hpp"
+
+namespace snag {
+
+namespace {
+
+const MPI_Comm world = MPI_COMM_WORLD;
+
+/// As short as it is exact.
+std::string written(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// What may stand in the name of a folder.
+std::string folder_word(const std::string& text) {
+  std::string word;
+  for (const char c : text) word += std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '+' ? c : '_';
+  return word;
+}
+
+std::size_t n_values(const VarySettings& vary) { return std::max(vary.values.size(), vary.texts.size()); }
+
+/// Adds one choice of values as a run.
+void add_run(Study& study, const std::vector<std::size_t>& choice) {
+  StudyRun run;
+  run.overrides = study.settings.set;
+  for (std::size_t v = 0; v < study.vary.size(); ++v) {
+    const VarySettings& vary = study.vary[v];
+    const bool is_number = !vary.values.empty();
+    const std::string value = is_number ? written(vary.values[choice[v]]) : vary.texts[choice[v]];
+    run.values.push_back(value);
+    run.overrides.push_back(vary.key + "=" + value);
+    run.name += (run.name.empty() ? "" : "_") + folder_word(vary.name) + "-" + folder_word(value);
+  }
+  study.runs.push_back(run);
+}
+
+void lay_out(Study& study) {
+  const std::string where = "[[vary]]";
+  if (study.vary.empty()) throw Error(ExitCode::usage, where + " is missing: nothing varies; add one with key and values");
+  std::size_t n = 1;
+  for (const VarySettings& vary : study.vary) {
+    if (vary.values.empty() == vary.texts.empty())
+      throw Error(ExitCode::usage, where + " key = \"" + vary.key + "\": give either values (numbers) or texts");
+    if (study.settings.zip && n_values(vary) != n_values(study.vary[0]))
+      throw Error(ExitCode::usage, where + " key = \"" + vary.key + "\" has " + std::to_string(n_values(vary)) + " values, \"" +
+                                       study.vary[0].key + "\" has " + std::to_string(n_values(study.vary[0])) +
+                                       "; with zip = true all need as many");
+    n *= n_values(vary);
+  }
+  if (study.settings.zip) {
+    for (std::size_t i = 0; i < n_values(study.vary[0]); ++i) add_run(study, std::vector<std::size_t>(study.vary.size(), i));
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      std::vector<std::size_t> choice(study.vary.size());
+      for (std::size_t v = study.vary.size(), rest = i; v-- > 0; rest /= n_values(study.vary[v]))
+        choice[v] = rest % n_values(study.vary[v]);
+      add_run(study, choice);
+    }
+  }
+  std::set<std::string> names;
+  for (const StudyRun& run : study.runs)
+    if (!names.insert(run.name).second)
+      throw Error(ExitCode::usage,
+                  where + ": two runs would be named \"" + run.name + "\"; remove the value that stands twice, or name the keys apart");
+}
+
+/// Results and axes that no summary can hold would be empty columns after hours of runs.
+void check_keys(const Study& study, const std::filesystem::path& file) {
+  const std::vector<std::string> known = summary_keys();
+  const auto check = [&](const std::string& where, const std::string& key) {
+    for (const VarySettings& vary : study.vary)
+      if (where != "[study] results" && key == vary.name) return;
+    std::string plain;  // with 0 for each number
+    for (const std::string& word : split(key, '.')) {
+      const bool is_number = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::isdigit(c); });
+      plain += (plain.empty() ? "" : ".") + (is_number ? "0" : word);
+    }
+    if (std::find(known.begin(), known.end(), plain) != known.end()) return;
+    const std::string near = nearest_name(plain, known);
+    throw Error(ExitCode::usage, file.string() + ": " + where + " has \"" + key + "\", which is no key of summary.json" +
+                                     (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; known: " + joined(known) +
+                                     " (0 stands for any number)");
+  };
+  for (const std::string& key : study.settings.results) check("[study] results", key);
+  for (const StudyPlotSettings& plot : study.plots) {
+    check("[[plot]] x", plot.x);
+    for (const std::string& key : plot.y) check("[[plot]] y", key);
+  }
+}
+
+/// What a run is made of, to see on a repetition whether it is still the same.
+std::string input_of(const Study& study, const StudyRun& run) {
+  const auto text = file_text(study.case_file);
+  if (!text) throw Error(ExitCode::io, study.case_file.string() + ": the case of the study cannot be read; check the path");
+  std::string input = *text + "\n# The study runs this with\n";
+  for (const std::string& one : run.overrides) input += "# --set " + one + "\n";
+  return input;
+}
+
+enum class Before : int { nothing, ended, stopped, partial };
+
+/// What an earlier start of the study left of a run; a partial one has begun and has no summary.
+Before left_of(const std::filesystem::path& folder, const std::string& input) {
+  if (!std::filesystem::exists(folder / "monitors")) return Before::nothing;
+  if (file_text(folder / "input.toml") != input)
+    throw Error(ExitCode::usage, folder.string() +
+                                     ": holds a run of another case or other values than the study has now (see its input.toml); "
+                                     "choose another --out, or remove the folder");
+  const auto summary = nlohmann::json::parse(file_text(folder / "summary.json").value_or(""), nullptr, false);
+  if (!summary.is_object()) return Before::partial;
+  const int code = summary.value("exit", -1);
+  for (const ExitCode end : {ExitCode::ok, ExitCode::diverged, ExitCode::invariant})
+    if (code == static_cast<int>(end)) return Before::ended;
+  return code == static_cast<int>(ExitCode::stopped) ? Before::stopped : Before::partial;
+}
+
+Before prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run) {
+  int before = 0;
+  together(world, [&] {
+    if (rank_of(world) != 0) return;
+    const std::string input = input_of(study, run);
+    before = static_cast<int>(left_of(folder, input));
+    std::error_code failure;
+    std::filesystem::create_directories(folder, failure);
+    write_atomically(folder / "input.toml", input);
+  });
+  MPI_Bcast(&before, 1, MPI_INT, 0, world);
+  return static_cast<Before>(before);
+}
+
+bool has_checkpoint(const std::filesystem::path& folder) {
+  try {
+    CheckpointReader(world, folder);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Runs one; what it failed with if that is its own matter.
+ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, Before before,
+                 const ReportWriter& write_report) {
+  RunOptions options{.case_file = study.case_file, .out = folder, .overrides = run.overrides, .write_report = write_report};
+  if (before != Before::nothing) {
+    options.resume = has_checkpoint(folder / "checkpoint");
+    options.overwrite = !options.resume;
+  }
+  try {
+    return run_case(options);
+  } catch (const Error& failure) {
+    // Of this run alone: its flow, its rags, or a value of it that is refused, as a pose that cannot be made.
+    if (failure.code != ExitCode::diverged && failure.code != ExitCode::invariant && failure.code != ExitCode::usage) throw;
+    log::error(run.name + ": " + failure.what());
+    leave_together(failure.code);
+    return failure.code;
+  }
+}
+
+}  // namespace
+
+Section StudySettings::section() {
+  Parameter file = file_setting("case", &case_file, "Case file, relative to the study file.");
+  file.required = true;
+  return {
+      "study",
+      "A case that is run again and again with other values, by `snag study STUDY.toml --out DIR`.",
+      {setting("name", &name, "Short name, used for the folder and the table."), setting("description", &description, "One sentence."),
+       file, setting("set", &set, "Values of the case that all runs replace, as for --set: \"time.end_s=0.2\"."),
+       setting("zip", &zip, "The first values of all [[vary]] make the first run, the second ones the second; false: all combinations."),
+       setting("results", &results, "Keys of summary.json for the table: \"pump.head_m\", \"rags.0.outcome\".")}};
+}
+
+Section VarySettings::section() {
+  Parameter required = setting("key", &key, "Key of the case as for --set: \"boundary.0.flow_rate_L_s\".");
+  required.required = true;
+  return {"vary",
+          "What differs from run to run.",
+          {required,
+           setting("name", &name, "Its name in the table and in the names of the runs; the last word of the key if not given."),
+           {"values", &values, "1", -infinity, infinity, Basis::assumed, "Numbers, in the unit that the key has."},
+           setting("texts", &texts, "Or texts, numbers with a unit (\"12 mm\") among them.")},
+          true};
+}
+
+Section StudyPlotSettings::section() {
+  return {"plot",
+          "A plot of the results, a line for each of y over all runs in the order of x.",
+          {setting("title", &title, "Title."), setting("x", &x, "Name of what varies, or a key of summary.json."),
+           setting("y", &y, "Keys of summary.json."), setting("x_label", &x_label, "Label with the unit; x if not given."),
+           setting("y_label", &y_label, "The same; the first of y.")},
+          true};
+}
+
+std::vector<Section> study_sections() {
+  static StudySettings study;
+  static VarySettings vary;
+  static StudyPlotSettings plot;
+  return {study.section(), vary.section(), plot.section()};
+}
+
+Study read_study(const std::filesystem::path& file) {
+  const CaseFile text = CaseFile::read(file);
+  Study study;
+  const Table root = text.root();
+  root.table("study").read(study.settings.section().parameters);
+  for (const Table& table : root.tables("vary")) {
+    VarySettings& vary = study.vary.emplace_back();
+    table.read(vary.section().parameters);
+    if (vary.name.empty()) vary.name = split(vary.key, '.').back();
+  }
+  for (const Table& table : root.tables("plot")) table.read(study.plots.emplace_back().section().parameters);
+  text.reject_unread();
+  study.case_file = text.path(study.settings.case_file);
+  lay_out(study);
+  check_keys(study, file);
+  return study;
+}
+
+ExitCode run_study(const StudyOptions& options) {
+  Study study = read_study(options.study_file);
+  const auto folder = options.out.empty() ? std::filesystem::path("results") / folder_word(study.settings.name) : options.out;
+  std::optional<FolderLock> lock;
+  together(world, [&] {
+    if (rank_of(world) == 0 && !options.dry_run) lock.emplace(folder);
+  });
+  ExitCode worst = ExitCode::ok;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    StudyRun& run = study.runs[i];
+    const std::string which = "run " + std::to_string(i + 1) + " of " + std::to_string(study.runs.size()) + ": " + run.name;
+    if (options.dry_run) {
+      log::info(which + "\n  " + joined(run.overrides));
+      continue;
+    }
+    const Before before = prepare(folder / run.name, study, run);
+    log::info(which + (before == Before::ended ? " has been run before" : ""));
+    if (before == Before::ended) continue;
+    const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report);
+    if (code == ExitCode::stopped) return code;
+    run.failed_with = static_cast<int>(code);
+    if (worst == ExitCode::ok) worst = code;
+  }
+  if (options.dry_run) return worst;
+  std::string results;
+  together(world, [&] {
+    if (rank_of(world) == 0) results = options.write_results(study, folder);
+  });
+  log::info(results);
+  log::info("study: " + (folder / "study.csv").string() + " and " + (folder / "study.html").string());
+  return worst;
+}
+
+}  // namespace snag

@@ -1,0 +1,173 @@
+#include "solver/boundaries/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/words.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+// Of the flux through the boundary: what rounding of a case's numbers may leave open.
+constexpr double net_flux_tolerance = 1e-9;
+
+struct Heading {
+  std::string patch, kind;
+  std::vector<std::string> patches;
+  InletTurbulence turbulence;
+
+  std::vector<Parameter> parameters() {
+    Parameter kind_of_it = setting("kind", &kind, "Kind of the condition.", boundaries().names());
+    kind_of_it.required = true;
+    std::vector<Parameter> all{setting("patch", &patch, "Name of the patch in the mesh."),
+                               setting("patches", &patches, "Several patches with the same condition, each for itself."), kind_of_it};
+    for (Parameter& parameter : turbulence.parameters()) all.push_back(std::move(parameter));
+    return all;
+  }
+};
+
+std::vector<std::string> patch_names(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const Patch& patch : mesh.patches) names.push_back(patch.name);
+  return names;
+}
+
+}  // namespace
+
+Registry<Boundary>& boundaries() {
+  static Registry<Boundary> registry("boundary kind");
+  return registry;
+}
+
+std::vector<PatchBoundary> read_boundaries(const Table& root) {
+  std::vector<PatchBoundary> conditions;
+  for (const Table& table : root.tables("boundary")) {
+    Heading heading;
+    table.read(heading.parameters());
+    if (heading.patch.empty() == heading.patches.empty())
+      throw Error(ExitCode::usage, table.where() + ": give either patch = \"name\" or patches = [\"name\", ...]");
+    if (heading.patches.empty()) heading.patches.push_back(heading.patch);
+    for (const std::string& patch : heading.patches) {
+      auto boundary = boundaries().make(heading.kind, table.where());
+      table.read(boundary->section().parameters);
+      if (heading.turbulence.given() && (boundary->is_wall() || boundary->fixes() == Fixes::symmetry))
+        throw Error(ExitCode::usage, table.where() + ": turbulence of fluid that enters is given for kind \"" + heading.kind +
+                                         "\", where none enters; remove the keys turbulence_...");
+      conditions.push_back({patch, table.where(), std::move(boundary), heading.turbulence});
+    }
+  }
+  return conditions;
+}
+
+std::vector<Section> boundary_sections() {
+  // The records point into these: they live as long as the program.
+  static Heading heading;
+  static std::vector<std::unique_ptr<Boundary>> kinds;
+  kinds.clear();
+  std::vector<Section> sections{{.name = "boundary",
+                                 .meaning = "Condition of the flow on patches of the mesh; every patch needs one.",
+                                 .parameters = heading.parameters(),
+                                 .repeated = true}};
+  for (const std::string& name : boundaries().names()) {
+    kinds.push_back(boundaries().make(name, "manual"));
+    Section section = kinds.back()->section();
+    section.name = "boundary";
+    section.meaning = "kind = \"" + name + "\": " + section.meaning;
+    section.repeated = true;
+    sections.push_back(section);
+  }
+  return sections;
+}
+
+BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions) : mesh_(mesh), conditions_(mesh.patches.size()) {
+  const auto names = patch_names(mesh);
+  for (PatchBoundary& condition : conditions) {
+    std::size_t p = 0;
+    while (p < names.size() && names[p] != condition.patch) ++p;
+    if (p == names.size()) {
+      const auto near = nearest_name(condition.patch, names);
+      throw Error(ExitCode::usage, condition.where + ": the mesh has no patch \"" + condition.patch + "\"; it has: " + joined(names) +
+                                       (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    }
+    if (conditions_[p].boundary)
+      throw Error(ExitCode::usage, condition.where + ": patch \"" + condition.patch + "\" already has a condition (" +
+                                       conditions_[p].where + "); remove one");
+    conditions_[p] = std::move(condition);
+  }
+  std::vector<std::string> missing;
+  for (std::size_t p = 0; p < names.size(); ++p)
+    if (!conditions_[p].boundary) missing.push_back(names[p]);
+  if (!missing.empty())
+    throw Error(ExitCode::usage,
+                "[[boundary]]: no condition for patch " + joined(missing) +
+                    "; add a table [[boundary]] with patch and kind for each; known kinds: " + joined(boundaries().names()));
+
+  const std::size_t n = static_cast<std::size_t>(mesh.n_faces - mesh.n_interior);
+  values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n), std::vector<Vec3>(n)};
+  for (std::size_t p = 0; p < conditions_.size(); ++p) {
+    conditions_[p].boundary->prepare(mesh, mesh.patches[p], conditions_);
+    conditions_[p].turbulence.prepare(mesh, mesh.patches[p], conditions_[p].where);
+    fixes_pressure_ = fixes_pressure_ || (conditions_[p].boundary->fixes() == Fixes::pressure && mesh.patches[p].count_global > 0);
+  }
+}
+
+void BoundarySet::update(const Flow& flow, double time) {
+  for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->respond(flow, mesh_.patches[p], time);
+  for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->update(flow, mesh_.patches[p], time, values_);
+  if (!fixes_pressure_) check_net_flux();
+}
+
+BoundaryValues BoundarySet::at_rest() {
+  BoundaryValues before = values_;
+  std::fill(values_.flux.begin(), values_.flux.end(), 0.0);
+  std::fill(values_.acceleration.begin(), values_.acceleration.end(), Vec3{});
+  return before;
+}
+
+std::vector<double> BoundarySet::knots() const {
+  std::vector<double> all;
+  for (const PatchBoundary& condition : conditions_) {
+    const std::vector<double> knots = condition.boundary->knots();
+    all.insert(all.end(), knots.begin(), knots.end());
+  }
+  return all;
+}
+
+std::vector<double> BoundarySet::state() const {
+  std::vector<double> all;
+  for (const PatchBoundary& condition : conditions_) {
+    const std::vector<double> state = condition.boundary->state();
+    all.insert(all.end(), state.begin(), state.end());
+  }
+  return all;
+}
+
+void BoundarySet::restore_state(const std::vector<double>& state) {
+  auto next = state.begin();
+  for (const PatchBoundary& condition : conditions_) {
+    const auto length = static_cast<std::ptrdiff_t>(condition.boundary->state().size());
+    condition.boundary->restore({next, next + length});
+    next += length;
+  }
+}
+
+void BoundarySet::check_net_flux() const {
+  double net = 0, total = 0;
+  for (std::size_t p = 0; p < conditions_.size(); ++p) {
+    if (fixes(static_cast<int>(p)) != Fixes::velocity) continue;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const auto b = static_cast<std::size_t>(f - mesh_.n_interior);
+      // Also what a wall carries along itself: the fluxes of a drum that turns are round-off of that.
+      net += values_.flux[b], total += std::abs(values_.flux[b]) + norm(values_.velocity[b]) * norm(mesh_.face_vector[f]);
+    }
+  }
+  net = sum(mesh_.comm, net), total = sum(mesh_.comm, total);
+  if (std::abs(net) > net_flux_tolerance * total)
+    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + words(net) +
+                                     " m3/s) must be zero where no patch fixes the pressure; give one patch kind = \"pressure_outlet\"");
+}
+
+}  // namespace snag

@@ -1,0 +1,105 @@
+#pragma once
+// Boundary conditions of the flow: one kind, one file in solver/boundaries/, chosen for each patch by the [[boundary]] tables of the case.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/registry.hpp"
+#include "solver/boundaries/inlet_turbulence.hpp"
+#include "solver/fields/flow.hpp"
+
+namespace snag {
+
+/// What a patch fixes; all else follows from it.
+///   velocity:  u and the flux are given, p is extrapolated from inside (walls, inlets)
+///   pressure:  p is given, du/dn = 0; fluid that enters comes along the normal (outlets)
+///   symmetry:  u.n = 0, no friction, dp/dn = 0
+enum class Fixes { velocity, pressure, symmetry };
+
+/// Values at the boundary faces, face f at f - n_interior.
+struct BoundaryValues {
+  std::vector<Vec3> velocity;      // where velocity is fixed, m/s
+  std::vector<double> flux;        // where velocity is fixed, out of the domain, m3/s
+  std::vector<double> pressure;    // where pressure is fixed, Pa
+  std::vector<Vec3> acceleration;  // of the fluid at a wall where it is known, for the pressure there, m/s2
+};
+
+struct PatchBoundary;
+
+/// A boundary condition on one patch.
+class Boundary {
+ public:
+  virtual ~Boundary() = default;
+  /// Its keys in a [[boundary]] table; the records point into this object.
+  virtual Section section() = 0;
+  virtual Fixes fixes() const = 0;
+  /// True for solid walls, where wall functions act.
+  virtual bool is_wall() const { return false; }
+  /// True where the pressure is as given, false where its level follows from the flow.
+  virtual bool level_is_given() const { return fixes() == Fixes::pressure; }
+  /// True where what the water carries has left for good once it is beyond the patch.
+  virtual bool is_way_out() const { return fixes() == Fixes::pressure; }
+  /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
+  virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
+  /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
+  /// begin, flow.flux that of one step before. At a start time is flow.time. Collective.
+  virtual void respond(const Flow&, const Patch&, double /*time*/) {}
+  /// Values of the patch at a time. Local; called every step, after the mesh has moved.
+  virtual void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const = 0;
+  /// Times at which what the case gives may have its extremes, s: the knots of a table.
+  virtual std::vector<double> knots() const { return {}; }
+  /// What a resume needs of it, the same on every rank and of the same length at any time.
+  virtual std::vector<double> state() const { return {}; }
+  virtual void restore(const std::vector<double>& /*state*/) {}
+};
+
+Registry<Boundary>& boundaries();
+
+/// A condition and the patch it is for.
+struct PatchBoundary {
+  std::string patch;
+  std::string where;  // the table of the case file, for messages
+  std::unique_ptr<Boundary> boundary;
+  InletTurbulence turbulence = {};  // of fluid that enters
+};
+
+/// All [[boundary]] tables. Throws Error(usage) for an unknown kind or a table that names no patch.
+std::vector<PatchBoundary> read_boundaries(const Table& root);
+/// The tables as sections for the manual: the keys that all kinds share, then one section a kind.
+std::vector<Section> boundary_sections();
+
+/// The conditions of all patches of a mesh, and their values at a time.
+class BoundarySet {
+ public:
+  /// Throws Error(usage) for a patch without a condition, with two, and for a condition of an unknown patch. Collective.
+  BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions);
+  /// Once a step. Collective; throws Error(usage) if nothing fixes the pressure and what flows in does not flow out.
+  void update(const Flow& flow, double time);
+
+  const BoundaryValues& values() const { return values_; }
+  /// Set all fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
+  BoundaryValues at_rest();
+  void restore(const BoundaryValues& values) { values_ = values; }
+  Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
+  bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
+  bool is_way_out(int patch) const { return conditions_[patch].boundary->is_way_out(); }
+  const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
+  const std::string& where(int patch) const { return conditions_[patch].where; }
+  /// Of all conditions, s.
+  std::vector<double> knots() const;
+  /// True if some patch fixes the pressure.
+  bool fixes_pressure() const { return fixes_pressure_; }
+
+  /// What a resume needs of all conditions, one after the other; empty if they need nothing.
+  std::vector<double> state() const;
+  void restore_state(const std::vector<double>& state);
+
+ private:
+  void check_net_flux() const;
+  const Mesh& mesh_;
+  std::vector<PatchBoundary> conditions_;  // in the order of the patches
+  BoundaryValues values_;
+  bool fixes_pressure_ = false;
+};
+
+}  // namespace snag

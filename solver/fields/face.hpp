@@ -1,0 +1,63 @@
+#pragma once
+// What the operators need of one face beside the arrays of the mesh, computed where it is used: less memory to read, and right on a moving
+// mesh.
+//
+//   over-relaxed split of the face vector:   S = c d + T,   c = S.S / (S.d)         d: way between the centres
+//   the line of centres meets the face at x_i = x_P + (1 - w) d; the face centre lies off it by s = x_f - x_i (skewness)
+//
+//   S.grad(phi)_f ~ c (phi_N - phi_P) + T.(w grad_P + (1-w) grad_N),      phi_f ~ w phi_P + (1-w) phi_N + s.(w grad_P + (1-w) grad_N)
+//
+// Both are exact for linear fields. Across a skew face (|s| > 0.6 |d|, mesh/skewness.hpp) velocity is not corrected for s and of first
+// order. The reason: with L the compact Laplacian of the pressure, D divergence, I interpolation, G gradient, R = L^-1 D I G and
+// Q = L^-1 D s.grad G, a correction of the pressure multiplies its error by R at large steps and by 1 - R - Q at small ones. On prisms
+// round an axis in 28 sectors (|s|/|d| = 1.07) and on tetrahedra of pumps R reached 1.26, in single cells, and those ran away with any
+// order of convection. Without the correction, and with the pressure of solver/operators/gradient.hpp, |R| <= 1 there.
+//
+// Convection may take
+//
+//   limited linear:   phi_f - phi_C = clamp(2 r, 0, 1) (1 - w_C) (phi_D - phi_C),   r = 2 (grad phi_C . d)/(phi_D - phi_C) - 1
+//
+// of second order where phi is smooth (r near 1), total variation diminishing in one dimension.
+#include <algorithm>
+#include <span>
+
+#include "mesh/skewness.hpp"
+
+namespace snag {
+
+/// c, m.
+inline double conductance(const Vec3& S, const Vec3& d) { return norm_squared(S) / dot(S, d); }
+
+/// Way from a boundary cell's centre to the face centre, without its part along the normal n: where a zero normal gradient leads to.
+inline Vec3 along_face(const Vec3& d, const Vec3& n) { return d - dot(d, n) * n; }
+
+inline Vec3 blend(double w, const Vec3& a, const Vec3& b) { return w * a + (1 - w) * b; }
+inline Mat3 blend(double w, const Mat3& a, const Mat3& b) { return {blend(w, a[0], b[0]), blend(w, a[1], b[1]), blend(w, a[2], b[2])}; }
+inline Vec3 transposed_product(const Mat3& m, const Vec3& v) { return v.x * m[0] + v.y * m[1] + v.z * m[2]; }
+
+/// Of the face of the owner's or the neighbour's cell, how much an interior face is: a facet is a part of it, 1 otherwise.
+inline double share_of_face(const Mesh& mesh, int f, bool of_owner) {
+  return f < mesh.first_facet ? 1 : mesh.facet_share[static_cast<std::size_t>(f - mesh.first_facet)][of_owner ? 0 : 1];
+}
+
+/// [u]_f.S of an interior face, m3/s, from the velocity on the line of centres, w u_P + (1-w) u_N, and the cells' gradients.
+inline double interpolated_flux(const Mesh& mesh, int f, const Vec3& u_on_line, std::span<const Mat3> gradient) {
+  const Vec3 s = skewness(mesh, f);
+  if (is_skew(mesh, f, s)) return dot(u_on_line, mesh.face_vector[f]);
+  return dot(u_on_line + blend(mesh.weight[f], gradient[mesh.owner[f]], gradient[mesh.neighbour[f]]) * s, mesh.face_vector[f]);
+}
+
+/// [u]_b.S of a boundary face, m3/s, from velocity and gradient of its cell, with no gradient along the normal.
+inline double leaving_flux(const Mesh& mesh, int f, const Vec3& u, const Mat3& gradient) {
+  const Vec3& S = mesh.face_vector[f];
+  return dot(u + gradient * along_face(mesh.delta[f], unit(S)), S);
+}
+
+/// phi_f - phi_C by the limited linear scheme: `change` phi_D - phi_C, `slope` grad phi_C . d from C to D, `weight` 1 - w_C.
+inline double limited_linear(double change, double slope, double weight) {
+  if (change == 0) return 0;
+  const double r = 2 * slope / change - 1;
+  return std::clamp(2 * r, 0.0, 1.0) * weight * change;
+}
+
+}  // namespace snag

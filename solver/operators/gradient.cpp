@@ -1,0 +1,280 @@
+// Least-squares and Gauss gradients; the equations stand in the header.
+#include "solver/operators/gradient.hpp"
+
+#include <Eigen/Dense>
+
+#include "parallel/sum.hpp"
+#include "solver/fields/face.hpp"
+
+namespace snag {
+
+namespace {
+
+// Eigenvalues of M below this leave a direction open: each face adds 1 to the trace, a regular tetrahedron has 4/3 in every direction.
+constexpr double open_eigenvalue = 0.05;
+
+inline void add_product(Vec3& g, double a, const Vec3& e) { g += a * e; }
+inline void add_product(Mat3& g, const Vec3& a, const Vec3& e) { g[0] += a.x * e, g[1] += a.y * e, g[2] += a.z * e; }
+
+// Normal derivative times distance at a mirror: u.n goes to zero at the face.
+inline double mirrored(double, const Vec3&) { return 0; }
+inline double normal_slope(double given) { return given; }
+inline Vec3 normal_slope(const Vec3&) { return {}; }
+inline Vec3 mirrored(const Vec3& u, const Vec3& n) { return -dot(u, n) * n; }
+
+inline std::span<double> flat(std::vector<Vec3>& g) { return {g.empty() ? nullptr : &g[0].x, 3 * g.size()}; }
+inline std::span<double> flat(std::vector<Mat3>& g) { return {g.empty() ? nullptr : &g[0][0].x, 9 * g.size()}; }
+template <class Gradient>
+void exchange(const Mesh& mesh, std::vector<Gradient>& g) {
+  mesh.halo.exchange(flat(g), static_cast<int>(sizeof(Gradient) / sizeof(double)));
+}
+
+inline Vec3 product(const Mat3& m, const Vec3& g) { return m * g; }
+inline Mat3 product(const Mat3& m, const Mat3& g) { return {m * g[0], m * g[1], m * g[2]}; }
+inline Vec3 scaled(double s, const Vec3& a) { return s * a; }
+inline Mat3 scaled(double s, const Mat3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+inline void add(Vec3& a, const Vec3& b) { a += b; }
+inline void add(Mat3& a, const Mat3& b) { a[0] += b[0], a[1] += b[1], a[2] += b[2]; }
+
+}  // namespace
+
+LeastSquares::LeastSquares(const Mesh& mesh, std::vector<Side> sides)
+    : mesh_(mesh), sides_(std::move(sides)), skew_faces_(snag::skew_faces(mesh)) {
+  skew_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(skew_faces_.size())) > 0;
+  update();
+}
+
+void LeastSquares::update() {
+  aslant_faces_.clear();  // numbered behind the facets of a sliding interface, which change
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    if (sides_[p] == Side::value) continue;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
+      if (is_aslant(mesh_, f)) aslant_faces_.push_back(f);
+  }
+  sum_moments();
+  invert_moments();
+  open_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(open_.size())) > 0;
+}
+
+/// act(face, share of it in the owner, in the neighbour).
+template <class Act>
+void LeastSquares::for_each_difference(const Act& act) const {
+  for (int f = 0; f < mesh_.first_facet; ++f) act(f, 1.0, 1.0);
+  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) act(f, share_of_face(mesh_, f, true), share_of_face(mesh_, f, false));
+}
+
+void LeastSquares::sum_moments() {
+  inverse_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), {});
+  const auto add_direction = [&](int c, const Vec3& e, double share = 1) {
+    Symmetric& m = inverse_[c];
+    const Vec3 se = share * e;
+    m.xx += se.x * e.x, m.xy += se.x * e.y, m.xz += se.x * e.z, m.yy += se.y * e.y, m.yz += se.y * e.z, m.zz += se.z * e.z;
+  };
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
+    const Vec3 e = unit(mesh_.delta[f]);
+    add_direction(mesh_.owner[f], e, owner_share);
+    add_direction(mesh_.neighbour[f], e, neighbour_share);
+  });
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    if (sides_[p] == Side::none) continue;
+    const Patch& patch = mesh_.patches[p];
+    for (int f = patch.first; f < patch.end(); ++f)
+      add_direction(mesh_.owner[f], unit(sides_[p] == Side::value ? mesh_.delta[f] : mesh_.face_vector[f]));
+  }
+}
+
+void LeastSquares::invert_moments() {
+  open_.clear();
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    Symmetric& m = inverse_[c];
+    const double cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz, cxz = m.xy * m.yz - m.xz * m.yy;
+    const double det = m.xx * cxx + m.xy * cxy + m.xz * cxz, trace = m.xx + m.yy + m.zz;
+    if (4 * det > open_eigenvalue * trace * trace) {  // smallest eigenvalue >= det / (trace/2)^2
+      const double r = 1 / det;
+      m = {r * cxx, r * cxy, r * cxz, r * (m.xx * m.zz - m.xz * m.xz), r * (m.xy * m.xz - m.xx * m.yz), r * (m.xx * m.yy - m.xy * m.xy)};
+      continue;
+    }
+    Eigen::Matrix3d M;
+    M << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(M);
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), open = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d v = eigen.eigenvectors().col(k);
+      if (eigen.eigenvalues()(k) < open_eigenvalue)
+        open += v * v.transpose();
+      else
+        inverse += v * v.transpose() / eigen.eigenvalues()(k);
+    }
+    m = {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)};
+    if (open.trace() > 0.5)
+      open_.push_back(
+          {c, {Vec3{open(0, 0), open(0, 1), open(0, 2)}, {open(1, 0), open(1, 1), open(1, 2)}, {open(2, 0), open(2, 1), open(2, 2)}}});
+  }
+}
+
+template <class Value, class Gradient>
+void LeastSquares::add_interior(std::span<const Value> phi, std::vector<Gradient>& g) const {
+  std::fill(g.begin(), g.end(), Gradient{});
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3& d = mesh_.delta[f];
+    const Vec3 e = d / norm_squared(d);
+    const Value change = phi[N] - phi[P];
+    add_product(g[P], owner_share * change, e);
+    add_product(g[N], neighbour_share * change, e);
+  });
+}
+
+template <class Value, class Gradient>
+void LeastSquares::finish(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const {
+  for (std::size_t p = 0; p < sides_.size(); ++p) {
+    const Patch& patch = mesh_.patches[p];
+    if (sides_[p] == Side::none) continue;
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const int P = mesh_.owner[f];
+      const Vec3& d = mesh_.delta[f];
+      if (sides_[p] == Side::value) {
+        add_product(g[P], boundary[f - mesh_.n_interior] - phi[P], d / norm_squared(d));
+      } else {
+        const Vec3 n = unit(mesh_.face_vector[f]);
+        if (sides_[p] == Side::slope)
+          add_product(g[P], normal_slope(boundary[f - mesh_.n_interior]), n);
+        else
+          add_product(g[P], mirrored(phi[P], n), n / dot(d, n));
+      }
+    }
+  }
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    const Symmetric& m = inverse_[c];
+    g[c] = product(Mat3{Vec3{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, g[c]);
+  }
+  exchange(mesh_, g);
+  if (open_anywhere_) fill_open(g);
+}
+
+template <class Gradient>
+void LeastSquares::fill_open(std::vector<Gradient>& g) const {
+  std::vector<Gradient> filled;
+  for (const OpenCell& cell : open_) {
+    Gradient mean{};
+    double weight = 0;
+    for (int k = mesh_.cell_face_start[cell.cell]; k < mesh_.cell_face_start[cell.cell + 1]; ++k) {
+      const int f = mesh_.cell_face[k];
+      if (f >= mesh_.n_interior) continue;
+      const bool owns = mesh_.owner[f] == cell.cell;
+      const double share = share_of_face(mesh_, f, owns);
+      add(mean, scaled(share, g[owns ? mesh_.neighbour[f] : mesh_.owner[f]]));
+      weight += share;
+    }
+    Gradient whole = g[cell.cell];
+    if (weight > 0) {
+      Mat3 open = cell.open;
+      for (Vec3& row : open) row *= 1 / weight;
+      add(whole, product(open, mean));
+    }
+    filled.push_back(whole);
+  }
+  for (std::size_t i = 0; i < open_.size(); ++i) g[open_[i].cell] = filled[i];
+  exchange(mesh_, g);
+}
+
+void LeastSquares::gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const {
+  add_interior<double, Vec3>(phi, g);
+  finish<double, Vec3>(phi, boundary, g);
+}
+
+void LeastSquares::gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
+                            std::vector<Vec3>& g) const {
+  std::fill(g.begin(), g.end(), Vec3{});
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const Vec3& d = mesh_.delta[f];
+    const double w = mesh_.weight[f];
+    const Vec3 e = (phi[N] - phi[P]) / norm_squared(d) * d;
+    g[P] += owner_share * (1 - weight[f]) / (1 - w) * e;
+    g[N] += neighbour_share * weight[f] / w * e;
+  });
+  finish<double, Vec3>(phi, boundary, g);
+}
+
+void LeastSquares::gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const {
+  add_interior<Vec3, Mat3>(u, g);
+  finish<Vec3, Mat3>(u, boundary, g);
+}
+
+void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
+                   std::span<const double> given, std::span<double> values) {
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
+      const int P = mesh.owner[f], b = f - mesh.n_interior;
+      const Vec3& d = mesh.delta[f];
+      if (squares.side(p) == Side::value) {
+        values[b] = given[b];
+      } else if (squares.side(p) == Side::slope) {
+        const Vec3 n = unit(mesh.face_vector[f]);
+        values[b] = phi[P] + dot(g[P], along_face(d, n)) + given[b] * dot(d, n);
+      } else {
+        values[b] = phi[P] + dot(g[P], d);
+      }
+    }
+  }
+}
+
+namespace {
+
+/// What the sum of phi_f S, `g`, lacks of V `slope` in a cell, along S, as a value at the face.
+inline double lacking(const Mesh& mesh, int c, const Vec3& S, std::span<const Vec3> slope, const std::vector<Vec3>& g) {
+  return dot(mesh.cell_volume[c] * slope[c] - g[c], S) / norm_squared(S);
+}
+
+/// Values at skew faces, changed in g: all from the sums before, so that their order does not matter.
+void close_skew_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::vector<Vec3>& g) {
+  if (!squares.skew_anywhere()) return;
+  exchange(mesh, g);
+  std::vector<double> change;
+  change.reserve(squares.skew_faces().size());
+  for (const int f : squares.skew_faces()) {
+    const Vec3& S = mesh.face_vector[f];
+    change.push_back(0.5 * (lacking(mesh, mesh.owner[f], S, slope, g) - lacking(mesh, mesh.neighbour[f], S, slope, g)));
+  }
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    const int f = squares.skew_faces()[i];
+    g[mesh.owner[f]] += change[i] * mesh.face_vector[f];
+    g[mesh.neighbour[f]] -= change[i] * mesh.face_vector[f];
+  }
+}
+
+/// Values at boundary faces whose cell lies aslant over them, one after the other, changed in g and `boundary`.
+void close_aslant_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::span<double> boundary,
+                        std::vector<Vec3>& g) {
+  for (const int f : squares.aslant_faces()) {
+    const int P = mesh.owner[f];
+    const double change = lacking(mesh, P, mesh.face_vector[f], slope, g);
+    boundary[f - mesh.n_interior] += change;
+    g[P] += change * mesh.face_vector[f];
+  }
+}
+
+}  // namespace
+
+void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
+                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g) {
+  std::fill(g.begin(), g.end(), Vec3{});
+  for (int f = 0; f < mesh.n_interior; ++f) {
+    const int P = mesh.owner[f], N = mesh.neighbour[f];
+    const double w = weight[f];
+    // From the point on the line of centres that the weight stands for to the face centre.
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (1 - w) * mesh.delta[f];
+    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(way, blend(w, slope[P], slope[N]));
+    const Vec3 term = phi_f * mesh.face_vector[f];
+    g[P] += term;
+    g[N] -= term;
+  }
+  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
+  close_skew_faces(mesh, squares, slope, g);
+  close_aslant_faces(mesh, squares, slope, boundary, g);
+  for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
+  exchange(mesh, g);
+}
+
+}  // namespace snag

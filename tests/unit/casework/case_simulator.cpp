@@ -1,0 +1,293 @@
+// The simulator of a diagnosis over real runs: what an effect, an uncertain input and a calibration do to a run, and that runs are kept.
+// ranks: 1 3
+// long ranks: 2
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "casework/case_simulator.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+namespace {
+
+constexpr const char* swung_sphere = R"(
+[time]
+end_s = 0.1
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[flow]
+kind = "prescribed"
+density_kg_m3 = 1000
+kinematic_viscosity_m2_s = 1e-5
+velocity_m_s = [0.1, 0, 0]
+amplitude_m_s = [0.2, 0, 0]
+omega_per_s = [20, 0, 0]
+[[particle]]
+diameter_m = 5e-3
+density_kg_m3 = 1150
+position_m = [0.5, 0, 0]
+[coupling]
+mode = "one_way"
+forces = ["schiller_naumann"]
+)";
+
+RunRequest with(const std::string& effect, double theta) {
+  RunRequest request;
+  request.effects[effect] = theta;
+  return request;
+}
+
+RunRequest with_input(const std::string& nuisance, double deviation) {
+  RunRequest request;
+  request.nuisances[nuisance] = deviation;
+  return request;
+}
+
+/// Two points of one case; x at three times.
+class CaseSimulatorTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("snag-simulator-" + std::to_string(size_of(MPI_COMM_WORLD)));
+    if (rank_of(MPI_COMM_WORLD) == 0) {
+      std::filesystem::create_directories(folder_);
+      std::ofstream(folder_ / "case.toml") << swung_sphere;
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    experiment_.observables = {{.id = "x", .unit = "m", .noise_u = 1e-4, .bias_u = 1e-3, .calibration_group = "camera"}};
+    for (const char* id : {"A", "B"})
+      experiment_.points.push_back({.id = id,
+                                    .case_file = folder_ / "case.toml",
+                                    .input_u = {{"flow.amplitude", 0.05}, {"particle.density_kg_m3", 0.01}, {"drag_form", 0.05}}});
+    for (const int point : {0, 1})
+      for (const double t : {0.02, 0.05, 0.1}) experiment_.data.push_back({.point = point, .time = t});
+  }
+  void TearDown() override {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder_);
+  }
+  std::vector<double> values(CaseSimulator& simulator, const RunRequest& request) {
+    const auto results = simulator.run(std::vector<RunRequest>{request});
+    EXPECT_EQ(results[0].failure, "");
+    return results[0].values;
+  }
+  std::filesystem::path folder_;
+  Experiment experiment_;
+};
+
+/// Requirement: every fixed name of the candidates that this build has is listed once, with the reason where it cannot be seen.
+TEST_F(CaseSimulatorTest, ListsTheLibrary) {
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  std::map<std::string, std::string> blind;
+  for (const Effect& effect : simulator.effects()) {
+    EXPECT_TRUE(blind.emplace(effect.name, effect.blind).second) << effect.name;
+    EXPECT_NE(effect.mean, 0) << effect.name << ": its signature would be nothing";
+    EXPECT_GT(effect.sd, 0) << effect.name;
+    EXPECT_LE(effect.minimum, effect.mean) << effect.name;
+    EXPECT_GE(effect.maximum, effect.mean) << effect.name;
+  }
+  for (const char* name :
+       {"added_mass", "pressure_gradient", "drag_magnitude", "drag_exponent", "history", "measurement", "operating_point", "flow_error"})
+    EXPECT_EQ(blind.at(name), "") << name;
+  for (const char* name : {"wall", "lift", "gravity", "bond_damping", "friction", "initial_pose", "inlet", "geometry", "volume_fraction",
+                           "turbulent_dispersion", "sheet_drag", "shielding"})
+    EXPECT_NE(blind.at(name), "") << name;
+}
+
+/// Requirement: theta = 0 is the base model to the bit, and each effect that is not blind changes the run.
+TEST_F(CaseSimulatorTest, EffectsChangeTheRun) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto base = values(simulator, RunRequest());
+  for (const Effect& effect : simulator.effects()) {
+    EXPECT_EQ(values(simulator, with(effect.name, 0)), base) << effect.name;
+    if (!effect.blind.empty()) continue;
+    EXPECT_NE(values(simulator, with(effect.name, effect.mean))[2], base[2]) << effect.name;
+  }
+}
+
+/// Requirement: a camera's scale multiplies lengths; a calibration shifts them by its uncertainty; neither takes a run of its own.
+TEST_F(CaseSimulatorTest, Camera) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto base = values(simulator, RunRequest());
+  const int runs = simulator.n_runs();
+  const auto scaled = values(simulator, with("measurement", 0.02)), shifted = values(simulator, with_input("camera", -2));
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    EXPECT_DOUBLE_EQ(scaled[i], 1.02 * base[i]);
+    EXPECT_DOUBLE_EQ(shifted[i], base[i] - 2e-3);
+  }
+  EXPECT_EQ(simulator.n_runs(), runs);
+}
+
+/// Requirement: an error of all set-points of the flow is what the same deviation of the whole flow field is.
+TEST_F(CaseSimulatorTest, OperatingPointScalesTheFlow) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  EXPECT_EQ(values(simulator, with("operating_point", 0.1)), values(simulator, with_input("flow.amplitude", 0.1)));
+}
+
+/// Requirement: one set-point of the flow a point; one drag law everywhere; what is the same kind of sphere is half common, half each
+/// point's own, and its whole variance is what was stated.
+TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  std::map<std::string, int> count;
+  std::array<double, 2> variance_of_density{};
+  for (const Nuisance& nuisance : simulator.nuisances()) {
+    ++count[nuisance.name + (nuisance.points.size() == 1 ? " of a point" : "")];
+    if (nuisance.name == "particle.density_kg_m3")
+      for (const int p : nuisance.points) variance_of_density[static_cast<std::size_t>(p)] += nuisance.u * nuisance.u;
+  }
+  EXPECT_EQ(count, (std::map<std::string, int>{{"flow.amplitude of a point", 2},
+                                               {"particle.density_kg_m3", 1},
+                                               {"particle.density_kg_m3 of a point", 2},
+                                               {"drag_form", 1},
+                                               {"drag_form.slope", 1},
+                                               {"camera", 1}}));
+  for (const double variance : variance_of_density) EXPECT_NEAR(std::sqrt(variance), 0.01, 1e-15);
+}
+
+/// Requirement: an error of the drag law that is each point's own is not shared, and changes the drag as the shared one does.
+TEST_F(CaseSimulatorTest, TellsOwnFromSharedErrorOfTheDragLaw) {
+  for (OperatingPoint& point : experiment_.points) point.input_u.emplace_back("drag_form_of_point", 0.05);
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  int own = 0;
+  for (const Nuisance& nuisance : simulator.nuisances()) {
+    if (nuisance.name != "drag_form_of_point") continue;
+    ++own;
+    EXPECT_EQ(nuisance.points.size(), 1u);
+  }
+  EXPECT_EQ(own, 2);
+  EXPECT_EQ(values(simulator, with_input("drag_form_of_point", 0.1)), values(simulator, with_input("drag_form", 0.1)));
+}
+
+/// Requirement: all ranks have the same answers; equal requests run once; a new start with the same folder runs nothing again.
+TEST_F(CaseSimulatorTest, KeepsRuns) {
+  const auto cache = folder_ / "kept";
+  std::vector<RunRequest> requests;
+  for (const double theta : {0.1, 0.2, 0.3, 0.1, 0.0}) requests.push_back(with("added_mass", theta));
+  std::vector<std::vector<double>> first;
+  {
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, cache);
+    for (const RunResult& result : simulator.run(requests)) first.push_back(result.values);
+    EXPECT_EQ(simulator.n_runs(), 4);
+    simulator.run(requests);
+    EXPECT_EQ(simulator.n_runs(), 4);
+  }
+  EXPECT_EQ(first[0], first[3]);
+  std::vector<double> mine = first[2], theirs = first[2];
+  MPI_Bcast(theirs.data(), static_cast<int>(theirs.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  EXPECT_EQ(mine, theirs);
+  MPI_Barrier(MPI_COMM_WORLD);
+  CaseSimulator again(MPI_COMM_WORLD, experiment_, cache);
+  const auto results = again.run(requests);
+  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
+  EXPECT_EQ(again.n_runs(), 0);
+  EXPECT_EQ(again.n_used(), 4);
+}
+
+/// Requirement: runs of a table that the experiment names are not made again, whatever program made them; without a table of that name the
+/// diagnosis does not begin.
+TEST_F(CaseSimulatorTest, TakesRunsThatWereMadeElsewhere) {
+  const std::vector<RunRequest> requests{with("added_mass", 0.1), with("added_mass", 0.2)};
+  std::vector<std::vector<double>> first;
+  {
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, folder_ / "here");
+    for (const RunResult& result : simulator.run(requests)) first.push_back(result.values);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  experiment_.runs = folder_ / "elsewhere.tsv";
+  EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    std::string text = file_text(folder_ / "here" / "runs.tsv").value();
+    for (std::size_t line = 0; line < text.size(); line = text.find('\n', line) + 1) text.replace(line, 16, "another program!");
+    write_atomically(experiment_.runs, text + "a line that was cut o");
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto results = simulator.run(requests);
+  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
+  EXPECT_EQ(simulator.n_runs(), 0);
+  EXPECT_EQ(simulator.n_taken(), 2);
+}
+
+/// Requirement: a damaged table of runs is never taken for runs: the message names file and line, or the run that has too few values.
+TEST_F(CaseSimulatorTest, DamagedTablesAreRefused) {
+  {
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, folder_ / "sound");
+    simulator.run(std::vector{with("added_mass", 0.1)});
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  const std::string sound = file_text(folder_ / "sound" / "runs.tsv").value();
+  experiment_.runs = folder_ / "damaged.tsv";
+  const auto message_of = [&](const std::string& text) -> std::string {
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (rank_of(MPI_COMM_WORLD) == 0) write_atomically(experiment_.runs, text);
+    MPI_Barrier(MPI_COMM_WORLD);
+    try {
+      CaseSimulator(MPI_COMM_WORLD, experiment_).run(std::vector{with("added_mass", 0.1)});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::io);
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message_of(sound), "");
+  const std::size_t values = sound.find('\t', sound.find('\t') + 1) + 1, second = sound.find(',', values) + 1;
+  std::string damaged = sound;
+  damaged.replace(values, 1, "x");
+  EXPECT_NE(message_of(sound + damaged).find("damaged.tsv:2: "), std::string::npos);
+  EXPECT_NE(message_of(sound + "half a line\n").find("damaged.tsv:2: "), std::string::npos);
+  damaged = sound;
+  damaged.erase(values, second - values);
+  EXPECT_NE(message_of(damaged).find("remove the line"), std::string::npos);
+}
+
+/// Requirement: two changes of one number multiply, whichever effect and input they come from.
+TEST_F(CaseSimulatorTest, ChangesOfOneNumberMultiply) {
+  for (auto& point : experiment_.points) point.input_u.emplace_back("flow.velocity_m_s", 0.05);
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  RunRequest both, once;
+  both.nuisances = {{"flow.amplitude", 0.1}, {"flow.velocity_m_s", -0.1}};
+  once.nuisances = {{"flow.amplitude", 0.1}};
+  const PointCase base(folder_ / "case.toml");
+  const auto change = base.change({}, both.nuisances, 0);
+  EXPECT_EQ(std::count_if(change.overrides.begin(), change.overrides.end(),
+                          [](const std::string& text) { return text.starts_with("flow.velocity_m_s="); }),
+            1);
+  EXPECT_NE(values(simulator, both), values(simulator, once));
+  // The steady part is 1.1 x 0.9 of the base, the swinging one 1.1.
+  RunRequest same;
+  same.effects = {{"operating_point", -0.01}, {"flow_error", 1.1 / 0.99 - 1}};
+  const auto a = values(simulator, both), b = values(simulator, same);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-9);
+}
+
+/// Requirement: a force that one point holds cannot be added; a random one of the base has the seed of the run.
+TEST_F(CaseSimulatorTest, ForcesOfTheBase) {
+  std::string text = swung_sphere;
+  const std::string listed = "\"schiller_naumann\"";
+  text.replace(text.find(listed), listed.size(), listed + ", \"added_mass\", \"turbulent_dispersion\"");
+  if (rank_of(MPI_COMM_WORLD) == 0) std::ofstream(folder_ / "other.toml") << text;
+  MPI_Barrier(MPI_COMM_WORLD);
+  experiment_.points[1].case_file = folder_ / "other.toml";
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto& effects = simulator.effects();
+  const auto mass = std::find_if(effects.begin(), effects.end(), [](const Effect& effect) { return effect.name == "added_mass"; });
+  EXPECT_EQ(mass->blind, "the base case holds it");
+  const PointCase base(folder_ / "other.toml");
+  const auto overrides = base.change({}, {}, 7).overrides;
+  EXPECT_EQ(overrides, (std::vector<std::string>{"coupling.turbulent_dispersion.seed=7"}));
+}
+
+/// Requirement: an uncertain input that is no number of the case is refused by name.
+TEST_F(CaseSimulatorTest, RefusesUnknownInputs) {
+  experiment_.points[1].input_u.emplace_back("particle.colour", 0.1);
+  EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
+}
+
+}  // namespace
+}  // namespace snag

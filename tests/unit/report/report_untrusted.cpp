@@ -1,0 +1,82 @@
+// The results may be a stranger's: a report runs nothing of theirs, reads and writes nothing outside of their folder, and shows names as
+// text.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/atomic_file.hpp"
+#include "base/error.hpp"
+#include "base/series.hpp"
+#include "report/report.hpp"
+
+namespace snag {
+namespace {
+
+namespace fs = std::filesystem;
+
+class UntrustedResults : public testing::Test {
+ protected:
+  UntrustedResults() {
+    for (const fs::path& folder : {dir / "monitors", dir / "pictures/vtkmodules"}) fs::create_directories(folder);
+    write("summary.json", R"({"case": "<script>alert(1)</script>", "exit": 0, "simulated_s": 1, "time_steps": 2})");
+    fs::current_path(dir);
+  }
+  ~UntrustedResults() override {
+    fs::current_path(before);
+    fs::remove_all(root);
+  }
+  void write(const fs::path& file, const std::string& content) const { std::ofstream(dir / file) << content; }
+  /// The message of the refusal.
+  std::string refusal() const {
+    try {
+      write_report(dir);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::io);
+      return error.what();
+    }
+    return "";
+  }
+
+  const fs::path before = fs::current_path();
+  const fs::path root = fs::temp_directory_path() / ("snag_untrusted_" + std::to_string(getpid())), dir = root / "results",
+                 outside = root / "outside.txt";
+};
+
+// Modules that python would find before its own, in the folder of the script and in the working directory.
+TEST_F(UntrustedResults, ModulesInTheResultsAreNotRun) {
+  const std::string attack = "open('" + outside.string() + "', 'a').write(__name__)\n";
+  for (const char* folder : {"", "pictures/"})
+    for (const char* module : {"numpy.py", "json.py", "argparse.py", "sitecustomize.py", "usercustomize.py"})
+      write(fs::path(folder) / module, attack);
+  write("pictures/vtkmodules/__init__.py", attack);
+  write_report(dir);
+  EXPECT_FALSE(fs::exists(outside)) << file_text(outside).value_or("");
+}
+
+TEST_F(UntrustedResults, LinksOutOfTheFolderAreRefused) {
+  std::ofstream(outside) << "mine";
+  for (const char* link : {"report.html", "report.html.tmp", "log.txt", "monitors/pump.csv", "pictures/render.log"}) {
+    fs::create_symlink(outside, dir / link);
+    EXPECT_NE(refusal().find(std::string(link) + ": is a symbolic link to " + outside.string()), std::string::npos);
+    fs::remove(dir / link);
+  }
+  fs::remove_all(dir / "pictures");
+  fs::create_directory_symlink(root, dir / "pictures");
+  EXPECT_NE(refusal().find("symbolic link"), std::string::npos);
+  EXPECT_EQ(file_text(outside), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(root), fs::directory_iterator{}), 2) << "nothing is written beside the results";
+}
+
+TEST_F(UntrustedResults, NamesAreShownAsText) {
+  Series patches("monitors/patches.csv", {"time [s]", "<script>alert(2)</script>_flow [m3/s]", "a,\"b\"_flow [m3/s]"});
+  patches.add({0, 1, 2}), patches.add({1, 2, 1});
+  write_report(dir);
+  const std::string page = file_text(dir / "report.html").value_or("");
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;alert(2)"), std::string::npos);
+  EXPECT_NE(page.find("a,&quot;b&quot;"), std::string::npos) << "a column with a comma and quotes stays one column";
+}
+
+}  // namespace
+}  // namespace snag
