@@ -5,6 +5,19 @@
 
 namespace snag {
 
+/// What a case must have so that an effect can be seen in it.
+enum class Need {
+  wall,
+  gradient,    // of the velocity
+  turbulence,  // k and epsilon
+  sheet,       // bonds in two directions
+  bonds,
+  solid_fraction,  // of a computed flow
+  gravity,
+  contact,
+  several,  // particles
+};
+
 /// theta = 0 is the base model to the bit. A force is switched on by its name in [coupling] forces with theta at `key`.
 struct Prior {
   std::string key;                    // of theta in the case file: "coupling.added_mass.coefficient"; tables that repeat without number
@@ -14,9 +27,7 @@ struct Prior {
   double minimum = 0, maximum = 1e9;  // physical range of theta
   bool random = false;                // runs with another seed (key `seed` of the same table) give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
-  /// What the case must have: "wall", "gradient" (of the velocity), "acceleration" (of water or particle), "turbulence" (k and epsilon),
-  /// "sheet" (neighbours in two directions), "bonds", "solid_fraction" (of a computed flow), "gravity", "contact", "several" (particles).
-  std::vector<std::string> needs = {};
+  std::vector<Need> needs = {};
 };
 
 /// A named effect that is not a force.

@@ -46,22 +46,36 @@ std::vector<LibraryEffect> all_of_cases() {
   return all;
 }
 
+/// Why cases with these facts lack it; empty: they have it.
+const char* reason_against(Need need, const BaseCase& facts) {
+  switch (need) {
+    case Need::wall:
+      return facts.wall ? "" : "there is no wall";
+    case Need::gradient:
+      return facts.gradient ? "" : "the flow has no velocity gradient";
+    case Need::turbulence:
+      return facts.turbulence ? "" : "the flow has no turbulence";
+    case Need::sheet:
+      return facts.sheet ? "" : "there is no sheet";
+    case Need::bonds:
+      return facts.bonds ? "" : "there are no bonds";
+    case Need::solid_fraction:
+      return facts.prescribed ? "a prescribed flow has no solid fraction" : "";
+    case Need::gravity:
+      return facts.gravity ? "" : "there is no gravity";
+    case Need::contact:
+      return facts.wall || facts.several ? "" : "nothing can touch";
+    case Need::several:
+      return facts.several ? "" : "there is one particle";
+  }
+  return "";
+}
+
 /// Why cases with these facts cannot show it; empty: they can.
 std::string reason_against(const Prior& prior, const BaseCase& facts) {
   if (prior.acts_on_water && facts.prescribed) return "it acts on the water, which is prescribed";
-  const std::vector<std::pair<std::string, std::pair<bool, const char*>>> rules{
-      {"wall", {facts.wall, "there is no wall"}},
-      {"gradient", {facts.gradient, "the flow has no velocity gradient"}},
-      {"turbulence", {facts.turbulence, "the flow has no turbulence"}},
-      {"sheet", {facts.sheet, "there is no sheet"}},
-      {"bonds", {facts.bonds, "there are no bonds"}},
-      {"solid_fraction", {!facts.prescribed, "a prescribed flow has no solid fraction"}},
-      {"gravity", {facts.gravity, "there is no gravity"}},
-      {"contact", {facts.wall || facts.several, "nothing can touch"}},
-      {"several", {facts.several, "there is one particle"}}};
-  for (const std::string& need : prior.needs)
-    for (const auto& [name, rule] : rules)
-      if (name == need && !rule.first) return rule.second;
+  for (const Need need : prior.needs)
+    if (const std::string reason = reason_against(need, facts); !reason.empty()) return reason;
   return "";
 }
 

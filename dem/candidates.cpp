@@ -10,7 +10,7 @@ std::vector<Candidate> dem_candidates() {
             .sd = 0.15,
             .minimum = 0,
             .maximum = 5,
-            .needs = {"wall", "contact"}}},
+            .needs = {Need::wall, Need::contact}}},
           {"bond_damping",
            {.key = "rag.bond_damping",
             .meaning = "damping ratio of the shortest wave of the bonds, beyond that of the case",
@@ -18,7 +18,7 @@ std::vector<Candidate> dem_candidates() {
             .sd = 0.25,
             .minimum = 0,
             .maximum = 5,
-            .needs = {"bonds"}}}};
+            .needs = {Need::bonds}}}};
 }
 
 }  // namespace snag

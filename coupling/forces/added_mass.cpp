@@ -32,8 +32,7 @@ struct AddedMass final : FluidForce {
                            .mean = 0.5,
                            .sd = 0.25,
                            .minimum = 0,
-                           .maximum = 3,
-                           .needs = {"acceleration"}}};
+                           .maximum = 3}};
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta: C_m far from walls; 1/2 for a sphere."},

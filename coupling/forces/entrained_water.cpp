@@ -29,7 +29,7 @@ struct EntrainedWater final : FluidForce {
                            .sd = 0.5,
                            .minimum = 0,
                            .maximum = 10,
-                           .needs = {"acceleration", "bonds"}}};
+                           .needs = {Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"volume_ratio", &volume_ratio, "1", 0, 100, Basis::assumed, "theta: volume of the water over V_h."}};

@@ -69,8 +69,7 @@ struct History final : FluidForce {
                            .mean = 1,
                            .sd = 0.5,
                            .minimum = 0,
-                           .maximum = 5,
-                           .needs = {"acceleration"}}};
+                           .maximum = 5}};
   }
   std::vector<Parameter> parameters() override {
     return {

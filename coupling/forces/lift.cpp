@@ -38,7 +38,7 @@ struct Lift final : FluidForce {
                            .sd = 0.5,
                            .minimum = 0,
                            .maximum = 10,
-                           .needs = {"gradient"}}};
+                           .needs = {Need::gradient}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta."},

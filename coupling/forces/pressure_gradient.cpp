@@ -38,8 +38,7 @@ struct PressureGradient final : FluidForce {
                            .mean = 1,
                            .sd = 0.4,
                            .minimum = 0,
-                           .maximum = 3,
-                           .needs = {"acceleration"}}};
+                           .maximum = 3}};
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 10, Basis::literature, "theta; 1 by theory."},

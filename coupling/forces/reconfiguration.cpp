@@ -30,7 +30,7 @@ struct Reconfiguration final : FluidForce {
                            .sd = 0.33,
                            .minimum = -2,
                            .maximum = 0,
-                           .needs = {"bonds"}}};
+                           .needs = {Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"exponent", &exponent, "1", -2, 0, Basis::literature, "V, theta; 0: rigid."},

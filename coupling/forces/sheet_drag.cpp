@@ -36,7 +36,7 @@ struct SheetDrag final : FluidForce {
                            .sd = 0.4,
                            .minimum = 0,
                            .maximum = 1,
-                           .needs = {"sheet"}}};
+                           .needs = {Need::sheet}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"share", &share, "1", 0, 1, Basis::assumed, "theta: 0 the drag of the particles, 1 that of the sheet."},

@@ -29,7 +29,7 @@ struct Shielding final : FluidForce {
                            .sd = 0.25,
                            .minimum = 0,
                            .maximum = 0.95,
-                           .needs = {"bonds"}}};
+                           .needs = {Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"shelter", &shelter, "1", 0, 1, Basis::assumed, "theta: share of drag that a particle in full shelter loses."},

@@ -32,7 +32,7 @@ struct Torque final : FluidForce {
                            .sd = 0.5,
                            .minimum = 0,
                            .maximum = 10,
-                           .needs = {"gradient", "bonds"}}};
+                           .needs = {Need::gradient, Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta."},

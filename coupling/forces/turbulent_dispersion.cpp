@@ -47,7 +47,7 @@ struct TurbulentDispersion final : FluidForce {
                            .minimum = 0,
                            .maximum = 5,
                            .random = true,
-                           .needs = {"turbulence"}}};
+                           .needs = {Need::turbulence}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"intensity", &intensity, "1", 0, 10, Basis::literature, "theta; 1: the fluctuations of k, 0: none."},

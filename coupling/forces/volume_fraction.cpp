@@ -33,7 +33,7 @@ struct VolumeFraction final : FluidForce {
                            .minimum = 0,
                            .maximum = 10,
                            .acts_on_water = true,
-                           .needs = {"solid_fraction", "several"}}};
+                           .needs = {Need::solid_fraction, Need::several}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"exponent", &exponent, "1", 0, 10, Basis::literature, "theta; 0: single particles."},

@@ -39,7 +39,7 @@ struct Wall final : FluidForce {
                            .sd = 0.5,
                            .minimum = 0,
                            .maximum = 5,
-                           .needs = {"wall"}}};
+                           .needs = {Need::wall}}};
   }
   std::vector<Parameter> parameters() override {
     return {{"strength", &strength, "1", 0, 10, Basis::literature, "theta; 1 by theory."},

@@ -10,9 +10,10 @@
 // gradient in the cell at the wall is that of the shear in force, tau_w / (mu + mu_t), and not (u_P - u_w)/y, which is several times as
 // steep.
 //
-// Limit: the pressure at a wall follows from the acceleration of the wall (0, or omega^2 r), not of the water beside it, which slips. On a
-// curved wall the cells at it keep a velocity towards or away from the wall (a ring of 12 cells between cylinders: a tenth of that along
-// it), and angular momentum is not kept there to the order of the friction torque: the torques of two cylinders differ.
+// Limit: on a turning wall the pressure follows from the acceleration of the water that the wall carries
+// (Continuity::acceleration_at_wall). On a curved wall at rest the curvature of the streamlines is not known, and the pressure at the wall
+// is of first order: the cells at it have a velocity towards or away from the wall (a ring of 12 cells between cylinders: a tenth of that
+// along it), and angular momentum is lost there to the order of the friction torque: the torques of two cylinders differ.
 #include <vector>
 
 #include "solver/boundaries/boundary.hpp"
