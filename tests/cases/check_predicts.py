@@ -1,5 +1,6 @@
 # timeout: 300
 # processors: 1
+# cost: 20
 """Requirement: `snag check` refuses every case that `snag run` refuses. It warns before the run of what will go wrong. It gives no warning for the shipped cases."""
 import re
 

@@ -1,5 +1,5 @@
 # timeout: 600
-# processors: 2
+# cost: 30
 """Requirement: a diagnosis of cases with a mesh makes whole coupled runs, keeps each, names the cause that the data were made with, and goes on where it was stopped."""
 import json
 import shutil
@@ -52,7 +52,7 @@ class MeshedDiagnosis(harness.CaseTest):
         shutil.copy(self.mesh(*LOWER), self.work / "lower.msh")
         for number, (name, speed) in enumerate(SPEEDS.items()):
             self.channel(name, speed)
-            truth = self.run_case(self.channel(f"truth_{name}", TRUE_FACTOR * speed), 2, out=f"truth_{name}").monitor("rags")
+            truth = self.run_case(self.channel(f"truth_{name}", TRUE_FACTOR * speed), 1, out=f"truth_{name}").monitor("rags")
             for k in range(4, 15, 5):
                 for observable, noise in NOISE.items():
                     error = noise * (1, -1, 0.5, -0.7)[(number + k) % 4]  # as noise would be, the same in each run of the test
@@ -72,7 +72,7 @@ class MeshedDiagnosis(harness.CaseTest):
 
     def test_operating_point_is_found(self):
         file = self.prepare()
-        verdict = self.diagnosed(file, 2)
+        verdict = self.diagnosed(file, 1)
         self.assertEqual((verdict["verdict"], verdict["effects"]), ("effects", ["operating_point"]), verdict)
         found = verdict["parameters"]["operating_point"]
         print(f"  operating point {found['mean']:.3f} +- {found['sd']:.3f}, true {TRUE_FACTOR - 1}, {verdict['runs']} runs")
@@ -86,7 +86,7 @@ class MeshedDiagnosis(harness.CaseTest):
         made = {file: file.stat().st_mtime_ns for file in runs}
         shutil.copy(self.work / "out" / "verdict.json", self.work / "first.json")
         (self.work / "out" / "runs.tsv").unlink()
-        again = self.diagnosed(file, 1)
+        again = self.diagnosed(file, 2)
         self.assertEqual({file: file.stat().st_mtime_ns for file in runs}, made, "no run is made twice")
         self.assertEqual(again["probability"], verdict["probability"])
 

@@ -1,3 +1,4 @@
+# cost: 35
 """Requirement: spheres computed by another program, with its own integrator and drag law and inputs off at each point, are diagnosed as what was put into them.
 
 The program is in this file and shares nothing with Snag but the format of the data. Equation of motion, from rest in an unsteady shear
@@ -10,7 +11,6 @@ C_d by Clift and Gauvin (1971), lambda by Faxen's series beside the wall, the li
 the start no part of the history; Runge and Kutta's fourth order in time, the history by the exact kernel over steps of constant dw/dt.
 """
 # timeout: 900
-# processors: 2
 import json
 
 import harness
@@ -163,7 +163,7 @@ class OtherProgram(harness.CaseTest):
             with self.subTest(name):
                 folder = self.work / name
                 write_set(folder, 70 + seed, strengths, other_force)
-                run = harness.snag(["diagnose", folder / "DIAGNOSIS.toml", "--out", folder / "out"], 2, folder / "out")
+                run = harness.snag(["diagnose", folder / "DIAGNOSIS.toml", "--out", folder / "out"], 1, folder / "out")
                 self.assertEqual(run.code, 0, run.tail())
                 verdict = json.loads((run.folder / "verdict.json").read_text())
                 said = "+".join(verdict["effects"]) if verdict["verdict"] == "effects" else verdict["verdict"]

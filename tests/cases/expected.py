@@ -1,8 +1,8 @@
 # timeout: 1200
-# processors: 2
+# cost: 25
 """Requirement: a case of cases/ gives the numbers of its expected.toml, each within its tolerance and for the reason given there.
 
-expected.py CASE [--long]     entries with `long = true` are checked with --long only; the case then runs as it stands, else with [short] set = [...].
+expected.py CASE [--long]     entries with `long = true` are checked with --long only; the case then runs as it stands, else on one rank and with [short] set = [...].
 
 A cloth is calibrated instead, with the arguments `calibrate = [...]`, or those of [short], and the keys are those of its passport.
 """
@@ -35,6 +35,9 @@ def out_of_tolerance(entry, found):
 
 
 class Expected(harness.CaseTest):
+    def ranks(self, expected):
+        return expected.get("ranks", 2) if LONG else 1
+
     def test_numbers(self):
         folder = harness.SOURCE_DIR / "cases" / CASE
         expected = tomllib.loads((folder / "expected.toml").read_text())
@@ -54,12 +57,12 @@ class Expected(harness.CaseTest):
 
     def summary(self, folder, expected):
         shortened = [] if LONG else [word for s in expected.get("short", {}).get("set", []) for word in ("--set", s)]
-        return self.run_case(folder / "case.toml", expected.get("ranks", 2), *shortened, "--set", "output.report=false", timeout=expected.get("timeout_s", 600)).summary
+        return self.run_case(folder / "case.toml", self.ranks(expected), *shortened, "--set", "output.report=false", timeout=expected.get("timeout_s", 600)).summary
 
     def calibrated(self, folder, expected):
         arguments = expected["calibrate"] if LONG else expected["short"]["calibrate"]
         out = self.work / "out"
-        run = harness.snag(["calibrate", folder / "tests.toml", *arguments, "--out", out], expected.get("ranks", 2), out, expected.get("timeout_s", 600))
+        run = harness.snag(["calibrate", folder / "tests.toml", *arguments, "--out", out], self.ranks(expected), out, expected.get("timeout_s", 600))
         self.assertEqual(run.code, 0, run.tail())
         return tomllib.loads((out / "passport.toml").read_text())
 

@@ -202,6 +202,7 @@ class CaseTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.shared = pathlib.Path(tempfile.mkdtemp(prefix="snag-case-"))
+        cls.finished = {}
         cls.addClassCleanup(shutil.rmtree, cls.shared, ignore_errors=True)
 
     def setUp(self):
@@ -228,20 +229,27 @@ class CaseTest(unittest.TestCase):
         self.assertEqual(run.code, code, f"exit code of {file} on {ranks} ranks\n{run.tail()}")
         return run
 
-    def crashed_and_resumed(self, case, ranks, last_files, resumed_at):
-        """A run to its end, and one that goes on after a crash: the finished folder without its last checkpoint and the fields of the end
+    def run_once(self, file, ranks, *arguments, name=None):
+        """A run to its end that several tests of a script look at: the first of them makes it. `name`: of its folder, by default that of
+        the case and the number of ranks."""
+        name = name or f"{file.stem}-on-{ranks}"
+        if name not in self.finished:
+            self.finished[name] = self.run_case(file, ranks, *arguments, out=self.shared / name)
+        return self.finished[name]
+
+    def crashed_and_resumed(self, whole, case, last_files, resumed_at):
+        """Of a run to its end one that goes on after a crash: the finished folder without its last checkpoint and the fields of the end
         is what a crash leaves behind. `last_files`: those of a run that the crashed one has not written; `resumed_at`: time of the
         checkpoint before the last."""
-        whole = self.run_case(case, ranks, out="whole")
         shutil.copytree(whole.folder, self.work / "crashed")
         slots = sorted((self.work / "crashed" / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
         self.assertEqual(len(slots), 2)
         slots[-1].write_bytes(slots[-1].read_bytes()[:-5000])
         for file in last_files(whole):
             (self.work / "crashed" / file.relative_to(whole.folder)).unlink()
-        resumed = self.run_case(case, ranks, "--resume", out="crashed")
+        resumed = self.run_case(case, whole.summary["ranks"], "--resume", out="crashed")
         self.assertIn(f"resumed at {resumed_at}", resumed.stdout)
-        return whole, resumed
+        return resumed
 
     def assert_equal_to_the_bit(self, whole, resumed, last_files):
         """Summary key by key, monitors line by line, `last_files(whole)` byte by byte."""

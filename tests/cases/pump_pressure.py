@@ -1,5 +1,5 @@
 # timeout: 600
-# processors: 2
+# cost: 35
 """Requirement: a pump between a given pressure at its inlet, total or static, and a target of the flow at its outlet, comes to that flow."""
 import numpy
 
@@ -23,7 +23,7 @@ class PumpBetweenPressures(harness.CaseTest):
             self.assertIn(old, text)
             text = text.replace(old, new)
         times = ("--set", f"rotating_zone.ramp_s={RAMP}", "--set", f"time.end_s={END}")
-        return self.run_case(self.case(text, name), 2, *times, "--set", "output.report=false", out=name)
+        return self.run_case(self.case(text, name), 1, *times, "--set", "output.report=false", out=name)
 
     def comes_to_its_flow(self, run):
         pump = run.monitor("pump")

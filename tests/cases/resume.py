@@ -1,18 +1,24 @@
 # timeout: 600
-# processors: 3
+# processors: 2
+# cost: 20
 """Requirement: a run that was stopped or crashed and then resumed equals the uninterrupted one, to the bit on the same ranks, to solver tolerance on others."""
 import os
 import signal
 
 import harness
-from small_cases import CHANNEL, CHANNEL_MESH
+from small_cases import CHANNEL, COARSE_CHANNEL_MESH
 
-N_STEPS = 50
+STEP = 1e-3  # s
 
 
 class ResumedRun(harness.CaseTest):
-    def channel(self, more=""):
-        return self.case(CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="gaussian") + more)
+    """24 steps on a coarse mesh; resume_long.py has 50 on a finer one."""
+
+    n_steps, n_before_checkpoint, n_before_stop, channel_mesh = 24, 14, 4, COARSE_CHANNEL_MESH
+
+    def channel(self):
+        text = CHANNEL.format(mesh=self.mesh(*self.channel_mesh), kernel="gaussian").replace("end_s = 0.05", f"end_s = {self.n_steps * STEP}")
+        return self.case(text + f"[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}\n")
 
     def assert_every_step_once(self, run):
         for file in (run.folder / "monitors").glob("*.csv"):
@@ -20,18 +26,19 @@ class ResumedRun(harness.CaseTest):
             times = monitor.column("time")
             self.assertTrue((times[1:] > times[:-1]).all(), f"{file.name}: lines twice or out of order")
             if file.stem != "silhouettes":
-                self.assertEqual(len(times), N_STEPS, file.name)
+                self.assertEqual(len(times), self.n_steps, file.name)
 
     def assert_equal(self, whole, resumed):
         self.assertGreaterEqual(len(self.final_fields(whole)), 3, "final fields of water, rags and particles must be there")
         self.assert_equal_to_the_bit(whole, resumed, self.final_fields)
 
     def final_fields(self, run):
-        return sorted((run.folder / "fields").glob(f"water_{N_STEPS:06}_*.vtu")) + sorted((run.folder / "rags").glob(f"*_{N_STEPS:06}.vtp"))
+        return sorted((run.folder / "fields").glob(f"water_{self.n_steps:06}_*.vtu")) + sorted((run.folder / "rags").glob(f"*_{self.n_steps:06}.vtp"))
 
     def crash_and_resume(self, ranks):
-        case = self.channel("[checkpoint]\ninterval_s = 0.03\n")
-        whole, resumed = self.crashed_and_resumed(case, ranks, self.final_fields, 0.03)
+        case = self.channel()
+        whole = self.run_once(case, ranks)
+        resumed = self.crashed_and_resumed(whole, case, self.final_fields, self.n_before_checkpoint * STEP)
         self.assert_every_step_once(resumed)
         self.assert_equal(whole, resumed)
 
@@ -45,15 +52,15 @@ class ResumedRun(harness.CaseTest):
         """A run that is told to stop by stop(mpirun, folder) after some steps; it must end with code 7 and leave steps to do."""
         folder = self.work / "stopped"
         mpirun = harness.start(["run", case, "--out", folder], ranks)
-        harness.wait_for_records(folder / "monitors" / "coupling.csv", 8, mpirun)
+        harness.wait_for_records(folder / "monitors" / "coupling.csv", self.n_before_stop, mpirun)
         stop(mpirun, folder)
         stdout, stderr = mpirun.communicate(timeout=120)
         run = harness.Run(folder, mpirun.returncode, stdout, stderr)
         self.assertEqual(run.code, 7, run.tail())
         self.assertEqual(run.summary["exit"], 7)
         steps = run.summary["time_steps"]
-        self.assertTrue(8 <= steps < N_STEPS, f"stopped after {steps} steps")
-        print(f"  stopped after {steps} of {N_STEPS} steps on {ranks} ranks")
+        self.assertTrue(self.n_before_stop <= steps < self.n_steps, f"stopped after {steps} steps")
+        print(f"  stopped after {steps} of {self.n_steps} steps on {ranks} ranks")
 
     def by_signal(self, mpirun, folder):
         os.kill(harness.program_processes(mpirun)[-1], signal.SIGTERM)  # one rank is told, all stop
@@ -66,7 +73,7 @@ class ResumedRun(harness.CaseTest):
 
     def test_signal_on_one_rank(self):
         case = self.channel()
-        whole = self.run_case(case, 1, out="whole")
+        whole = self.run_once(case, 1)
         self.stopped_run(case, 1, self.by_signal)
         resumed = self.run_case(case, 1, "--resume", out="stopped")
         self.assert_every_step_once(resumed)
@@ -74,7 +81,7 @@ class ResumedRun(harness.CaseTest):
 
     def test_finished_run_goes_on_to_a_later_end(self):
         case = self.channel()
-        whole = self.run_case(case, 1, out="whole")
+        whole = self.run_once(case, 1)
         half = whole.summary["simulated_s"] / 2
         self.run_case(case, 1, "--set", f"time.end_s={half}", out="half")
         longer = self.run_case(case, 1, "--resume", out="half")
@@ -86,7 +93,7 @@ class ResumedRun(harness.CaseTest):
 
     def to_tolerance(self, ranks, stop, resume_ranks):
         case = self.channel()
-        whole = self.run_case(case, ranks, out="whole")
+        whole = self.run_once(case, ranks)
         self.stopped_run(case, ranks, stop)
         resumed = self.run_case(case, resume_ranks, "--resume", out="stopped")
         self.assertEqual(resumed.summary["ranks"], resume_ranks)

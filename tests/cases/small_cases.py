@@ -86,3 +86,4 @@ report = false
 single_precision = false
 """
 CHANNEL_MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="tetrahedra"', "size_mm=16", "wall_ratio=1")
+COARSE_CHANNEL_MESH = tuple(setting.replace("size_mm=16", "size_mm=25") for setting in CHANNEL_MESH)

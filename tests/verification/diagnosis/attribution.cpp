@@ -1,4 +1,5 @@
 // timeout: 600
+// cost: 25
 // Requirement: the diagnosis names the effect that made the data, or none, or says that it is not in the library; its intervals cover the
 // truth. Truths come with another time step, other inputs within their uncertainty, and effects of another form.
 #include <gtest/gtest.h>
