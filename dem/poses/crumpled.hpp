@@ -36,7 +36,7 @@ struct CrumpledPose {
 CrumpledPose crumple(const RagPiece& piece, const ContactSettings& contacts);
 
 /// Makes the poses of all pieces that are to be crumpled and have none: on rank 0, the same bits everywhere. Returns a line for the log for
-/// each. Collective; throws Error(usage).
+/// each; that of rank 0 counts. Collective; throws Error(usage).
 std::vector<std::string> make_poses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts);
 
 }  // namespace snag

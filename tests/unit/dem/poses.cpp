@@ -147,7 +147,9 @@ TEST(ConfinedPose, IsRepeatedWithSlowerWallsWhereTheSheetIsCrushed) {
   // Requirement: a pipe whose walls crush the sheet of one seed closes more slowly, and the log gives the attempt and the speed.
   std::vector<RagPiece> pieces = pieces_of(small_sheet + "pose = \"confined\"\nconfine_radius_mm = 18\nseed = 3\n");
   const std::string line = make_poses(MPI_COMM_WORLD, pieces, {}).at(0);
-  EXPECT_NE(line.find("attempt 2, with walls that close at 0.5 m/s"), std::string::npos) << line;
+  if (rank_of(MPI_COMM_WORLD) == 0) {
+    EXPECT_NE(line.find("attempt 2, with walls that close at 0.5 m/s"), std::string::npos) << line;
+  }
   EXPECT_LE(extent(pieces[0], {0, 0, 1}).radius, 0.018);
   RagSystem rags(MPI_COMM_WORLD, {}, pieces);
   EXPECT_LT(bond_strain_quantile(rags, 0, 0.99), 0.1);
