@@ -2,7 +2,7 @@
 // Where the rags are and what they touch, step by step: what is seen of each (observe/passage/rag_journey.hpp tells its story) and which
 // particles have left the mesh.
 //
-// With [passage] a rag's way is told by the flanges and the tongue of the pump (observe/passage/passage_geometry.hpp); without it a
+// With [passage] the flanges and the tongue of the pump define the passage (observe/passage/passage_geometry.hpp); without it a
 // particle is out beyond a pressure outlet, and upstream beyond a pressure inlet.
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // Wall:   at rest   u = 0,   or turning with the turning zone   u = omega x (x - x_0)
 //
-// A face of a cell that turns (solver/fields/rotating_zone.hpp) turns with it, unless the wall is told to stay: a casing wall that is a
-// surface of revolution about the axis. In either case the flux is the volume that the mesh face sweeps.
+// A face of a cell that turns (solver/fields/rotating_zone.hpp) turns with it, unless the case keeps the wall at rest: a casing wall that
+// is a surface of revolution about the axis. In either case the flux is the volume that the mesh face sweeps.
 #include "solver/boundaries/turning_wall.hpp"
 #include "solver/fields/rotating_zone.hpp"
 

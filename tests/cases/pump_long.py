@@ -1,7 +1,7 @@
 # labels: long
 # timeout: 1800
 # processors: 2
-"""Requirement: pump.py, twice as long, on three ranks to the end; and large steps do not run away."""
+"""Requirement: pump.py, twice as long, on three ranks to the end; and large steps do not diverge."""
 import harness
 import pump
 
