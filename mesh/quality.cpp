@@ -183,11 +183,11 @@ void see_faces(const Mesh& mesh, MeshQuality& q, Places& places) {
   q.min_spacing = minimum(mesh.comm, spacing);
 }
 
-void see_skew_cells(const Mesh& mesh, MeshQuality& q) {
-  const std::vector<int> cells = skew_cells(mesh);
+/// Number and volume of some cells of every rank. Collective.
+void count(const Mesh& mesh, const std::vector<int>& cells, std::int64_t& n, double& volume) {
   std::vector<double> volumes;
   for (const int c : cells) volumes.push_back(mesh.cell_volume[c]);
-  q.n_skew_cells = sum(mesh.comm, static_cast<std::int64_t>(cells.size())), q.skew_volume = sum(mesh.comm, volumes);
+  n = sum(mesh.comm, static_cast<std::int64_t>(cells.size())), volume = sum(mesh.comm, volumes);
 }
 
 void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
@@ -231,7 +231,8 @@ MeshQuality quality(const Mesh& mesh) {
   Places places;
   see_cells(mesh, q, places);
   see_faces(mesh, q, places);
-  see_skew_cells(mesh, q);
+  count(mesh, skew_cells(mesh), q.n_skew_cells, q.skew_volume);
+  count(mesh, corner_cells(mesh), q.n_corner_cells, q.corner_volume);
   q.n_regions = count_regions(mesh);
   judge(mesh, places, q);
   return q;
@@ -254,6 +255,9 @@ std::string quality_table(const Mesh& mesh, const MeshQuality& q) {
   if (q.n_skew_cells > 0)
     line("skew cells (a face by over " + words(skew_from) + ")",
          std::to_string(q.n_skew_cells) + ", " + words(100 * q.skew_volume / q.volume) + " % of the volume");
+  if (q.n_corner_cells > 0)
+    line("cells in corners (few neighbours)",
+         std::to_string(q.n_corner_cells) + ", " + words(100 * q.corner_volume / q.volume) + " % of the volume");
   line("closure, max", words_above_round_off(q.closure));
   for (std::size_t zone = 0; zone < mesh.zones.size(); ++zone) {
     std::vector<double> volume;

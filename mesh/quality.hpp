@@ -16,6 +16,8 @@ struct MeshQuality {
   double max_skewness = 0;                   // way from where the line of centres meets the face to the face centre, over that line
   std::int64_t n_skew_cells = 0;             // with a skew face (mesh/skewness.hpp)
   double skew_volume = 0;                    // m3, of these cells
+  std::int64_t n_corner_cells = 0;           // with few neighbours (mesh/skewness.hpp)
+  double corner_volume = 0;                  // m3, of these cells
   double closure = 0;                        // max over cells of |sum S| / sum |S|
   double min_quality = 0, mean_quality = 0;  // tetrahedra: 3 r_in / R_circ; others: min over corners of the scaled Jacobian
   double min_spacing = 0;                    // m, smallest distance between two cell centres across a face

@@ -21,4 +21,23 @@ std::vector<int> skew_cells(const Mesh& mesh) {
   return cells;
 }
 
+std::vector<int> corner_cells(const Mesh& mesh) {
+  std::vector<int> cells;
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    int n_boundary = 0, n_interior = 0;
+    bool slides = false;
+    for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
+      const int f = mesh.cell_face[k];
+      if (f >= mesh.n_interior)
+        ++n_boundary;
+      else if (f >= mesh.first_facet)
+        slides = true;
+      else
+        ++n_interior;
+    }
+    if (n_boundary >= 2 && n_interior + slides <= 2) cells.push_back(c);
+  }
+  return cells;
+}
+
 }  // namespace snag

@@ -47,9 +47,10 @@ FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool si
       single_precision_(single_precision),
       piece_(grid_of(mesh)),
       collection_(folder_ / "water.pvd", resume, from_time) {
-  const std::vector<int> skew = skew_cells(mesh_);
-  if (sum(mesh_.comm, static_cast<std::int64_t>(skew.size())) == 0) return;
+  const std::vector<int> skew = skew_cells(mesh_), corner = corner_cells(mesh_);
+  if (sum(mesh_.comm, static_cast<std::int64_t>(skew.size() + corner.size())) == 0) return;
   skew_ = {"skew [1]", 1, std::vector<double>(static_cast<std::size_t>(mesh_.n_cells)), true};
+  for (const int c : corner) skew_->values[static_cast<std::size_t>(c)] = 2;
   for (const int c : skew) skew_->values[static_cast<std::size_t>(c)] = 1;
 }
 

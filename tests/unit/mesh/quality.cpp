@@ -80,6 +80,14 @@ TEST(Quality, MixedMeshIsUsable) {
   EXPECT_GT(q.max_skewness, 0.01);
 }
 
+// Of a plate of one layer the four cells in its corners have two neighbours; of a cube they have three, and there is none.
+TEST(Quality, CountsCellsInCorners) {
+  const MeshQuality plate = quality(structured_box(MPI_COMM_WORLD, {0, 0, 0}, {0.3, 0.4, 0.1}, {3, 4, 1}));
+  EXPECT_EQ(plate.n_corner_cells, 4);
+  EXPECT_NEAR(plate.corner_volume, 4e-3, 1e-17);
+  EXPECT_EQ(quality(structured_box(MPI_COMM_WORLD, {0, 0, 0}, {0.3, 0.4, 0.3}, {3, 4, 3})).n_corner_cells, 0);
+}
+
 // A cell turned inside out, and a flat one, are failures that say where they are.
 TEST(Quality, ReportsInvertedAndFlatCells) {
   const MeshQuality inverted = quality(imported(tetrahedron({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}})));
