@@ -22,6 +22,19 @@ constexpr double least_width_over_cell = 0.3;
 // Above this many cells a particle the transfers cost more than the flow.
 constexpr double most_cells_per_particle = 3000;
 
+/// The forces with every set in place of its name.
+std::vector<std::string> spelt_out(const std::vector<std::string>& names) {
+  std::vector<std::string> forces;
+  for (const std::string& name : names) {
+    const auto set = std::find_if(force_sets().begin(), force_sets().end(), [&](const ForceSet& s) { return s.name == name; });
+    if (set == force_sets().end())
+      forces.push_back(name);
+    else
+      forces.insert(forces.end(), set->forces.begin(), set->forces.end());
+  }
+  return forces;
+}
+
 double largest_diameter(const std::vector<Rag>& rags) {
   double largest = 0;
   for (const Rag& rag : rags) largest = std::max(largest, rag.hydrodynamic_diameter);
@@ -30,7 +43,18 @@ double largest_diameter(const std::vector<Rag>& rags) {
 
 }  // namespace
 
+const std::vector<ForceSet>& force_sets() {
+  static const std::vector<ForceSet> sets{
+      {"recommended",
+       {"free_stream_drag", "sheet_drag", "pressure_gradient", "added_mass"},
+       "resistance of the cloth across and along itself, inertia of the water; with [gravity] weight and buoyancy"},
+      {"published", {"free_stream_drag"}, "as in the published simulations: drag of free spheres, no inertia of the water"}};
+  return sets;
+}
+
 Section CouplingSettings::section() {
+  std::string sets;
+  for (const ForceSet& set : force_sets()) sets += " \"" + set.name + "\": " + joined(set.forces) + " (" + set.meaning + ").";
   return {"coupling",
           "How water and rags feel each other.",
           {setting("mode", &mode,
@@ -41,7 +65,7 @@ Section CouplingSettings::section() {
             "Rms width per axis of the kernel, for every kernel but cell; a physical length, not a cell count. Chosen: twice the largest "
             "particle "
             "diameter."},
-           setting("forces", &forces, "Forces of the water on a particle: " + joined(fluid_forces().names()) + ".")}};
+           setting("forces", &forces, "Forces of the water on a particle: " + joined(fluid_forces().names()) + ", or sets of them." + sets)}};
 }
 
 double Coupling::kernel_width(const std::vector<Rag>& rags) const {
@@ -61,7 +85,7 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
   coupling.shape = kernel_shapes().make(settings.kernel, table.where() + " kernel");
   table.table(settings.kernel).read(coupling.shape->parameters());
   const Table weight = root.table(gravity);
-  std::vector<std::string> names = settings.forces;
+  std::vector<std::string> names = settings.forces = spelt_out(settings.forces);
   for (auto name = names.begin(); name != names.end(); ++name)
     if (std::find(names.begin(), name, *name) != name)
       throw Error(ExitCode::usage, table.where() + " forces: \"" + *name + "\" is listed twice");
@@ -70,6 +94,7 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
     auto force = fluid_forces().make(name, table.where() + " forces");
     // The acceleration of gravity stands in a table of its own, because rags without water read it too.
     (name == gravity ? weight : table.table(name)).read(force->parameters());
+    force->set_coupling(settings.two_way());
     const bool acts = settings.mode != "none" || name == gravity;
     if (acts) coupling.forces.push_back(std::move(force));
   }

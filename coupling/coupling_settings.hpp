@@ -11,11 +11,20 @@
 
 namespace snag {
 
+/// Forces that go together, by one name among the `forces` of a case.
+struct ForceSet {
+  std::string name;
+  std::vector<std::string> forces;
+  std::string meaning;
+};
+/// The first is what a case without `forces` gets.
+const std::vector<ForceSet>& force_sets();
+
 struct CouplingSettings {
   std::string mode = "two_way";  // none | one_way | two_way
   std::string kernel = "gaussian";
   std::optional<double> kernel_width;  // delta, m; not given: twice the largest particle diameter
-  std::vector<std::string> forces{"free_stream_drag"};
+  std::vector<std::string> forces = force_sets().front().forces;  // sets are spelt out when a case is read
 
   Section section();
   bool two_way() const { return mode == "two_way"; }

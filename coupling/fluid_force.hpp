@@ -143,6 +143,8 @@ class FluidForce {
   virtual Card card() const = 0;
   /// Table [coupling.NAME] of the case file.
   virtual std::vector<Parameter> parameters() { return {}; }
+  /// Whether the water feels the rags, for what was not given and depends on it. After reading.
+  virtual void set_coupling(bool /*two_way*/) {}
   /// Adds force, torque, slope and added mass of particles k = begin .. end - 1. No communication; the same result for the same numbers.
   virtual void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const = 0;
   virtual std::vector<ReferenceCase> reference_cases() const = 0;

@@ -7,9 +7,11 @@
 //   form "viscous"     C_n + 20.4/Re, C_t + 1.328/Re^(1/2), Re = rho |w| 2 r_p/mu: plates in creeping flow; laminar layers on both sides,
 //                      mean over a plate of the length 2 r_p, as if they began anew at each particle
 //
-// In a two-way coupling the velocity at the sheet is the resolved one, and C_n is the loss coefficient K of the cloth: the pressure drop
-// across it over 1/2 rho |w_n| w_n. Free-stream coefficients there would count the blockage of the sheet twice. Particles that have not
-// neighbours in both directions (fibres, spheres) keep the drag that they have.
+// One-way C_n is the drag coefficient of a plate across the stream, 1.17. In a two-way coupling the velocity at the sheet is the resolved
+// one, and C_n is the loss coefficient K of the cloth: the pressure drop across it over 1/2 rho |w_n| w_n. A free-stream coefficient there
+// would count the blockage of the sheet twice. No measured K of a soaked wipe is known: 2 is an assumption. Above 4 the kernel's width
+// makes a plate larger than it is, and its resistance too high. Particles that have not neighbours in both directions (fibres, spheres)
+// keep the drag that they have.
 // Source: resistance of screens, Taylor and Batchelor (1949), Q. J. Mech. Appl. Math. 2, 1-29; plate across the flow C_n = 1.17, Hoerner
 // (1965), chapter 3; disc in creeping flow, Lamb (1932), section 339; laminar layer, Blasius (1908).
 #include <algorithm>
@@ -21,7 +23,9 @@ namespace {
 
 struct SheetDrag final : FluidForce {
   static constexpr const char* name = "sheet_drag";
-  double share = 1, normal_coefficient = 1.17, tangential_coefficient = 0.02;
+  static constexpr double of_plate = 1.17, of_cloth = 2;  // C_n one-way and two-way
+  double share = 1, tangential_coefficient = 0.02, chosen_coefficient = of_plate;
+  std::optional<double> normal_coefficient;
   std::string form = "quadratic";
 
   Card card() const override {
@@ -41,13 +45,14 @@ struct SheetDrag final : FluidForce {
   std::vector<Parameter> parameters() override {
     return {{"share", &share, "1", 0, 1, Basis::assumed, "theta: 0 the drag of the particles, 1 that of the sheet."},
             {"normal_coefficient", &normal_coefficient, "1", 0, 1e6, Basis::literature,
-             "C_n: drag of a plate across the stream; two-way: loss coefficient of the cloth."},
+             "C_n: drag of a plate across the stream, chosen 1.17 (one-way); loss coefficient of the cloth, chosen 2 (two-way)."},
             {"tangential_coefficient", &tangential_coefficient, "1", 0, 10, Basis::assumed, "C_t: friction coefficient of one side."},
             setting("form", &form, "quadratic: constant coefficients; viscous: with the terms of slow flow.", {"quadratic", "viscous"})};
   }
+  void set_coupling(bool two_way) override { chosen_coefficient = two_way ? of_cloth : of_plate; }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (share == 0) return;
-    const double rho = fluid.density, side = 2 * particles.rag.radius, area = side * side, C_n = normal_coefficient,
+    const double rho = fluid.density, side = 2 * particles.rag.radius, area = side * side, C_n = normal_coefficient.value_or(chosen_coefficient),
                  C_t = tangential_coefficient, theta = share, viscous = form == "viscous" ? 1 : 0;
     const double per_speed = rho * side / fluid.dynamic_viscosity;
     const VectorArray u = fluid.velocity, v = particles.velocity;

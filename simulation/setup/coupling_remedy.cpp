@@ -20,9 +20,9 @@ std::string coupling_remedy(const Coupling* coupling) {
   for (std::size_t i = 0; i < settings.forces.size(); ++i) {
     if (settings.forces[i] != "sheet_drag") continue;
     for (const Parameter& parameter : coupling->forces[i]->parameters())
-      if (const auto* value = std::get_if<double*>(&parameter.target);
-          parameter.key == "normal_coefficient" && value && **value > large_normal_coefficient)
-        return "[coupling.sheet_drag] normal_coefficient = " + words(**value) +
+      if (const auto* value = std::get_if<std::optional<double>*>(&parameter.target);
+          parameter.key == "normal_coefficient" && value && (*value)->value_or(0) > large_normal_coefficient)
+        return "[coupling.sheet_drag] normal_coefficient = " + words(***value) +
                " is stiffer than the step resolves: lower it, widen "
                "kernel_width, or use a shorter [time] step";
   }

@@ -307,9 +307,28 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
     EXPECT_NE(std::string(error.what()).find("did you mean \"free_stream_drag\""), std::string::npos) << error.what();
   }
   EXPECT_THROW(read("[coupling]\nforces = [\"gravity\", \"gravity\"]\n"), Error);
+  EXPECT_THROW(read("[coupling]\nforces = [\"recommended\", \"added_mass\"]\n"), Error);
+  EXPECT_EQ(read("[coupling]\nforces = [\"published\", \"wall\"]\n").settings.forces, (std::vector<std::string>{"free_stream_drag", "wall"}));
+  EXPECT_EQ(read("[coupling]\n").settings.forces, read("[coupling]\nforces = [\"recommended\"]\n").settings.forces);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\n").forces.size(), 0u);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\nforces = [\"torque\", \"pressure_gradient\"]\n").forces.size(), 0u);
   EXPECT_THROW(read_coupling(CaseFile::parse("[coupling]\nmode = \"two_way\"\n").root(), false), Error);
+}
+
+// Requirement: a cloth across the stream that says nothing of its resistance has that of a plate where the water does not feel it, and the
+// loss coefficient of a cloth where it does; what a case says counts in both.
+TEST(CouplingSettings, ResistanceOfASheetDependsOnTheMode) {
+  auto state = drag_at(1e4, 1, 0, "").state;
+  const double d = state.diameter;
+  state.next_in_row = {0, d, 0}, state.next_row = {0, 0, d};
+  const auto coefficient = [&](const std::string& text) {
+    const auto coupling = read_coupling(CaseFile::parse("[coupling]\nforces = [\"sheet_drag\"]\n" + text).root());
+    return load_on_sphere(*coupling.forces[0], state).force.x / (0.5 * state.fluid_density * d * d * norm_squared(state.velocity));
+  };
+  EXPECT_NEAR(coefficient("mode = \"one_way\"\n"), 1.17, 1e-12);
+  EXPECT_NEAR(coefficient("mode = \"two_way\"\n"), 2, 1e-12);
+  for (const char* mode : {"one_way", "two_way"})
+    EXPECT_NEAR(coefficient(std::string("mode = \"") + mode + "\"\n[coupling.sheet_drag]\nnormal_coefficient = 3\n"), 3, 1e-12);
 }
 
 // Requirement: kernels that do not fit particles or cells are named with numbers; one that fits is not.
