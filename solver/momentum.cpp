@@ -10,6 +10,9 @@
 // walls say, and beyond a wall function the profile is not the line that it is made with: along the edge of a vane the explicit parts
 // drove single cells to six times the speed of the vane.
 //
+// Where mu is constant div(mu grad u^T) is zero, and its part of the force on a wall stands in no equation: - mu (omega x S)_i = mu S_j
+// du_j/dx_i, for u is omega x r along the wall, and du_n/dn is zero. It is kept apart, for the forces on patches.
+//
 // Explicit parts from u extrapolated fully in time are unstable at large steps (von Neumann analysis of BDF2 with Fromm's scheme:
 // amplification up to 1.2 above Courant 0.5, none for half the extrapolation). So cells take a share e of the extrapolation: 1 below
 // Courant 0.5, 1/2 above 1.5, and less where diffusion is fast. The error of a share is O(h dt), of second order where the Courant number
@@ -325,6 +328,9 @@ void Momentum::record_boundary(Flow& flow, const BoundarySet& boundary) const {
       const Vec3& u = flow.velocity[mesh_.owner[f]];
       flow.boundary_friction[f - mesh_.n_interior] += scaled(face.friction_slope, u);
       flow.boundary_convection[f - mesh_.n_interior] += face.convection_slope * u;
+      if (!flow.variable_viscosity && boundary.is_wall(static_cast<int>(p)))
+        flow.turning_friction[f - mesh_.n_interior] =
+            flow.face_viscosity[f] * cross(boundary.values().spin[f - mesh_.n_interior], mesh_.face_vector[f]);
     }
   }
 }

@@ -55,11 +55,12 @@ FluxMeans flux_means(const Flow& flow, int patch) {
 
 PatchForce patch_force(const Flow& flow, int patch, const Vec3& origin) {
   const auto push = [&](int f, int b) { return flow.boundary_pressure[b] * flow.mesh.face_vector[f]; };
+  const auto rub = [&](int, int b) { return flow.boundary_friction[b] + flow.turning_friction[b]; };
   const auto arm = [&](int f) { return flow.mesh.face_centre[f] - origin; };
   return {.pressure = patch_sum(flow, patch, push),
-          .friction = patch_sum(flow, patch, [&](int, int b) { return flow.boundary_friction[b]; }),
+          .friction = patch_sum(flow, patch, rub),
           .pressure_torque = patch_sum(flow, patch, [&](int f, int b) { return cross(arm(f), push(f, b)); }),
-          .friction_torque = patch_sum(flow, patch, [&](int f, int b) { return cross(arm(f), flow.boundary_friction[b]); })};
+          .friction_torque = patch_sum(flow, patch, [&](int f, int b) { return cross(arm(f), rub(f, b)); })};
 }
 
 YPlus y_plus_of(const Flow& flow, int patch) {

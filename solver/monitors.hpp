@@ -18,7 +18,7 @@ struct FluxMeans {
 FluxMeans flux_means(const Flow& flow, int patch);
 
 /// Force of the fluid on a patch and its torque about a point: by pressure and by friction, as they stood in the momentum equation of the
-/// last step.
+/// last step, with what the equation leaves out on walls that turn (Flow::turning_friction).
 struct PatchForce {
   Vec3 pressure, friction;                // N
   Vec3 pressure_torque, friction_torque;  // N m

@@ -106,7 +106,7 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
                     "; add a table [[boundary]] with patch and kind for each; known kinds: " + joined(boundaries().names()));
 
   const std::size_t n = static_cast<std::size_t>(mesh.n_faces - mesh.n_interior);
-  values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n), std::vector<Vec3>(n)};
+  values_ = {std::vector<Vec3>(n), std::vector<double>(n), std::vector<double>(n), std::vector<Vec3>(n), std::vector<Vec3>(n)};
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
     conditions_[p].boundary->prepare(mesh, mesh.patches[p], conditions_);
     conditions_[p].turbulence.prepare(mesh, mesh.patches[p], conditions_[p].where);

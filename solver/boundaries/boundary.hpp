@@ -22,6 +22,7 @@ struct BoundaryValues {
   std::vector<double> flux;        // where velocity is fixed, out of the domain, m3/s
   std::vector<double> pressure;    // where pressure is fixed, Pa
   std::vector<Vec3> acceleration;  // of the fluid at a wall where it is known, for the pressure there, m/s2
+  std::vector<Vec3> spin;          // of a wall that turns, rad/s
 };
 
 struct PatchBoundary;

@@ -25,6 +25,7 @@ inline void set_turning_wall(const Turning& turning, const Vec3& slide, const Fl
   values.velocity[b] = slide + turning.velocity(flow.mesh.face_centre[f]);
   values.flux[b] = flow.mesh_flux[f];
   values.acceleration[b] = turning.acceleration(flow.mesh.face_centre[f]);
+  values.spin[b] = turning.speed;
 }
 
 }  // namespace snag

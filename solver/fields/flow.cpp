@@ -17,6 +17,7 @@ Flow::Flow(const Mesh& m)
       face_viscosity(m.n_faces),
       boundary_pressure(m.n_faces - m.n_interior),
       boundary_friction(m.n_faces - m.n_interior),
+      turning_friction(m.n_faces - m.n_interior),
       boundary_convection(m.n_faces - m.n_interior),
       reaction(m.n_cells),
       drag(m.n_cells),

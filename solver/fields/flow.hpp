@@ -37,6 +37,7 @@ struct Flow {
   // [n_faces - n_interior], boundary face f at f - n_interior
   std::vector<double> boundary_pressure;  // p at the face, Pa
   std::vector<Vec3> boundary_friction;    // viscous force of the fluid on the face as it stood in the momentum equation, N
+  std::vector<Vec3> turning_friction;     // of it on a wall that turns, what the equation leaves out where mu is constant, N
   std::vector<Vec3> boundary_convection;  // momentum carried out through the face, likewise, N
 
   // of a turbulence model, empty without one

@@ -2,6 +2,7 @@
 // long ranks: 2 3
 #include <gtest/gtest.h>
 
+#include "solver/monitors.hpp"
 #include "tests/verification/solver/turning_rings.hpp"
 
 using namespace snag;
@@ -46,16 +47,9 @@ Errors errors_with(int around, const std::string& motion) {
   }
   const int steps = 5 * around / 2;  // ten seconds: what the mesh disturbs fades within three
   for (int i = 0; i < steps; ++i) solver.advance(10.0 / steps);
-  // With constant viscosity the equation leaves out div(mu grad u^T), and the force on a face mu grad u^T S, which on a wall that turns is
-  // - mu omega x S.
   double torque[2] = {};
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
-    for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
-      const bool turns = mesh.patches[p].name == "rotor_inner";
-      const Vec3 left_out = turns ? mu * cross({0, 0, Omega}, mesh.face_vector[f]) : Vec3{};
-      torque[turns ? 0 : 1] += cross(mesh.face_centre[f], flow.boundary_friction[f - mesh.n_interior] + left_out).z;
-    }
-  for (double& t : torque) t = sum(mesh.comm, t);
+    torque[mesh.patches[p].name == "rotor_inner" ? 0 : 1] += patch_force(flow, static_cast<int>(p), {}).friction_torque.z;
   const double exact = 4 * pi * mu * B * shells.height;
   return {velocity_error(flow, exact_velocity), pressure_error(flow, exact_pressure), std::abs(torque[0] / exact + 1),
           std::abs(torque[0] + torque[1]) / exact};
