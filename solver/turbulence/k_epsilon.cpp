@@ -51,7 +51,7 @@ Section KEpsilon::section() {
     return Parameter{key, target, "1", low, high, Basis::literature, std::string("Constant ") + key + " of the model."};
   };
   return {.name = name,
-          .meaning = "Standard k-epsilon model with standard wall functions (Launder and Spalding 1974).",
+          .meaning = "Standard k-epsilon model (Launder and Spalding 1974) with scalable wall functions (Grotjans and Menter 1998).",
           .parameters = {{"initial_k", &initial_k_, "m2/s2", smallest, infinity, Basis::assumed,
                           "Turbulent kinetic energy at the start; the mean over what enters through inlets if not given."},
                          {"initial_epsilon", &initial_epsilon_, "m2/s3", smallest, infinity, Basis::assumed,

@@ -1,5 +1,6 @@
 #include "solver/turbulence/wall_functions.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -19,7 +20,9 @@ void WallLaw::set_y_laminar() {
   for (int i = 0; i < 100; ++i) y_laminar = std::log(E * y_laminar) / kappa;  // contracts by 1/(kappa y) < 1/4 a turn
 }
 
-double WallLaw::viscosity_ratio(double y_star) const { return y_star > y_laminar ? kappa * y_star / std::log(E * y_star) : 1; }
+double WallLaw::viscosity_ratio(double y_star) const { return kappa * y_star / std::log(E * std::max(y_star, y_laminar)); }
+
+double WallLaw::distance(double y, double u_star, double nu) const { return std::max(y, y_laminar * nu / u_star); }
 
 double WallLaw::friction_speed(double k) const { return std::sqrt(std::sqrt(C_mu) * k); }
 
@@ -58,8 +61,9 @@ void WallFunctions::equilibrium(const Flow& flow, const BoundarySet& boundary, c
     const double y = wall_distance(flow.mesh, f), u_star = law_.friction_speed(k[P]), y_star = u_star * y / nu;
     const Vec3 slip = flow.velocity[P] - boundary.values().velocity[wall.boundary_face];
     const double shear = nu * law_.viscosity_ratio(y_star) * norm(part_along(slip, unit(flow.mesh.face_vector[f]))) / y;
-    production_[wall.wall_cell] += wall.share * shear * u_star / (law_.kappa * y);
-    dissipation_[wall.wall_cell] += wall.share * u_star * u_star * u_star / (law_.kappa * y);
+    const double length = law_.kappa * law_.distance(y, u_star, nu);
+    production_[wall.wall_cell] += wall.share * shear * u_star / length;
+    dissipation_[wall.wall_cell] += wall.share * u_star * u_star * u_star / length;
   }
 }
 

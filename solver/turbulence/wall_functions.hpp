@@ -1,10 +1,13 @@
 #pragma once
-// Standard wall functions, Launder and Spalding (1974): the layer between a wall and the centre of the cell at it, distance y, in local
-// equilibrium.
+// Scalable wall functions: those of Launder and Spalding (1974), the layer between a wall and the centre of the cell at it, distance y, in
+// local equilibrium, at no less than y*_lam, where the log layer meets the viscous one (Grotjans and Menter 1998).
 //
-//   u* = C_mu^(1/4) k_P^(1/2),   y* = u* y / nu
-//   tau_w = mu_w (u_P - u_w)_t / y,   mu_w = mu kappa y* / ln(E y*)   above y*_lam,   mu below;     y*_lam = ln(E y*_lam) / kappa
-//   production in the cell   tau_w u* / (rho kappa y),   epsilon_P = u*^3 / (kappa y)      at any y*, so that neither jumps at y*_lam
+//   u* = C_mu^(1/4) k_P^(1/2),   y* = u* y / nu,   y~* = max(y*, y*_lam),   y~ = y~* nu/u*,   y*_lam = ln(E y*_lam) / kappa
+//   tau_w = rho kappa u* (u_P - u_w)_t / ln(E y~*) = mu_w (u_P - u_w)_t / y,   mu_w = mu kappa y* / ln(E y~*)
+//   production in the cell   tau_w u* / (rho kappa y~),   epsilon_P = u*^3 / (kappa y~)
+//
+// So a cell nearer to the wall than the log layer stands for its edge: the mesh begins there, and k-epsilon is not asked for the viscous
+// layer, where it makes friction larger by half.
 //
 // u_t: part along the wall. A cell with several wall faces takes the mean of both, weighted with the areas of the faces. The velocity
 // gradient in the cell at the wall is that of the shear in force, tau_w / (mu + mu_t), and not (u_P - u_w)/y, which is several times as
@@ -27,6 +30,8 @@ struct WallLaw {
   void set_y_laminar();
   /// mu_w / mu.
   double viscosity_ratio(double y_star) const;
+  /// y~, m, of a wall distance y.
+  double distance(double y, double u_star, double nu) const;
   /// u*, m/s.
   double friction_speed(double k) const;
 };

@@ -26,7 +26,9 @@ TEST(WallLaw, profile) {
   law.set_y_laminar();
   EXPECT_NEAR(law.y_laminar, 11.53, 0.005);
   EXPECT_NEAR(law.y_laminar, std::log(law.E * law.y_laminar) / law.kappa, 1e-12);
-  EXPECT_EQ(law.viscosity_ratio(5), 1);
+  EXPECT_DOUBLE_EQ(law.viscosity_ratio(5), 5 / law.y_laminar);  // rho u* u/y_lam is the shear of a cell at the edge of the log layer
+  EXPECT_DOUBLE_EQ(law.distance(1e-5, 0.1, 1e-6), law.y_laminar * 1e-5);
+  EXPECT_EQ(law.distance(1e-3, 0.1, 1e-6), 1e-3);
   EXPECT_NEAR(law.viscosity_ratio(law.y_laminar * (1 + 1e-12)), 1, 1e-11);
   EXPECT_DOUBLE_EQ(law.viscosity_ratio(100), 0.41 * 100 / std::log(9.8 * 100));
 }

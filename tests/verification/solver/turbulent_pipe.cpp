@@ -12,8 +12,19 @@ namespace {
 
 constexpr double radius = 0.1;  // m
 
-/// A sector of a pipe, 5 degrees wide: a prism at the axis, then hexahedra; two cells along its period.
-Mesh pipe_sector(int n_radial) {
+/// Distances of rings from the axis, outwards: of the same width but for those at the wall, the first of which has its centre at y_first.
+std::vector<double> rings(int n_core, double y_first) {
+  std::vector<double> r{radius};
+  for (double width = 2 * y_first; r.back() > width; width = std::min(1.2 * width, radius / n_core)) r.push_back(r.back() - width);
+  if (r.back() < 0.5 * radius / n_core) r.pop_back();
+  std::reverse(r.begin(), r.end());
+  return r;
+}
+
+/// A sector of a pipe, 5 degrees wide, of rings at these distances from the axis: a prism at the axis, then hexahedra; two cells along its
+/// period.
+Mesh pipe_sector(const std::vector<double>& ring) {
+  const int n_radial = static_cast<int>(ring.size());
   constexpr double half = 2.5 * pi / 180, length = 0.4;
   constexpr int n_long = 2;
   MeshParts parts;
@@ -28,7 +39,7 @@ Mesh pipe_sector(int n_radial) {
     const double x = length * i / n_long;
     parts.node.push_back({x, 0, 0});
     for (int j = 1; j <= n_radial; ++j)  // the chord of the wall is one radius from the axis: hydraulic diameter 2 R
-      for (const double side : {-1.0, 1.0}) parts.node.push_back({x, radius * j / n_radial, side * std::tan(half) * radius * j / n_radial});
+      for (const double side : {-1.0, 1.0}) parts.node.push_back({x, ring[j - 1], side * std::tan(half) * ring[j - 1]});
   }
   for (std::size_t i = 0; i < parts.node.size(); ++i) parts.node_id.push_back(static_cast<std::int64_t>(i));
   const auto face = [&](int patch, std::vector<int> nodes) {
@@ -112,7 +123,7 @@ kind = "symmetry"
 TEST(TurbulentPipe, pressure_gradient) {
   for (const int n : {10, 20, 40}) {
     constexpr double G = 168;  // Pa/m
-    const double U = develop(pipe_sector(n), sector_boundary, G, 0.5).mean_velocity;
+    const double U = develop(pipe_sector(rings(n, 0.5 * radius / n)), sector_boundary, G, 0.5).mean_velocity;
     const DevelopedFlow reference{.radius = radius, .m = 1, .n = 100};
     const double Re = reference.rho * U * 2 * radius / reference.mu,
                  by_colebrook = colebrook(Re) * 0.5 * reference.rho * U * U / (2 * radius);
@@ -121,6 +132,18 @@ TEST(TurbulentPipe, pressure_gradient) {
     EXPECT_NEAR(G / reference.pressure_gradient(U), 1, 0.015);
     EXPECT_NEAR(G / by_colebrook, 1, 0.05);
     EXPECT_NEAR(Re, 4.5e5, 0.1e5);
+  }
+}
+
+// Cells at the wall that are thinner than the viscous layer do not change friction: at y+ 1, 3 and 5 it is that at y+ 100 within 4 %.
+TEST(TurbulentPipe, thin_cells_at_the_wall) {
+  constexpr double G = 168, y_plus_one = 1.09e-5;  // Pa/m, m
+  const auto velocity = [&](double y_plus, double dt) { return develop(pipe_sector(rings(20, y_plus * y_plus_one)), sector_boundary, G, dt).mean_velocity; };
+  const double thick = velocity(100, 0.5);
+  for (const double y_plus : {1.0, 3.0, 5.0}) {
+    const double U = velocity(y_plus, 5e-3);
+    std::printf("y+ %g: friction over that at 100 - 1: %.4f\n", y_plus, thick * thick / (U * U) - 1);
+    EXPECT_NEAR(thick * thick / (U * U), 1, 0.04);
   }
 }
 
