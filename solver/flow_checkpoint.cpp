@@ -109,7 +109,8 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   const FaceRows rows(mesh);
   const Poisson& poisson = continuity_.poisson();
   checkpoint.shared("flow/scalars", std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step),
-                                                        started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0});
+                                                        started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0,
+                                                        has_history_ ? 1.0 : 0.0});
   if (const std::vector<double> state = boundary_.state(); !state.empty())
     checkpoint.shared("flow/boundary", std::span<const double>(state));
   write_cells(checkpoint, "flow/velocity", mesh, first(flow.velocity), 3);
@@ -138,11 +139,38 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   const Mesh& mesh = flow.mesh;
   const auto scalars = checkpoint.shared("flow/scalars");
   flow.time = scalars.at(0), flow.time_step_size = scalars.at(1), flow.time_step = static_cast<std::int64_t>(scalars.at(2));
-  started_ = scalars.at(3) != 0;
+  started_ = scalars.at(3) != 0, has_history_ = scalars.at(6) != 0;
   if (started_) load_preconditioner(checkpoint, scalars.at(4), scalars.at(5) != 0);
   if (rotating_zone_) turn_mesh(flow.time);
-  const FaceRows rows(mesh);
   if (checkpoint.has("flow/boundary")) boundary_.restore_state(checkpoint.shared("flow/boundary"));
+  load_water(checkpoint);
+  // Owned cells only: these fields have no ghosts.
+  const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
+  std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
+  flow.drag = checkpoint.rows("flow/drag", owned_ids(mesh), 1);
+  flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
+  watch_.load(checkpoint);
+  if (started_) turbulence_->restore(flow, boundary_);
+}
+
+bool FlowSolver::go_on_from(CheckpointReader& checkpoint) {
+  const auto scalars = checkpoint.shared("flow/scalars");
+  const auto lacks = [&](const StoredField& field) { return !checkpoint.has("flow/" + field.name); };
+  const std::vector<StoredField> stored = turbulence_->stored();
+  if (scalars.size() < 7 || scalars[6] == 0 || std::any_of(stored.begin(), stored.end(), lacks)) return false;
+  load_water(checkpoint);
+  flow.time_step_size = scalars[1];
+  boundary_.update(flow, 0);
+  turbulence_->restore(flow, boundary_);
+  watch_.begin(flow);
+  started_ = has_history_ = true;
+  return true;
+}
+
+/// Velocity, pressure and turbulence with their history, on the mesh as it stands.
+void FlowSolver::load_water(CheckpointReader& checkpoint) {
+  const Mesh& mesh = flow.mesh;
+  const FaceRows rows(mesh);
   read_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity), 3);
   read_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old), 3);
   read_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient), 9);
@@ -150,19 +178,12 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   read_cells(checkpoint, "flow/pressure", mesh, flow.pressure, 1);
   read_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient), 3);
   for (const StoredField& field : turbulence_->stored()) read_cells(checkpoint, "flow/" + field.name, mesh, *field.values, 1);
-  // Owned cells only: these fields have no ghosts.
-  const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
-  std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
-  flow.drag = checkpoint.rows("flow/drag", owned_ids(mesh), 1);
-  flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
   read_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
   read_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
   read_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.psi, true);
   read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
   read_boundary(checkpoint, "flow/boundary_pressure", rows, mesh, flow.boundary_pressure);
   read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
-  watch_.load(checkpoint);
-  if (started_) turbulence_->restore(flow, boundary_);
 }
 
 /// On the mesh as it was when the preconditioner was set up.

@@ -69,6 +69,9 @@ class FlowSolver {
   /// Everything a resume needs; the same numbers to the bit on the same ranks. Names begin with "flow/".
   void save(CheckpointWriter& checkpoint) const;
   void load(CheckpointReader& checkpoint);
+  /// From the checkpoint of another run on the same mesh, where its rotor stands as here: the water with what was before, at time 0, so that
+  /// the next step goes on as the step of that run would. False, and nothing read, where it lacks something. Collective.
+  bool go_on_from(CheckpointReader& checkpoint);
 
   const BoundarySet& boundary() const { return boundary_; }
   /// Lets the bounds on the water know what the conditions will give until `end`, s.
@@ -86,6 +89,7 @@ class FlowSolver {
   void update_gradient();
   void measure(double dt, StepReport& report);
   void correct_turbulence(int outer, const TimeScheme& time, StepReport& report);
+  void load_water(CheckpointReader& checkpoint);
   void load_preconditioner(CheckpointReader& checkpoint, double fresh_cost, bool rebuild_due);
 
   FlowSettings settings_;
@@ -97,7 +101,7 @@ class FlowSolver {
   std::unique_ptr<RotatingZone> rotating_zone_;
   DivergenceWatch watch_;
   TimeScheme time_;
-  bool started_ = false;
+  bool started_ = false, has_history_ = false;  // a step before this one is known
 };
 
 }  // namespace snag

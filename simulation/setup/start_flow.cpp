@@ -150,6 +150,7 @@ StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const s
     told += ", from the nearest cells, " + words(farthest) + " m away or less";
   } else {
     check_same_mesh(reader, mesh, where);
+    if (!settings.frozen && water.go_on_from(reader)) return {.told = told, .time = time};
   }
 
   const auto velocity = reader.rows(velocity_name, ids, 3);

@@ -81,6 +81,17 @@ class StartFromAnotherRun(harness.CaseTest):
             print(f"  {ranks} ranks: pressure drop {drop[0]:.4f} Pa after a step, {last[-1]:.4f} Pa of the steady run")
             self.assertLess(abs(drop[0] - last[-1]), 0.02 * last[-1])
 
+    def test_goes_on(self):
+        """A flow that still changes goes on on the same mesh as it would have in its own run, from the first step on."""
+        early = self.run_case(self.channel("early"), 2, out="early")
+        whole = self.run_case(self.channel("whole", end=0.2), 2, out="whole").monitor("patches")
+        goes_on = self.run_case(self.channel("goes_on", more='[start]\nfrom = "early"'), 1, out="goes_on").monitor("patches")
+        self.assertEqual(early.summary["time_steps"], 5)
+        for column in ("inlet_pressure", "top_force_x"):
+            expected, found = whole.column(column)[5:], goes_on.column(column)
+            print(f"  {column}: {found} and {expected} in one run")
+            numpy.testing.assert_allclose(found, expected, rtol=1e-6)
+
     def test_resumed(self):
         """A resume of a run with such a start goes on by itself: the other run may be gone."""
         self.steady()
