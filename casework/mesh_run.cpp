@@ -11,6 +11,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/series.hpp"
+#include "observe/outcome.hpp"
 #include "parallel/session.hpp"
 #include "simulation/run.hpp"
 
@@ -81,10 +82,11 @@ Course course_of(const std::filesystem::path& folder, const std::string& name) {
 double told_of_rag(const nlohmann::json& summary, const std::string& name) {
   if (!summary.contains("rags") || summary["rags"].empty()) return nan;
   const auto& rag = summary["rags"].front();
-  const std::string outcome = rag.value("outcome", std::string());
-  if (name == "stuck" || name == "exited") return outcome.starts_with(name) ? 1 : 0;  // stuck_on_tongue, stuck_on_impeller
+  const std::optional<Outcome> outcome = outcome_named(rag.value("outcome", std::string()));
+  if (name == "stuck") return outcome && words_of(*outcome).is_stuck ? 1 : 0;
+  if (name == "exited") return outcome == Outcome::exited ? 1 : 0;
   const auto& value = rag.contains(name) ? rag[name] : rag.contains(name + "_s") ? rag[name + "_s"] : nlohmann::json();
-  if (name == "retention_time" && outcome != "exited") return nan;
+  if (name == "retention_time" && outcome != Outcome::exited) return nan;
   return value.is_number() ? value.get<double>() : nan;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-std::size_t index_of(std::string_view event) {
+std::size_t index_of(PassageEvent event) {
   return std::find(VoluteHistogram::events.begin(), VoluteHistogram::events.end(), event) - VoluteHistogram::events.begin();
 }
 
@@ -36,12 +36,12 @@ void VoluteHistogram::add(const VoluteHistogram& other) {
     for (int bin = 0; bin < n_volute_bins; ++bin) n_events_[e][bin] += other.n_events_[e][bin];
 }
 
-void VoluteHistogram::count(std::string_view event, double angle) {
+void VoluteHistogram::count(PassageEvent event, double angle) {
   const std::size_t e = index_of(event);
   if (e < events.size()) ++n_events_[e][volute_bin(angle)];
 }
 
-int VoluteHistogram::n_events(std::string_view event, int bin) const { return n_events_.at(index_of(event))[bin]; }
+int VoluteHistogram::n_events(PassageEvent event, int bin) const { return n_events_.at(index_of(event))[bin]; }
 
 double VoluteHistogram::time(int bin) const {
   double sum = 0;
@@ -80,9 +80,10 @@ double VoluteHistogram::radius_deviation(int bin) const {
 
 std::string VoluteHistogram::csv() const {
   std::string text = "angle_from [deg],angle_to [deg],time [s],share [1],radius [m],radius_sigma [m],rags [1]";
-  for (std::string event : events) {
-    std::replace(event.begin(), event.end(), ' ', '_');
-    text += "," + event + " [1]";
+  for (const PassageEvent event : events) {
+    std::string name = words_of(event).key;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    text += "," + name + " [1]";
   }
   for (int bin = 0; bin < n_volute_bins; ++bin) {
     char line[200];
@@ -99,7 +100,7 @@ std::string VoluteHistogram::words() const {
   for (std::size_t e = 0; e < events.size(); ++e) {
     int n = 0;
     for (const int in_bin : n_events_[e]) n += in_bin;
-    text += std::string(", ") + events[e] + " " + std::to_string(n);
+    text += std::string(", ") + words_of(events[e]).key + " " + std::to_string(n);
   }
   return text;
 }

@@ -9,8 +9,9 @@
 //   events   counted in the bin in which the centroid was when they were told
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "observe/outcome.hpp"
 
 namespace snag {
 
@@ -30,12 +31,13 @@ class VoluteHistogram {
  public:
   void add(const VoluteStay& rag) { rags_.push_back(rag); }
   void add(const VoluteHistogram& other);
-  /// An event as the journey of a rag names it, at an angle in rad; others than those of `events` are not counted.
-  void count(std::string_view event, double angle);
+  /// At an angle in rad; others than those of `events` are not counted.
+  void count(PassageEvent event, double angle);
 
-  static constexpr std::array<const char*, 5> events{"recirculated", "stuck on tongue", "stuck on impeller", "tongue passed", "exited"};
+  static constexpr std::array events{PassageEvent::recirculated, PassageEvent::stuck_on_tongue, PassageEvent::stuck_on_impeller,
+                                     PassageEvent::tongue_passed, PassageEvent::exited};
   int n_rags() const { return static_cast<int>(rags_.size()); }
-  int n_events(std::string_view event, int bin) const;
+  int n_events(PassageEvent event, int bin) const;
   /// s, of a bin and of all.
   double time(int bin) const;
   double time() const;

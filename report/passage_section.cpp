@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "base/case_file.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "observe/outcome.hpp"
 #include "report/html.hpp"
 #include "report/line_plot.hpp"
 
@@ -50,24 +50,13 @@ std::string ending(const RagPassage& passage, const std::string& name) {
                                   ? passage.summary["outcome"].get<std::string>()
                                   : "";
   const double retention = real(passage.summary, "retention_time_s");
-  if (outcome == "exited" && std::isfinite(retention))
-    return name + " left the pump " + brief(retention) + " s after it had wholly entered";
-  if (outcome == "exited") return name + " left the pump";
-  static const std::map<std::string, std::string> words = {
-      {"recirculating", "was still going round in the casing"},
-      {"stuck_on_tongue", "hung on the tongue"},
-      {"stuck_on_impeller", "hung on the impeller"},
-      {"in_domain", "was still in the pump"},
-  };
-  const std::string at_the_end = " when the run ended";
-  const auto found = words.find(outcome);
-  if (found != words.end()) {
-    const double inside = passage.way.values[0].back() - passage.wholly_in;
-    return name + " " + found->second + at_the_end + (std::isfinite(inside) ? ", " + brief(inside) + " s after it had wholly entered" : "");
-  }
-  if (outcome == "upstream")
-    return name + (std::isfinite(passage.entered) ? " was still entering the pump" : " had not reached the pump") + at_the_end;
-  return outcome.empty() ? name + " has no outcome yet" : name + " ended as \"" + escaped(outcome) + "\"";
+  const std::optional<Outcome> known = outcome_named(outcome);
+  if (!known) return outcome.empty() ? name + " has no outcome yet" : name + " ended as \"" + escaped(outcome) + "\"";
+  const std::string ended = name + " " + words_of(*known).at_the_end, at_the_end = " when the run ended";
+  if (known == Outcome::exited) return ended + (std::isfinite(retention) ? " " + brief(retention) + " s after it had wholly entered" : "");
+  if (known == Outcome::upstream) return (std::isfinite(passage.entered) ? ended : name + " had not reached the pump") + at_the_end;
+  const double inside = passage.way.values[0].back() - passage.wholly_in;
+  return ended + at_the_end + (std::isfinite(inside) ? ", " + brief(inside) + " s after it had wholly entered" : "");
 }
 
 std::string touch(const RagPassage& passage) {

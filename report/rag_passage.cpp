@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "observe/outcome.hpp"
+
 namespace snag {
 
 namespace {
@@ -41,8 +43,8 @@ std::vector<RagEvent> events_of(const json& rag) {
   return events;
 }
 
-double time_of(const std::vector<RagEvent>& events, const std::string& what) {
-  const auto found = std::find_if(events.begin(), events.end(), [&](const RagEvent& event) { return event.what == what; });
+double time_of(const std::vector<RagEvent>& events, PassageEvent what) {
+  const auto found = std::find_if(events.begin(), events.end(), [&](const RagEvent& event) { return event_named(event.what) == what; });
   return found == events.end() ? NAN : found->time;
 }
 
@@ -65,9 +67,9 @@ std::vector<RagPassage> rag_passages(const json& summary, const std::filesystem:
     passage.id = id;
     passage.summary = rag_of(summary, id);
     passage.events = events_of(passage.summary);
-    passage.entered = time_of(passage.events, "entered");
-    passage.wholly_in = time_of(passage.events, "wholly in the casing");
-    passage.exited = time_of(passage.events, "exited");
+    passage.entered = time_of(passage.events, PassageEvent::entered);
+    passage.wholly_in = time_of(passage.events, PassageEvent::wholly_in);
+    passage.exited = time_of(passage.events, PassageEvent::exited);
     const json zones = passage.summary.is_object() ? passage.summary.value("wall_contact_by_zone_s", json()) : json();
     const auto contact = [&](const char* zone, const char* count) {
       const bool is_told = zones.is_object() && zones.contains(zone) && zones[zone].is_number();

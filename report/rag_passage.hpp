@@ -11,8 +11,8 @@
 namespace snag {
 
 struct RagEvent {
-  double time = 0;  // s
-  std::string what;
+  double time = 0;   // s
+  std::string what;  // as the file says
 };
 
 struct RagPassage {

@@ -8,6 +8,7 @@
 
 #include "base/progress.hpp"
 #include "base/words.hpp"
+#include "observe/outcome.hpp"
 #include "report/html.hpp"
 #include "simulation/setup/checks.hpp"
 
@@ -87,13 +88,8 @@ const char* exit_words(int code) {
 }
 
 std::string rag_words(const std::string& outcome) {
-  static const std::map<std::string, std::string> words = {
-      {"exited", "has left the domain"},          {"recirculating", "is still going round"},
-      {"stuck_on_tongue", "hangs on the tongue"}, {"stuck_on_impeller", "hangs on the impeller"},
-      {"upstream", "is still upstream"},          {"in_domain", "is still in the domain"},
-  };
-  const auto found = words.find(outcome);
-  return found == words.end() ? "ended as \"" + escaped(outcome) + "\"" : found->second;
+  const std::optional<Outcome> known = outcome_named(outcome);
+  return known ? words_of(*known).now : "ended as \"" + escaped(outcome) + "\"";
 }
 
 /// Rag 0, or Rag "wipe" where it has a name of its own.

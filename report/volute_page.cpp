@@ -46,13 +46,13 @@ LinePlot radius_plot(const std::vector<NamedVolute>& volutes) {
   return plot;
 }
 
-std::string event_table(const std::vector<NamedVolute>& volutes) {
+std::string table_of_events(const std::vector<NamedVolute>& volutes) {
   std::vector<std::string> header{"Events a rag", "rags", "time [s]"};
-  header.insert(header.end(), VoluteHistogram::events.begin(), VoluteHistogram::events.end());
+  for (const PassageEvent event : VoluteHistogram::events) header.emplace_back(words_of(event).key);
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, histogram] : volutes) {
     rows.push_back({escaped(name), html::count(histogram.n_rags()), html::number(histogram.time())});
-    for (const char* event : VoluteHistogram::events) {
+    for (const PassageEvent event : VoluteHistogram::events) {
       int n = 0;
       for (int bin = 0; bin < n_volute_bins; ++bin) n += histogram.n_events(event, bin);
       rows.back().push_back(html::number(static_cast<double>(n) / histogram.n_rags()));
@@ -70,7 +70,7 @@ std::string volute_page(const std::vector<NamedVolute>& volutes) {
          "<p>By the angle of the centroid about the shaft, counter-clockwise seen from the inlet, from wholly in the casing until past the "
          "tongue.</p>\n" +
          section("Stay", "<div class=\"plots\">\n" + figure(share_plot(volutes)) + figure(radius_plot(volutes)) + "</div>\n") +
-         section("Events", event_table(volutes)) + "</body>\n</html>\n";
+         section("Events", table_of_events(volutes)) + "</body>\n</html>\n";
 }
 
 }  // namespace snag

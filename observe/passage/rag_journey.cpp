@@ -14,9 +14,6 @@ constexpr double stuck_after = 1, longest_gap = 0.05;  // s
 constexpr double armed_beyond = std::numbers::pi / 2;  // from the tongue, rad
 constexpr double passed_beyond = std::numbers::pi / 9;
 
-const char* const event_names[] = {"entered",         "wholly in the casing", "tongue passed",      "recirculated",
-                                   "stuck on tongue", "stuck on impeller",    "reached the outlet", "exited"};
-
 }  // namespace
 
 bool RagJourney::Contact::add(bool touched, double time, double step, double angle) {
@@ -54,7 +51,7 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
   for (const WallRegion region : wall_regions) {
     const bool is_new = contact_[region].add(seen.touched[region], time, step, angle_);
     if (!is_new || sense_ == 0 || was_out || region == WallRegion::other) continue;
-    note(region == WallRegion::tongue ? stuck_on_tongue : stuck_on_impeller, time);
+    note(region == WallRegion::tongue ? PassageEvent::stuck_on_tongue : PassageEvent::stuck_on_impeller, time);
   }
   if (seen.tension > max_tension_)
     max_tension_ = seen.tension, max_tension_time_ = time, max_tension_angle_ = seen.tension_angle, max_tension_place_ = seen.tension_place;
@@ -65,11 +62,11 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
 void RagJourney::enter(const RagSighting& seen, double time) {
   if (entered_ < 0 && seen.n_upstream < seen.n) {
     entered_ = time;
-    if (sense_ != 0) note(entered, time);
+    if (sense_ != 0) note(PassageEvent::entered, time);
   }
   if (wholly_in_ < 0 && seen.n_upstream == 0) {
     wholly_in_ = time;
-    if (sense_ != 0) note(wholly_in, time);
+    if (sense_ != 0) note(PassageEvent::wholly_in, time);
   }
   is_upstream_ = sense_ != 0 ? wholly_in_ < 0 : 2 * seen.n_upstream > seen.n;
 }
@@ -85,28 +82,28 @@ void RagJourney::pass_tongue(const RagSighting& seen, double before, double time
   if (std::abs(seen.angle) > armed_beyond) is_armed_ = true;
   const double past = sense_ * angle_ - two_pi * turns(angle_);
   if (2 * seen.n_in_discharge > seen.n) {
-    if (!is_past_tongue_) note(tongue_passed, time);
+    if (!is_past_tongue_) note(PassageEvent::tongue_passed, time);
     is_past_tongue_ = true, is_passing_ = false;
   } else if (is_passing_ && past > passed_beyond && seen.n_past_inside >= seen.n_past_outside) {
     ++n_recirculations_, is_past_tongue_ = is_passing_ = false;
-    note(recirculated, time);
+    note(PassageEvent::recirculated, time);
     contact_[WallRegion::impeller].recirculate(time, angle_, impeller_speed_), contact_[WallRegion::tongue].recirculate(time, angle_, 0);
   }
 }
 
 void RagJourney::leave(const RagSighting& seen, double time) {
-  if (reached_outlet_ < 0 && seen.n_out > 0) reached_outlet_ = time, note(reached_outlet, time);
-  if (exited_ < 0 && seen.n_out == seen.n) exited_ = time, note(exited, time);
+  if (reached_outlet_ < 0 && seen.n_out > 0) reached_outlet_ = time, note(PassageEvent::reached_outlet, time);
+  if (exited_ < 0 && seen.n_out == seen.n) exited_ = time, note(PassageEvent::exited, time);
 }
 
-std::string RagJourney::outcome() const {
-  if (has_exited()) return "exited";
+Outcome RagJourney::outcome() const {
+  if (has_exited()) return Outcome::exited;
   if (sense_ != 0) {
-    if (contact_[WallRegion::tongue].is_stuck_at(time_)) return "stuck_on_tongue";
-    if (contact_[WallRegion::impeller].is_stuck_at(time_)) return "stuck_on_impeller";
+    if (contact_[WallRegion::tongue].is_stuck_at(time_)) return Outcome::stuck_on_tongue;
+    if (contact_[WallRegion::impeller].is_stuck_at(time_)) return Outcome::stuck_on_impeller;
   }
-  if (is_upstream_) return "upstream";
-  return n_recirculations_ > 0 ? "recirculating" : "in_domain";
+  if (is_upstream_) return Outcome::upstream;
+  return n_recirculations_ > 0 ? Outcome::recirculating : Outcome::in_domain;
 }
 
 RagVerdict RagJourney::verdict() const {
@@ -117,7 +114,7 @@ RagVerdict RagJourney::verdict() const {
   v.max_tension = max_tension_, v.max_tension_place = max_tension_place_;
   if (max_tension_time_ >= 0) v.max_tension_time = max_tension_time_;
   for (const Entry& entry : log_) {
-    v.events.push_back({entry.time, {}, event_names[entry.what]});
+    v.events.push_back({entry.time, {}, entry.what});
     if (sense_ != 0) v.events.back().angle = degrees * entry.angle;
   }
   v.exited = exited_at();
@@ -159,7 +156,7 @@ void RagJourney::restore(const std::vector<double>& state) {
   auto next = state.begin();
   for_numbers(*this, [&](auto& number) { number = static_cast<std::remove_reference_t<decltype(number)>>(*next++); });
   log_.clear();
-  for (; next != state.end(); next += 3) log_.push_back({next[0], next[1], static_cast<int>(next[2])});
+  for (; next != state.end(); next += 3) log_.push_back({next[0], next[1], static_cast<PassageEvent>(next[2])});
 }
 
 }  // namespace snag

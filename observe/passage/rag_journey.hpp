@@ -20,10 +20,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "observe/outcome.hpp"
 #include "observe/volute_histogram.hpp"
 
 namespace snag {
@@ -58,8 +58,8 @@ struct RagSighting {
 
 /// What is told of a rag at the end. Absent: it did not happen, or there is no pump.
 struct RagVerdict {
-  std::string outcome;                    // exited | recirculating | stuck_on_tongue | stuck_on_impeller | upstream | in_domain
-  std::optional<double> entered, exited;  // s
+  Outcome outcome = Outcome::in_domain;
+  std::optional<double> entered, exited;                // s
   std::optional<double> retention_time, time_to_enter;  // s: wholly in the casing to exited; entered to wholly in
   std::optional<std::int64_t> recirculations;
   std::optional<double> stuck_on_tongue, stuck_on_impeller;          // s, of all episodes of more than 1 s
@@ -72,7 +72,7 @@ struct RagVerdict {
   struct Event {
     double time = 0;              // s
     std::optional<double> angle;  // of the centroid, unwrapped, deg
-    std::string what;
+    PassageEvent what = PassageEvent::entered;
   };
   std::vector<Event> events;
 };
@@ -95,10 +95,9 @@ class RagJourney {
   void restore(const std::vector<double>& state);
 
  private:
-  enum Event { entered, wholly_in, tongue_passed, recirculated, stuck_on_tongue, stuck_on_impeller, reached_outlet, exited };
   struct Entry {
     double time = 0, angle = 0;
-    int what = 0;
+    PassageEvent what = PassageEvent::entered;
   };
   /// Contact with walls of one place, in episodes.
   struct Contact {
@@ -115,11 +114,11 @@ class RagJourney {
   };
 
   bool has_exited() const { return exited_ >= 0; }
-  void note(Event what, double time) { log_.push_back({time, angle_, what}); }
+  void note(PassageEvent what, double time) { log_.push_back({time, angle_, what}); }
   void enter(const RagSighting& seen, double time);
   void pass_tongue(const RagSighting& seen, double before, double time);
   void leave(const RagSighting& seen, double time);
-  std::string outcome() const;
+  Outcome outcome() const;
   template <class Self, class Visit>
   static void for_numbers(Self& self, const Visit& visit);
 

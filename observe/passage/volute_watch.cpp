@@ -85,7 +85,8 @@ VoluteHistogram volute_of_run(const std::filesystem::path& run) {
           stay.add(bin.at("angle_deg").get<double>() / degrees, bin.at("mean_radius_m"), time);
       histogram.add(stay);
       for (const json& event : rag.at("events"))
-        histogram.count(event.at("what").get<std::string>(), event.at("angle_deg").get<double>() / degrees);
+        if (const auto what = event_named(event.at("what").get<std::string>()))
+          histogram.count(*what, event.at("angle_deg").get<double>() / degrees);
     }
   } catch (const json::exception& failure) {
     throw Error(ExitCode::io,

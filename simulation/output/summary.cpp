@@ -35,7 +35,8 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
 
 nlohmann::ordered_json events_json(const RagVerdict& rag) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
-  for (const auto& event : rag.events) events.push_back({{"t_s", event.time}, {"angle_deg", or_null(event.angle)}, {"what", event.what}});
+  for (const auto& event : rag.events)
+    events.push_back({{"t_s", event.time}, {"angle_deg", or_null(event.angle)}, {"what", words_of(event.what).key}});
   return events;
 }
 
@@ -76,7 +77,7 @@ nlohmann::ordered_json rag_json(const RagSummary& rag) {
           {"particles", rag.particles},
           {"bonds", rag.bonds},
           {"broken_bonds", rag.broken_bonds},
-          {"outcome", verdict.outcome},
+          {"outcome", words_of(verdict.outcome).key},
           {"retention_time_s", or_null(verdict.retention_time)},
           {"time_to_enter_s", or_null(verdict.time_to_enter)},
           {"recirculations", or_null(verdict.recirculations)},
@@ -200,7 +201,7 @@ std::string results_in_words(const Summary& summary) {
   std::string text;
   for (const RagSummary& rag : summary.rags) {
     const RagVerdict& verdict = rag.verdict;
-    text += (text.empty() ? "" : "\n") + rag.name + ": " + verdict.outcome;
+    text += (text.empty() ? "" : "\n") + rag.name + ": " + words_of(verdict.outcome).key;
     if (verdict.recirculations)
       text += ", retention time " + seconds(verdict.retention_time) + ", time to enter " + seconds(verdict.time_to_enter) +
               ", recirculations " + std::to_string(*verdict.recirculations);

@@ -67,12 +67,13 @@ TEST(VoluteHistogram, RagsAreWeightedByTheirTime) {
 
 TEST(VoluteHistogram, EventsAreCountedWhereTheyWereTold) {
   VoluteHistogram histogram, other;
-  histogram.count("recirculated", (360 + 21) * degree), histogram.count("stuck on tongue", 359 * degree);
-  other.count("recirculated", 30 * degree), other.count("exited", -100 * degree), other.count("entered", 0);
+  histogram.count(PassageEvent::recirculated, (360 + 21) * degree), histogram.count(PassageEvent::stuck_on_tongue, 359 * degree);
+  other.count(PassageEvent::recirculated, 30 * degree), other.count(PassageEvent::exited, -100 * degree),
+      other.count(PassageEvent::entered, 0);
   histogram.add(other);
-  EXPECT_EQ(histogram.n_events("recirculated", 1), 2);
-  EXPECT_EQ(histogram.n_events("stuck on tongue", 17), 1);
-  EXPECT_EQ(histogram.n_events("exited", 13), 1);
+  EXPECT_EQ(histogram.n_events(PassageEvent::recirculated, 1), 2);
+  EXPECT_EQ(histogram.n_events(PassageEvent::stuck_on_tongue, 17), 1);
+  EXPECT_EQ(histogram.n_events(PassageEvent::exited, 13), 1);
   EXPECT_NE(histogram.words().find("0 rags, 0 s, recirculated 2, stuck on tongue 1"), std::string::npos) << histogram.words();
   const std::string csv = histogram.csv();
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + n_volute_bins);

@@ -65,9 +65,9 @@ TEST(VoluteWatch, BothSidesSeeTheSameAngle) {
     EXPECT_NEAR(inlet.time(bin), bin == 2 || bin == 3 ? 0.08 : 0.04, 1e-12) << bin;  // 45 to 75 degrees were passed twice
     EXPECT_NEAR(inlet.radius(bin), 0.08, 1e-5) << bin;
   }
-  EXPECT_EQ(inlet.n_events("recirculated", 1), 1);
-  EXPECT_EQ(motor.n_events("recirculated", 1), 1);
-  EXPECT_EQ(arc(camera("inlet", "clockwise"), 45, 435).n_events("recirculated", 1), 0) << "against the impeller";
+  EXPECT_EQ(inlet.n_events(PassageEvent::recirculated, 1), 1);
+  EXPECT_EQ(motor.n_events(PassageEvent::recirculated, 1), 1);
+  EXPECT_EQ(arc(camera("inlet", "clockwise"), 45, 435).n_events(PassageEvent::recirculated, 1), 0) << "against the impeller";
 }
 
 TEST(VoluteWatch, StuckOnTheTongueAndOut) {
@@ -78,13 +78,13 @@ TEST(VoluteWatch, StuckOnTheTongueAndOut) {
   for (int k = 0; k < 60; ++k) watch.add(square(0.09, -0.012), time += 0.02, 0.02);
   for (int k = 0; k < 3; ++k) watch.add({}, time += 0.02, 0.02);
   const VoluteHistogram hidden = watch.histogram();
-  EXPECT_EQ(hidden.n_events("stuck on tongue", 17), 1);
+  EXPECT_EQ(hidden.n_events(PassageEvent::stuck_on_tongue, 17), 1);
   EXPECT_NEAR(hidden.share(17), 1, 1e-12);
-  for (int bin = 0; bin < n_volute_bins; ++bin) EXPECT_EQ(hidden.n_events("exited", bin), 0);
+  for (int bin = 0; bin < n_volute_bins; ++bin) EXPECT_EQ(hidden.n_events(PassageEvent::exited, bin), 0);
   watch.add(square(0.14, 0.10), time += 0.02, 0.02);
   for (int k = 0; k < 3; ++k) watch.add({}, time += 0.02, 0.02);
-  EXPECT_EQ(watch.histogram().n_events("tongue passed", 1), 1);
-  EXPECT_EQ(watch.histogram().n_events("exited", 1), 1);
+  EXPECT_EQ(watch.histogram().n_events(PassageEvent::tongue_passed, 1), 1);
+  EXPECT_EQ(watch.histogram().n_events(PassageEvent::exited, 1), 1);
   EXPECT_NEAR(watch.histogram().time(), 1.2, 1e-9) << "the discharge is not the volute";
 }
 

@@ -85,10 +85,10 @@ class Led {
   RagVerdict verdict() const { return passage.verdict(0); }
   std::string story() const {
     std::string all;
-    for (const auto& event : verdict().events) all += (all.empty() ? "" : ", ") + event.what;
+    for (const auto& event : verdict().events) all += (all.empty() ? "" : ", ") + std::string(words_of(event.what).key);
     return all;
   }
-  RagVerdict::Event event(const std::string& what) const {
+  RagVerdict::Event event(PassageEvent what) const {
     for (const auto& one : verdict().events)
       if (one.what == what) return one;
     return {};
@@ -119,22 +119,22 @@ TEST(Passage, StraightThrough) {
   lead_out(rag);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, tongue passed, reached the outlet, exited");
   const RagVerdict v = rag.verdict();
-  EXPECT_EQ(v.outcome, "exited");
+  EXPECT_EQ(v.outcome, Outcome::exited);
   EXPECT_TRUE(rag.passage.all_exited_at());
   const double entered = step + (0.2 - 0.09 - half_length) / 0.5, inside = entered + 2 * half_length / 0.5, out = at_tongue + 0.301 / 2;
-  EXPECT_NEAR(rag.event("entered").time, entered, step);
-  EXPECT_NEAR(rag.event("entered").angle.value(), 180, 1e-9);
+  EXPECT_NEAR(rag.event(PassageEvent::entered).time, entered, step);
+  EXPECT_NEAR(rag.event(PassageEvent::entered).angle.value(), 180, 1e-9);
   EXPECT_NEAR(v.time_to_enter.value(), inside - entered, step);
   EXPECT_NEAR(v.retention_time.value(), out - inside, 2 * step);
   EXPECT_EQ(v.recirculations.value(), 0);
-  EXPECT_NEAR(rag.event("tongue passed").angle.value(), 360, 2);
+  EXPECT_NEAR(rag.event(PassageEvent::tongue_passed).angle.value(), 360, 2);
   EXPECT_EQ(v.stuck_on_tongue.value(), 0);
   EXPECT_EQ(v.wall_contact, 0);
 
   ASSERT_TRUE(v.volute);
   double total = 0;
   for (const double time : v.volute->time) total += time;
-  EXPECT_NEAR(total, rag.event("tongue passed").time - rag.event("wholly in the casing").time, 1.5 * step);
+  EXPECT_NEAR(total, rag.event(PassageEvent::tongue_passed).time - rag.event(PassageEvent::wholly_in).time, 1.5 * step);
   EXPECT_NEAR(v.volute->time[13], 0.02, 1e-12);  // of 260 to 280 degrees
   EXPECT_NEAR(v.volute->radius_time[13] / v.volute->time[13], in_volute, 1e-12);
   EXPECT_EQ(v.volute->time[4], 0);
@@ -145,9 +145,9 @@ TEST(Passage, TwiceRoundTheVolute) {
   lead_in(rag);
   rag.line(at(180, in_gap), 0.1);
   rag.arc(180, 350, in_gap, 0.1);
-  EXPECT_EQ(rag.verdict().outcome, "in_domain") << "on its way";
+  EXPECT_EQ(rag.verdict().outcome, Outcome::in_domain) << "on its way";
   rag.arc(350, 900, in_gap, 0.4);
-  EXPECT_EQ(rag.verdict().outcome, "recirculating");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::recirculating);
   EXPECT_EQ(rag.verdict().recirculations.value(), 2);
   rag.line(at(900, in_volute), 0.1);
   rag.arc(900, 1080, in_volute, 0.2);
@@ -165,7 +165,7 @@ TEST(Passage, TurningInTheEyeIsNoRecirculation) {
   lead_in(rag);
   rag.arc(180, 180 + 5 * 360, in_eye, 0.5);
   EXPECT_EQ(rag.verdict().recirculations.value(), 0);
-  EXPECT_EQ(rag.verdict().outcome, "in_domain");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::in_domain);
 }
 
 TEST(Passage, SwingingAtTheTongueIsOneRecirculation) {
@@ -196,11 +196,11 @@ TEST(Passage, ImpellerThatTurnsTheOtherWay) {
   rag.look(at(150, in_gap));
   rag.arc(150, -200, in_gap, 0.4);
   EXPECT_EQ(rag.verdict().recirculations.value(), 1);
-  EXPECT_NEAR(rag.event("recirculated").angle.value(), -20, 2);
+  EXPECT_NEAR(rag.event(PassageEvent::recirculated).angle.value(), -20, 2);
   rag.line(at(-200, in_volute), 0.1);
   rag.arc(-200, -360, in_volute, 0.2);
   rag.line({in_volute, -0.5, 0.02}, 0.2);
-  EXPECT_EQ(rag.verdict().outcome, "exited");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::exited);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, recirculated, tongue passed, reached the outlet, exited");
 }
 
@@ -213,11 +213,11 @@ TEST(Passage, StuckOnTheTongue) {
   rag.stay(0.599);
   rag.look(above), rag.line(above, 0.029);  // short enough
   rag.look(on_it), rag.line(on_it, 0.869);
-  EXPECT_EQ(rag.verdict().outcome, "stuck_on_tongue");
-  EXPECT_NEAR(rag.event("stuck on tongue").time, begin + 1, 1.5 * step);
+  EXPECT_EQ(rag.verdict().outcome, Outcome::stuck_on_tongue);
+  EXPECT_NEAR(rag.event(PassageEvent::stuck_on_tongue).time, begin + 1, 1.5 * step);
   EXPECT_GT(rag.passage.sightings()[0].touching[WallRegion::tongue], 0);
   rag.look(above), rag.line(above, 0.099);
-  EXPECT_EQ(rag.verdict().outcome, "in_domain");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::in_domain);
   rag.look(on_it), rag.line(on_it, 0.499);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, tongue passed, stuck on tongue");
   const RagVerdict v = rag.verdict();
@@ -234,7 +234,7 @@ TEST(Passage, StuckOnTheImpeller) {
   const Vec3 on_it = at(90, in_eye, -0.05 + half_length + 0.9e-3);
   rag.look(on_it);
   rag.stay(1.2);
-  EXPECT_EQ(rag.verdict().outcome, "stuck_on_impeller");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::stuck_on_impeller);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, stuck on impeller");
   EXPECT_NEAR(rag.verdict().impeller_contact, 1.201, 1e-9);
   EXPECT_EQ(rag.verdict().tongue_contact.value(), 0);
@@ -252,10 +252,10 @@ RagVerdict led_round(double turns, double seconds) {
 
 TEST(Passage, GoingRoundIsNotStuck) {
   const RagVerdict slow = led_round(7, 1.4), with_the_impeller = led_round(1.4 * 125 / (2 * std::numbers::pi), 1.4);
-  EXPECT_EQ(slow.outcome, "recirculating");
+  EXPECT_EQ(slow.outcome, Outcome::recirculating);
   EXPECT_EQ(slow.recirculations.value(), 7);
   EXPECT_EQ(slow.stuck_on_impeller.value(), 0);
-  EXPECT_EQ(with_the_impeller.outcome, "stuck_on_impeller");
+  EXPECT_EQ(with_the_impeller.outcome, Outcome::stuck_on_impeller);
   EXPECT_NEAR(with_the_impeller.stuck_on_impeller.value(), 1.4, 2 * step);
 }
 
@@ -264,11 +264,11 @@ TEST(Passage, NeverEntered) {
   rag.look(at(180, 0.03, 0.2));
   rag.line(at(180, 0.03, 0.14), 0.5);
   EXPECT_EQ(rag.story(), "");
-  EXPECT_EQ(rag.verdict().outcome, "upstream");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::upstream);
   rag.line(at(180, 0.03, 0.1), 0.1);
   EXPECT_EQ(rag.story(), "entered");
   const RagVerdict v = rag.verdict();
-  EXPECT_EQ(v.outcome, "upstream");
+  EXPECT_EQ(v.outcome, Outcome::upstream);
   EXPECT_FALSE(v.retention_time);
   EXPECT_FALSE(v.time_to_enter);
   EXPECT_FALSE(rag.passage.all_exited_at());
@@ -306,7 +306,7 @@ TEST(Passage, RestoredInMidWayItGoesOnTheSame) {
     rag->arc(600, 720, in_volute, 0.1);
     lead_out(*rag);
   }
-  EXPECT_EQ(whole.verdict().outcome, "exited");
+  EXPECT_EQ(whole.verdict().outcome, Outcome::exited);
   EXPECT_EQ(whole.story(), resumed.story());
   EXPECT_EQ(whole.passage.state(), resumed.passage.state());
 }
@@ -315,17 +315,17 @@ TEST(Passage, WithoutAPumpByItsOpenings) {
   const std::vector<Opening> openings{{"tank", {0, 0, 0.09}, {0, 0, 1}, 0.05, false}, {"drain", {0.15, 0.3, 0.02}, {0, 1, 0}, 0.04, true}};
   Led rag({}, openings);
   rag.look(at(180, 0.03, 0.2));
-  EXPECT_EQ(rag.verdict().outcome, "upstream");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::upstream);
   EXPECT_EQ(rag.passage.n_out()[0], 0) << "beyond an inlet nothing has left";
   rag.line(at(180, 0.03), 0.1);
-  EXPECT_EQ(rag.verdict().outcome, "in_domain");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::in_domain);
   rag.line({0.13, 0, 0.02}, 0.1);
   lead_out(rag);
-  EXPECT_EQ(rag.verdict().outcome, "exited");
+  EXPECT_EQ(rag.verdict().outcome, Outcome::exited);
   EXPECT_EQ(rag.story(), "reached the outlet, exited");
   EXPECT_EQ(rag.passage.n_out()[0], 80);
   EXPECT_FALSE(rag.verdict().recirculations);
-  EXPECT_FALSE(rag.event("exited").angle);
+  EXPECT_FALSE(rag.event(PassageEvent::exited).angle);
 }
 
 TEST(Passage, AnglesAreSeenFromTheInlet) {
