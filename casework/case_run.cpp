@@ -3,7 +3,6 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -15,6 +14,7 @@
 #include "casework/outline_moments.hpp"
 #include "dem/bonds/bond_law.hpp"
 #include "dem/particles/tile_particles.hpp"
+#include "observe/observables.hpp"
 #include "simulation/setup/observe_settings.hpp"
 #include "simulation/setup/simulation.hpp"
 
@@ -22,25 +22,13 @@ namespace snag {
 
 namespace {
 
-enum What { x, y, z, vx, vy, vz, area, elongation_ratio, orientation, retention_time, recirculations, stuck, exited, n_observables };
-constexpr std::array<const char*, n_observables> names{
-    "x", "y", "z", "vx", "vy", "vz", "area", "elongation_ratio", "orientation", "retention_time", "recirculations", "stuck", "exited"};
-
-What what_of(const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end())
-    throw Error(ExitCode::usage, "observable \"" + name +
-                                     "\": a case without a mesh has no such number; there are: " + joined({names.begin(), names.end()}));
-  return static_cast<What>(found - names.begin());
+const ObservableRecord& record_of(const std::string& name) {
+  const ObservableRecord* record = find_observable(name);
+  if (!record)
+    throw Error(ExitCode::usage,
+                "observable \"" + name + "\": a case without a mesh has no such number; there are: " + joined(observable_ids()));
+  return *record;
 }
-
-bool of_picture(What w) { return w == area || w == elongation_ratio || w == orientation; }
-bool of_whole_run(What w) { return w >= retention_time; }
-
-/// Centre of mass and its velocity.
-struct Motion {
-  Vec3 position, velocity;
-};
 
 Motion motion_of(const RagSystem& rags) {
   Motion sum;
@@ -55,10 +43,13 @@ Motion motion_of(const RagSystem& rags) {
   return {sum.position / mass, sum.velocity / mass};
 }
 
-/// Cubic in time through places and velocities at both ends of a step.
-Vec3 place_between(const Motion& a, const Motion& b, double dt, double s) {
+double between(double a, double b, double s) { return a + s * (b - a); }
+
+/// The position is cubic in time through positions and velocities at both ends of a step, the velocity linear.
+Motion motion_between(const Motion& a, const Motion& b, double dt, double s) {
   const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s), h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
-  return h00 * a.position + (dt * h10) * a.velocity + h01 * b.position + (dt * h11) * b.velocity;
+  return {h00 * a.position + (dt * h10) * a.velocity + h01 * b.position + (dt * h11) * b.velocity,
+          a.velocity + s * (b.velocity - a.velocity)};
 }
 
 double turned_by(double from, double to, double period) { return std::remainder(to - from, period); }
@@ -85,17 +76,14 @@ class Journey {
     last_ = motion.position;
   }
 
-  double told(What w, double size) const {
-    switch (w) {
-      case retention_time:
-        return left_.value_or(std::numeric_limits<double>::quiet_NaN());
-      case recirculations:
-        return std::floor(std::abs(turn_) / (2 * std::numbers::pi));
-      case stuck:
-        return !left_ && norm(last_ - late_) < size ? 1 : 0;
-      default:
-        return left_ ? 1 : 0;
-    }
+  PassageResult verdict(double size) const {
+    PassageResult result;
+    result.retention_time = left_, result.recirculations = std::floor(std::abs(turn_) / (2 * std::numbers::pi));
+    if (left_)
+      result.outcome = Outcome::exited;
+    else if (norm(last_ - late_) < size)
+      result.outcome = Outcome::stuck_on_tongue;
+    return result;
   }
 
  private:
@@ -114,48 +102,34 @@ struct Instant {
   std::optional<Silhouette> picture;  // where one is needed
 };
 
-double between(double a, double b, double s) { return a + s * (b - a); }
-
 /// `s`: share of the step from a to b that has passed.
-double seen_between(What w, const Instant& a, const Instant& b, double s) {
-  switch (w) {
-    case x:
-    case y:
-    case z:
-      return place_between(a.motion, b.motion, b.time - a.time, s)[w];
-    case vx:
-    case vy:
-    case vz:
-      return between(a.motion.velocity[w - vx], b.motion.velocity[w - vx], s);
-    case area:
-      return between(a.picture->area, b.picture->area, s);
-    case elongation_ratio:
-      return between(a.picture->elongation_ratio, b.picture->elongation_ratio, s);
-    default: {
-      const double turn = turned_by(a.picture->orientation, b.picture->orientation, std::numbers::pi);
-      return turned_by(0, a.picture->orientation + s * turn, std::numbers::pi);  // an axis has no head: within +- pi/2
-    }
-  }
+double seen_between(const ObservableRecord& w, const Instant& a, const Instant& b, double s) {
+  if (const auto* read = std::get_if<double (*)(const Motion&)>(&w.read))
+    return (*read)(motion_between(a.motion, b.motion, b.time - a.time, s));
+  const auto read = std::get<double (*)(const Silhouette&)>(w.read);
+  const double before = read(*a.picture), after = read(*b.picture);
+  if (w.period() == 0) return between(before, after, s);
+  return turned_by(0, before + s * turned_by(before, after, w.period()), w.period());
 }
 
 /// What is asked, in the order of time; numbers of the whole run last.
 struct Question {
   double time;
-  What what;
+  const ObservableRecord* what;
   std::size_t place;
 };
 
 std::vector<Question> slots_of(const std::vector<Asked>& asked, bool has_window) {
   std::vector<Question> slots;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    const What w = what_of(asked[i].observable);
+    const ObservableRecord& w = record_of(asked[i].observable);
     const bool timed = !std::isnan(asked[i].time);
-    if (timed ? of_whole_run(w) : !of_whole_run(w) && !has_window)
+    if (timed ? w.is_of_whole_run() : !w.is_of_whole_run() && !has_window)
       throw Error(ExitCode::usage,
                   "observable \"" + asked[i].observable + "\" is asked " +
                       (timed ? "at a time, but is a number of the whole run; leave t_s empty"
                              : "without a time, but changes in time; give t_s, or a window of the camera in [observe] of the case"));
-    slots.push_back({timed ? asked[i].time : infinity, w, i});
+    slots.push_back({timed ? asked[i].time : infinity, &w, i});
   }
   std::stable_sort(slots.begin(), slots.end(), [](const Question& a, const Question& b) { return a.time < b.time; });
   return slots;
@@ -164,20 +138,27 @@ std::vector<Question> slots_of(const std::vector<Asked>& asked, bool has_window)
 /// Means over the instants at which the centre is in the window.
 class WindowMean {
  public:
-  void add(What w, const Instant& now) {
+  void add(const ObservableRecord& w, const Instant& now) {
     const double value = seen_between(w, now, now, 1);
-    // An axis has no head: angles are averaged on twice the circle.
-    cosine_[w] += w == orientation ? std::cos(2 * value) : value, sine_[w] += std::sin(2 * value);
-    ++n_[w];
+    Sums& sums = sums_[&w];
+    // An axis has no head: angles are averaged on the circle of their period.
+    const double turn = w.period() == 0 ? 0 : 2 * std::numbers::pi / w.period();
+    sums.cosine += turn == 0 ? value : std::cos(turn * value), sums.sine += std::sin(turn * value);
+    ++sums.n;
   }
-  double mean(What w) const {
-    if (n_[w] == 0) return std::numeric_limits<double>::quiet_NaN();
-    return w == orientation ? 0.5 * std::atan2(sine_[w], cosine_[w]) : cosine_[w] / n_[w];
+  double mean(const ObservableRecord& w) const {
+    const auto found = sums_.find(&w);
+    if (found == sums_.end()) return std::numeric_limits<double>::quiet_NaN();
+    const Sums& sums = found->second;
+    return w.period() == 0 ? sums.cosine / sums.n : w.period() / (2 * std::numbers::pi) * std::atan2(sums.sine, sums.cosine);
   }
 
  private:
-  std::array<double, n_observables> cosine_{}, sine_{};  // of other numbers: the first is their sum
-  std::array<int, n_observables> n_{};
+  struct Sums {
+    double cosine = 0, sine = 0;  // of numbers that are no angles: the first is their sum
+    int n = 0;
+  };
+  std::map<const ObservableRecord*, Sums> sums_;
 };
 
 /// Answers as the run goes by.
@@ -187,11 +168,11 @@ class Observer {
       : rags_(rags), settings_(settings), view_(settings.view()), journey_(settings, view_, end), slots_(std::move(slots)), dt_(dt) {
     values_.resize(slots_.size(), std::numeric_limits<double>::quiet_NaN());
     for (const Question& slot : slots_) {
-      if (of_picture(slot.what)) picture_times_.push_back(slot.time);
-      if (of_whole_run(slot.what))
+      if (slot.what->is_of_picture()) picture_times_.push_back(slot.time);
+      if (slot.what->is_of_whole_run())
         whole_run_ = true;
       else if (std::isinf(slot.time))
-        in_window_.push_back(slot.what), window_pictures_ = window_pictures_ || of_picture(slot.what);
+        in_window_.push_back(slot.what), window_pictures_ = window_pictures_ || slot.what->is_of_picture();
     }
   }
 
@@ -200,21 +181,24 @@ class Observer {
     const bool seen = !in_window_.empty() && settings_.in_window(now.motion.position);
     if (needs_picture(time) || (seen && window_pictures_)) now.picture = outline_of(rags_, view_);
     if (seen)
-      for (const What w : in_window_) window_.add(w, now);
+      for (const ObservableRecord* w : in_window_) window_.add(*w, now);
     const double tolerance = 1e-9 * dt_;
     for (; next_ < slots_.size() && slots_[next_].time <= time + tolerance; ++next_) {
       const Question& slot = slots_[next_];
       const bool here = std::abs(slot.time - time) <= tolerance;
       const double share = here ? 1 : (slot.time - before_.time) / (time - before_.time);
-      values_[slot.place] = seen_between(slot.what, here ? now : before_, now, share);
+      values_[slot.place] = seen_between(*slot.what, here ? now : before_, now, share);
     }
     if (whole_run_) journey_.look(time, now.motion);
     before_ = now;
   }
   std::vector<double> values() {
-    const double size = 2 * rags_.rags().front().radius;
-    for (const Question& slot : slots_)
-      if (std::isinf(slot.time)) values_[slot.place] = of_whole_run(slot.what) ? journey_.told(slot.what, size) : window_.mean(slot.what);
+    const PassageResult passage = journey_.verdict(2 * rags_.rags().front().radius);
+    for (const Question& slot : slots_) {
+      if (!std::isinf(slot.time)) continue;
+      const auto* read = std::get_if<double (*)(const PassageResult&)>(&slot.what->read);
+      values_[slot.place] = read ? (*read)(passage) : window_.mean(*slot.what);
+    }
     return values_;
   }
 
@@ -231,7 +215,7 @@ class Observer {
   Journey journey_;
   WindowMean window_;
   std::vector<Question> slots_;
-  std::vector<What> in_window_;  // asked as means over the window
+  std::vector<const ObservableRecord*> in_window_;  // asked as means over the window
   std::vector<double> values_, picture_times_;
   std::size_t next_ = 0;
   double dt_;
@@ -286,8 +270,6 @@ void move(RagSystem& rags, const Restart& restart, double time) {
 }
 
 }  // namespace
-
-bool is_observable_of_particles(const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
 std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside,
                             WaterStore* store, const std::optional<Restart>& restart) {

@@ -12,16 +12,12 @@
 
 namespace snag {
 
-/// One number asked of a run: x,y,z (centre of mass, m), vx,vy,vz (m/s), area (m2), elongation_ratio, orientation (rad) at a time; or, time
-/// NaN, their mean over the time in the window of the camera; or, time NaN, retention_time (s), recirculations, stuck, exited of the whole
-/// run.
+/// One number asked of a run: an observable (observe/observables.hpp) at a time; or, time NaN, its mean over the time in the window of the
+/// camera; or, time NaN, one of the whole run.
 struct Asked {
   std::string observable;
   double time = std::numeric_limits<double>::quiet_NaN();  // s
 };
-
-/// True for the names above.
-bool is_observable_of_particles(const std::string& name);
 
 /// Of a particle in its piece.
 struct PlaceInPiece {

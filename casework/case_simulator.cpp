@@ -19,6 +19,7 @@
 #include "casework/input_nuisances.hpp"
 #include "casework/mesh_run.hpp"
 #include "casework/run_table.hpp"
+#include "observe/observables.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -51,14 +52,12 @@ BaseCase any_of(BaseCase a, const BaseCase& b) {
   return a;
 }
 
-bool is_position(const std::string& id) { return id == "x" || id == "y" || id == "z"; }
-bool is_length(const std::string& id) { return is_position(id) || id == "vx" || id == "vy" || id == "vz"; }
-
 /// The largest range of a coordinate in the data: so large a camera's picture is at least.
 double picture_size_of(const Experiment& experiment) {
   double size = 0;
   for (std::size_t o = 0; o < experiment.observables.size(); ++o) {
-    if (!is_position(experiment.observables[o].id)) continue;
+    const ObservableRecord* record = find_observable(experiment.observables[o].id);
+    if (!record || !record->is_position()) continue;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Datum& datum : experiment.data)
       if (datum.observable == static_cast<int>(o)) low = std::min(low, datum.value), high = std::max(high, datum.value);
@@ -127,10 +126,9 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     std::string fingerprint = base.sha256();
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
-      if (!base.is_whole_run() && !is_observable_of_particles(id))
+      if (!base.is_whole_run() && !find_observable(id))
         throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": observable \"" + id +
-                                         "\" is no number of a case without a mesh; there are x, y, z, vx, vy, vz, area, elongation_ratio, "
-                                         "orientation, retention_time, recirculations, stuck, exited");
+                                         "\" is no number of a case without a mesh; there are " + joined(observable_ids()));
       asked.push_back({id, slot.time});
       fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }
@@ -212,9 +210,10 @@ RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const Observable& observable = observables_[static_cast<std::size_t>(slots[i].observable)];
     double& value = raw.values[i];
-    if (is_length(observable.id)) value *= change.picture_scale;
-    if (is_position(observable.id)) value += (1 - change.picture_scale) * picture_size_ * change.picture_centre[observable.id[0] - 'x'];
-    if (observable.id == "area") value *= change.picture_scale * change.picture_scale;
+    if (const ObservableRecord* record = find_observable(observable.id)) {
+      for (int power = 0; power < record->scale_power(); ++power) value *= change.picture_scale;
+      if (record->is_position()) value += (1 - change.picture_scale) * picture_size_ * change.picture_centre[record->axis];
+    }
     const auto deviation = request.nuisances.find(calibration_of(observable));
     if (deviation == request.nuisances.end() || observable.bias_u <= 0) continue;
     const double shift = deviation->second * observable.bias_u;

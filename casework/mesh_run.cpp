@@ -11,8 +11,10 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/series.hpp"
-#include "observe/outcome.hpp"
+#include "base/words.hpp"
+#include "observe/observables.hpp"
 #include "parallel/session.hpp"
+#include "simulation/output/summary.hpp"
 #include "simulation/run.hpp"
 
 namespace snag {
@@ -74,20 +76,8 @@ Course course_of(const std::filesystem::path& folder, const std::string& name) {
     }
     return course;
   }
-  throw Error(ExitCode::usage, folder.string() + ": no monitor of the run has a column \"" + name +
-                                   "\"; an observable is one of x, y, z, vx, vy, vz, area, elongation_ratio, orientation, retention_time, "
-                                   "recirculations, stuck, exited, or a column of a monitor");
-}
-
-double told_of_rag(const nlohmann::json& summary, const std::string& name) {
-  if (!summary.contains("rags") || summary["rags"].empty()) return nan;
-  const auto& rag = summary["rags"].front();
-  const std::optional<Outcome> outcome = outcome_named(rag.value("outcome", std::string()));
-  if (name == "stuck") return outcome && words_of(*outcome).is_stuck ? 1 : 0;
-  if (name == "exited") return outcome == Outcome::exited ? 1 : 0;
-  const auto& value = rag.contains(name) ? rag[name] : rag.contains(name + "_s") ? rag[name + "_s"] : nlohmann::json();
-  if (name == "retention_time" && outcome != Outcome::exited) return nan;
-  return value.is_number() ? value.get<double>() : nan;
+  throw Error(ExitCode::usage, folder.string() + ": no monitor of the run has a column \"" + name + "\"; an observable is one of " +
+                                   joined(observable_ids()) + ", or a column of a monitor");
 }
 
 }  // namespace
@@ -113,13 +103,14 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
 }
 
 std::vector<double> answers_of(const std::filesystem::path& folder, const std::vector<Asked>& asked) {
-  const auto summary = summary_of(folder);
+  const auto passage = first_passage(folder / "summary.json");
   std::map<std::string, Course> courses;
   std::vector<double> values;
   for (const Asked& one : asked) {
     const std::string& name = one.observable;
-    if (name == "retention_time" || name == "recirculations" || name == "stuck" || name == "exited" || name == "time_to_enter") {
-      values.push_back(told_of_rag(summary, name));
+    const ObservableRecord* record = find_observable(name);
+    if (record && record->is_of_whole_run()) {
+      values.push_back(passage ? std::get<double (*)(const PassageResult&)>(record->read)(*passage) : nan);
       continue;
     }
     if (!courses.contains(name)) courses[name] = course_of(folder, name);

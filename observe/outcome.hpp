@@ -8,7 +8,7 @@
 
 namespace snag {
 
-/// At the end of a run; observe/passage/rag_journey.hpp defines them.
+/// At the end of a run; observe/passage/passage_tracker.hpp defines them.
 enum class Outcome { exited, recirculating, stuck_on_tongue, stuck_on_impeller, upstream, in_domain };
 
 /// In the order in which a rag that passes meets them.

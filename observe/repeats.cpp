@@ -6,8 +6,14 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "observe/observables.hpp"
 
 namespace snag {
+
+bool Quantity::is_axis() const {
+  const ObservableRecord* record = find_observable(name);
+  return record && record->measure == Measure::axis_angle;
+}
 
 namespace {
 

@@ -13,7 +13,7 @@ namespace snag {
 struct Quantity {
   std::string name, unit;
   /// An orientation: the direction of an axis in degrees, so that 89 and -89 lie 2 apart.
-  bool is_axis() const { return name == "orientation"; }
+  bool is_axis() const;
 };
 
 struct Repeats {

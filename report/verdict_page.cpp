@@ -8,6 +8,7 @@
 
 #include "base/version.hpp"
 #include "base/words.hpp"
+#include "observe/observables.hpp"
 #include "report/html.hpp"
 #include "report/line_plot.hpp"
 #include "report/page.hpp"
@@ -152,7 +153,8 @@ std::string map_of_ways(const Verdict& v) {
   std::map<std::string, std::map<double, Place>> ways;  // by point and begin of the part
   std::map<std::string, std::array<double, 2>> ranges;  // by coordinate
   for (const GapCell& c : v.where) {
-    if (std::isnan(c.window[0]) || (c.observable != "x" && c.observable != "y" && c.observable != "z")) continue;
+    const ObservableRecord* record = find_observable(c.observable);
+    if (std::isnan(c.window[0]) || !record || !record->is_position()) continue;
     Place& place = ways[c.point][c.window[0]];
     place.at[c.observable] = c.measured, place.z = std::max(place.z, std::abs(c.z));
     auto& [low, high] = ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;

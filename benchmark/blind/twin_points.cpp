@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/parameter_text.hpp"
 #include "base/vec3.hpp"
+#include "observe/observables.hpp"
 
 namespace snag {
 
@@ -140,10 +141,10 @@ TwinExperiment twin_experiment(const std::string& twin, NormalNumbers& random) {
 }
 
 bool in_subset(const std::string& subset, const std::string& observable) {
-  const bool passage = observable == "retention_time";
   if (subset == "all") return true;
-  if (subset == "passage") return passage;
-  return !passage && observable != "y" && !observable.starts_with("v");
+  const ObservableRecord& record = *find_observable(observable);
+  if (subset == "passage") return record.is_of_whole_run();
+  return !record.is_of_whole_run() && record.measure != Measure::velocity && observable != "y";
 }
 
 }  // namespace snag

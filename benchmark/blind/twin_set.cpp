@@ -1,6 +1,7 @@
 #include "benchmark/blind/twin_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,7 @@
 #include "base/random_numbers.hpp"
 #include "base/words.hpp"
 #include "diagnosis/data/summary.hpp"
+#include "observe/observables.hpp"
 
 namespace snag {
 
@@ -15,16 +17,20 @@ namespace {
 
 /// What the camera makes of a value: its scale about a centre, then pixels that are not square (x broader, z lower).
 double pictured(const std::string& id, double value, double scale, double ratio, const Vec3& centre) {
-  const auto stretch = [&](char axis) { return scale * (axis == 'x' ? std::sqrt(ratio) : axis == 'z' ? 1 / std::sqrt(ratio) : 1); };
-  if (id == "x" || id == "y" || id == "z") {
-    const double c = centre[id[0] - 'x'];
-    return c + stretch(id[0]) * (value - c);
+  const std::array stretch{scale * std::sqrt(ratio), scale, scale * (1 / std::sqrt(ratio))};
+  const ObservableRecord& record = *find_observable(id);
+  switch (record.measure) {
+    case Measure::position:
+      return centre[record.axis] + stretch[static_cast<std::size_t>(record.axis)] * (value - centre[record.axis]);
+    case Measure::velocity:
+      return stretch[static_cast<std::size_t>(record.axis)] * value;
+    case Measure::area:
+      return scale * scale * value;
+    case Measure::axis_angle:
+      return std::remainder(std::atan2(stretch[2] * std::sin(value), stretch[0] * std::cos(value)), record.period());
+    default:
+      return value;
   }
-  if (id.starts_with("v")) return stretch(id[1]) * value;
-  if (id == "area") return scale * scale * value;
-  if (id == "orientation")
-    return std::remainder(std::atan2(stretch('z') * std::sin(value), stretch('x') * std::cos(value)), std::numbers::pi);
-  return value;
 }
 
 }  // namespace
@@ -42,7 +48,7 @@ std::vector<Asked> TwinSet::asked(const std::string& subset) const {
   std::vector<Asked> all;
   for (const TwinInstrument& one : experiment.instruments) {
     if (!in_subset(subset, one.id)) continue;
-    if (one.id == "retention_time")
+    if (find_observable(one.id)->is_of_whole_run())
       all.push_back({one.id});
     else
       for (const double time : experiment.times) all.push_back({one.id, time});

@@ -9,6 +9,7 @@
 #include "base/words.hpp"
 #include "diagnosis/statistics/lifetimes.hpp"
 #include "diagnosis/statistics/statistics.hpp"
+#include "observe/observables.hpp"
 
 namespace snag {
 
@@ -275,7 +276,10 @@ class PointSummarizer {
 
 }  // namespace
 
-double angle_period(const Observable& observable) { return observable.id == "orientation" ? std::numbers::pi : 2 * std::numbers::pi; }
+double angle_period(const Observable& observable) {
+  const ObservableRecord* record = find_observable(observable.id);
+  return record && record->period() > 0 ? record->period() : 2 * std::numbers::pi;
+}
 
 double wrapped(double difference, double period) { return difference - period * std::round(difference / period); }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "observe/observables.hpp"
+
 namespace snag {
 
 namespace {
@@ -50,8 +52,8 @@ WeakForm::WeakForm(const Responses& model, const Whitening& whitening) {
       std::vector<double> times;
       for (end = begin; end < point.n_gaussian && point.rows[end].observable == row.observable; ++end)
         times.push_back(0.5 * (point.rows[end].begin + point.rows[end].end));
-      const std::string& id = model.experiment().observables[row.observable].id;
-      if (row.kind != Row::Kind::path || !(id == "x" || id == "y" || id == "z")) continue;
+      const ObservableRecord* record = find_observable(model.experiment().observables[row.observable].id);
+      if (row.kind != Row::Kind::path || !record || !record->is_position()) continue;
       const Eigen::MatrixXd functions = test_functions(times);
       parts.emplace_back(Eigen::MatrixXd::Zero(functions.rows(), point.n_gaussian));
       parts.back().middleCols(begin, end - begin) = functions;

@@ -29,7 +29,7 @@ struct PassageSettings {
   Section section();
 };
 
-/// Regions of the pump that a point lies in, for the passage of a rag (observe/passage/rag_journey.hpp).
+/// Regions of the pump that a point lies in, for the passage of a rag (observe/passage/passage_tracker.hpp).
 struct PlaceInPump {
   bool upstream = false, out = false, in_discharge = false, outside_impeller = false;
   bool just_past_tongue = false;  // within a quarter turn past its angle in the sense of rotation

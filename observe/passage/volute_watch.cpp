@@ -30,10 +30,10 @@ PassageGeometry geometry_of(const Camera& camera) {
 
 }  // namespace
 
-VoluteWatch::VoluteWatch(const Camera& camera) : geometry_(geometry_of(camera)), journey_(geometry_.sense()) {}
+VoluteWatch::VoluteWatch(const Camera& camera) : geometry_(geometry_of(camera)), tracker_(geometry_.sense()) {}
 
-RagSighting VoluteWatch::sighting(const Blob& blob) const {
-  RagSighting seen;
+RagSnapshot VoluteWatch::sighting(const Blob& blob) const {
+  RagSnapshot seen;
   const Coverage& cloth = blob.coverage;
   bool touches_tongue = false;
   for (int j = 0; j < cloth.ny; ++j)
@@ -54,19 +54,19 @@ RagSighting VoluteWatch::sighting(const Blob& blob) const {
 void VoluteWatch::add(const std::vector<Blob>& blobs, double time, double step) {
   if (!blobs.empty()) {
     last_ = sighting(blobs.front());
-    journey_.add(last_, time, step);
-  } else if (last_.n > 0 && 2 * last_.n_in_discharge > last_.n && !journey_.exited_at()) {
+    tracker_.add(last_, time, step);
+  } else if (last_.n > 0 && 2 * last_.n_in_discharge > last_.n && !tracker_.exited_at()) {
     last_.n_out = last_.n, last_.touched = {};
-    journey_.add(last_, time, step);
+    tracker_.add(last_, time, step);
   }
 }
 
 VoluteHistogram VoluteWatch::histogram() const {
   VoluteHistogram histogram;
   if (last_.n == 0) return histogram;
-  const RagVerdict verdict = journey_.verdict();
+  const PassageResult verdict = tracker_.verdict();
   histogram.add(*verdict.volute);
-  for (const RagVerdict::Event& event : verdict.events) histogram.count(event.what, *event.angle / degrees);
+  for (const PassageResult::Event& event : verdict.events) histogram.count(event.what, *event.angle / degrees);
   return histogram;
 }
 

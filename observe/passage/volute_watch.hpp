@@ -1,6 +1,6 @@
 #pragma once
 // A rag's way through the volute: as the summary of a run tells it, and as pictures show it, by the same rules
-// (observe/passage/rag_journey.hpp).
+// (observe/passage/passage_tracker.hpp).
 //
 // In a picture a pixel of cloth counts as a particle. The rag is in the casing as soon as it is seen; it touches the tongue when cloth is
 // seen nearer to it than tongue_reach; it is out when all of it is beyond the outlet, or when it was mostly in the discharge and is seen no
@@ -10,7 +10,7 @@
 
 #include "observe/blobs.hpp"
 #include "observe/passage/passage_geometry.hpp"
-#include "observe/passage/rag_journey.hpp"
+#include "observe/passage/passage_tracker.hpp"
 #include "observe/volute_histogram.hpp"
 
 namespace snag {
@@ -24,11 +24,11 @@ class VoluteWatch {
   VoluteHistogram histogram() const;
 
  private:
-  RagSighting sighting(const Blob& blob) const;
+  RagSnapshot sighting(const Blob& blob) const;
 
   PassageGeometry geometry_;
-  RagJourney journey_;
-  RagSighting last_;
+  PassageTracker tracker_;
+  RagSnapshot last_;
 };
 
 /// Of all rags of a run: from its summary.json, empty if it has none or was made without [passage]. Throws Error(io) on a broken one.

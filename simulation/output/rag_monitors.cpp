@@ -125,8 +125,8 @@ void RagMonitors::add_state(std::size_t rag, const Passage& passage, const BondC
 }
 
 void RagMonitors::add_passage(std::size_t rag, const Passage& passage, double time) {
-  const RagSighting& seen = passage.sightings()[rag];
-  std::vector<double> row{time, static_cast<double>(rag), degrees * passage.journey(rag).angle(), seen.radius, seen.height};
+  const RagSnapshot& seen = passage.sightings()[rag];
+  std::vector<double> row{time, static_cast<double>(rag), degrees * passage.tracker(rag).angle(), seen.radius, seen.height};
   for (const std::int64_t count : {seen.n_upstream, seen.n_in_casing(), seen.n_out}) row.push_back(static_cast<double>(count));
   for (const WallRegion region : wall_regions) row.push_back(static_cast<double>(seen.touching[region]));
   row.insert(row.end(), {seen.tension, seen.tension_place.x, seen.tension_place.y, seen.tension_place.z});

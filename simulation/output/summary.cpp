@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -33,14 +34,14 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
 
-nlohmann::ordered_json events_json(const RagVerdict& rag) {
+nlohmann::ordered_json events_json(const PassageResult& rag) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (const auto& event : rag.events)
     events.push_back({{"t_s", event.time}, {"angle_deg", or_null(event.angle)}, {"what", words_of(event.what).key}});
   return events;
 }
 
-nlohmann::ordered_json volute_json(const RagVerdict& rag) {
+nlohmann::ordered_json volute_json(const PassageResult& rag) {
   nlohmann::ordered_json bins = nlohmann::ordered_json::array();
   for (int bin = 0; rag.volute && bin < n_volute_bins; ++bin) {
     const double time = rag.volute->time[bin];
@@ -51,7 +52,7 @@ nlohmann::ordered_json volute_json(const RagVerdict& rag) {
   return bins;
 }
 
-nlohmann::ordered_json tension_json(const RagVerdict& rag) {
+nlohmann::ordered_json tension_json(const PassageResult& rag) {
   if (!rag.max_tension_time) return {};
   const Vec3& x = rag.max_tension_place;
   return {{"t_s", *rag.max_tension_time}, {"x_m", {x.x, x.y, x.z}}, {"angle_deg", or_null(rag.max_tension_angle)}};
@@ -71,7 +72,7 @@ nlohmann::ordered_json passage_json(const PumpPassage& pump) {
 }
 
 nlohmann::ordered_json rag_json(const RagSummary& rag) {
-  const RagVerdict& verdict = rag.verdict;
+  const PassageResult& verdict = rag.verdict;
   return {{"id", rag.id},
           {"name", rag.name},
           {"particles", rag.particles},
@@ -121,7 +122,7 @@ Summary full_summary() {
   full.pump.emplace();
   full.water.emplace();
   full.error = "none";
-  RagVerdict& rag = full.rags.emplace_back().verdict;
+  PassageResult& rag = full.rags.emplace_back().verdict;
   rag.volute.emplace(), rag.max_tension_time = 0;
   rag.events.push_back({});
   return full;
@@ -133,6 +134,21 @@ bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_
   const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
   const auto is = [&](const char* key, const nlohmann::json& value) { return summary.contains(key) && summary[key] == value; };
   return summary.is_object() && is("case_sha256", case_sha256) && is("exit", 0) && is("time_steps", time_steps);
+}
+
+std::optional<PassageResult> first_passage(const std::filesystem::path& summary_file) {
+  const auto summary = nlohmann::json::parse(file_text(summary_file).value_or(""), nullptr, false);
+  if (!summary.is_object() || !summary.contains("rags") || summary["rags"].empty()) return {};
+  const auto& rag = summary["rags"].front();
+  const auto number = [&](const char* key) {
+    const auto& value = rag.contains(key) ? rag[key] : nlohmann::json();
+    return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+  };
+  PassageResult passage;
+  passage.outcome = outcome_named(rag.value("outcome", std::string())).value_or(Outcome::in_domain);
+  passage.retention_time = number("retention_time_s"), passage.time_to_enter = number("time_to_enter_s");
+  if (const auto n = number("recirculations")) passage.recirculations = std::llround(*n);
+  return passage;
 }
 
 nlohmann::ordered_json summary_json(const Summary& s) {
@@ -200,7 +216,7 @@ std::string results_in_words(const Summary& summary) {
   const auto seconds = [](const std::optional<double>& time) { return time ? words(*time) + " s" : std::string("-"); };
   std::string text;
   for (const RagSummary& rag : summary.rags) {
-    const RagVerdict& verdict = rag.verdict;
+    const PassageResult& verdict = rag.verdict;
     text += (text.empty() ? "" : "\n") + rag.name + ": " + words_of(verdict.outcome).key;
     if (verdict.recirculations)
       text += ", retention time " + seconds(verdict.retention_time) + ", time to enter " + seconds(verdict.time_to_enter) +

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "observe/passage/rag_journey.hpp"
+#include "observe/passage_result.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/pump_record.hpp"
 
@@ -17,7 +17,7 @@ struct RagSummary {
   int id = 0;
   std::string name;
   std::int64_t particles = 0, bonds = 0, broken_bonds = 0;
-  RagVerdict verdict;
+  PassageResult verdict;
   PumpPassage pump;
   double elongation_ratio_at_start = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0,
          max_overlap_over_radius = 0, bond_strain_p99 = 0;
@@ -55,6 +55,9 @@ struct Summary {
 
 /// The summary in this file is that of a run of this case that ended as planned after this number of steps.
 bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps);
+
+/// Outcome, times and recirculations of the first rag of a run in a folder; absent: its summary has no rag.
+std::optional<PassageResult> first_passage(const std::filesystem::path& summary_file);
 
 nlohmann::ordered_json summary_json(const Summary& summary);
 /// Throws Error(io).

@@ -51,8 +51,8 @@ void count_contacts(const ContactSolver& contacts, std::vector<std::int64_t>& co
   }
 }
 
-RagSighting sighting(const std::int64_t* counts, const RagState& state, const std::optional<PassageGeometry>& geometry) {
-  RagSighting seen;
+RagSnapshot sighting(const std::int64_t* counts, const RagState& state, const std::optional<PassageGeometry>& geometry) {
+  RagSnapshot seen;
   seen.n = state.n_particles, seen.n_upstream = counts[upstream], seen.n_out = counts[out];
   seen.n_in_discharge = counts[discharge], seen.n_outside_impeller = counts[outside_impeller];
   seen.n_past_inside = counts[past_inside], seen.n_past_outside = counts[past_outside];
@@ -73,7 +73,7 @@ Passage::Passage(MPI_Comm comm, std::vector<Opening> openings, std::optional<Pas
     : comm_(comm),
       openings_(std::move(openings)),
       geometry_(std::move(geometry)),
-      journeys_(n_rags, geometry_ ? RagJourney(geometry_->sense(), geometry_->speed()) : RagJourney(0)),
+      trackers_(n_rags, geometry_ ? PassageTracker(geometry_->sense(), geometry_->speed()) : PassageTracker(0)),
       sightings_(n_rags),
       states_(n_rags),
       n_out_(n_rags),
@@ -94,47 +94,47 @@ void Passage::look_at(const Vec3& x, std::int64_t* counts) const {
 }
 
 void Passage::observe(RagSystem& rags, double time, double step) {
-  std::vector<std::int64_t> counts(journeys_.size() * n_counts);
+  std::vector<std::int64_t> counts(trackers_.size() * n_counts);
   for (const Tile& tile : rags.tiles())
     for_particles(tile, [&](int k, int, int) { look_at(tile.vector(Tile::x, k), &counts[tile.rag * n_counts]); });
   if (rags.contacts()) count_contacts(*rags.contacts(), counts);
   MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_INT64_T, MPI_SUM, comm_);
   states_ = rag_states(rags);
-  for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
+  for (std::size_t rag = 0; rag < trackers_.size(); ++rag) {
     n_out_[rag] = counts[rag * n_counts + left_mesh];
     sightings_[rag] = sighting(&counts[rag * n_counts], states_[rag], geometry_);
-    journeys_[rag].add(sightings_[rag], time, step);
+    trackers_[rag].add(sightings_[rag], time, step);
     if (states_[rag].n_particles > 0) last_elongation_[rag] = states_[rag].elongation_ratio;
   }
 }
 
 std::optional<double> Passage::all_exited_at() const {
   std::optional<double> last;
-  for (const RagJourney& rag : journeys_) {
+  for (const PassageTracker& rag : trackers_) {
     if (!rag.exited_at()) return {};
     last = std::max(last.value_or(0), *rag.exited_at());
   }
   return last;
 }
 
-/// [rag by rag: particles beyond an outlet, elongation ratio, length of the journey's state, that state]
+/// [rag by rag: particles beyond an outlet, elongation ratio, length of the tracker's state, that state]
 std::vector<double> Passage::state() const {
   std::vector<double> all;
-  for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
-    const std::vector<double> journey = journeys_[rag].state();
-    all.insert(all.end(), {static_cast<double>(n_out_[rag]), last_elongation_[rag], static_cast<double>(journey.size())});
-    all.insert(all.end(), journey.begin(), journey.end());
+  for (std::size_t rag = 0; rag < trackers_.size(); ++rag) {
+    const std::vector<double> tracked = trackers_[rag].state();
+    all.insert(all.end(), {static_cast<double>(n_out_[rag]), last_elongation_[rag], static_cast<double>(tracked.size())});
+    all.insert(all.end(), tracked.begin(), tracked.end());
   }
   return all;
 }
 
 void Passage::restore(const std::vector<double>& state) {
   auto next = state.begin();
-  for (std::size_t rag = 0; rag < journeys_.size(); ++rag) {
+  for (std::size_t rag = 0; rag < trackers_.size(); ++rag) {
     n_out_[rag] = static_cast<std::int64_t>(*next++);
     last_elongation_[rag] = *next++;
     const auto length = static_cast<std::ptrdiff_t>(*next++);
-    journeys_[rag].restore({next, next + length});
+    trackers_[rag].restore({next, next + length});
     next += length;
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Where the rags are and what they touch, step by step: what is seen of each (observe/passage/rag_journey.hpp tells its story) and which
-// particles have left the mesh.
+// Where the rags are and what they touch, step by step: what is seen of each (observe/passage/passage_tracker.hpp tells its story) and
+// which particles have left the mesh.
 //
 // With [passage] the flanges and the tongue of the pump define the passage (observe/passage/passage_geometry.hpp); without it a
 // particle is out beyond a pressure outlet, and upstream beyond a pressure inlet.
@@ -11,7 +11,7 @@
 #include "dem/rag_system.hpp"
 #include "observe/passage/opening.hpp"
 #include "observe/passage/passage_geometry.hpp"
-#include "observe/passage/rag_journey.hpp"
+#include "observe/passage/passage_tracker.hpp"
 
 namespace snag {
 
@@ -24,12 +24,12 @@ class Passage {
 
   /// When the last rag was wholly out, s; absent before that, and without rags.
   std::optional<double> all_exited_at() const;
-  RagVerdict verdict(std::size_t rag) const { return journeys_[rag].verdict(); }
+  PassageResult verdict(std::size_t rag) const { return trackers_[rag].verdict(); }
   const std::optional<PassageGeometry>& geometry() const { return geometry_; }
 
   // Of the last look; the same on every rank.
-  const RagJourney& journey(std::size_t rag) const { return journeys_[rag]; }
-  const std::vector<RagSighting>& sightings() const { return sightings_; }
+  const PassageTracker& tracker(std::size_t rag) const { return trackers_[rag]; }
+  const std::vector<RagSnapshot>& sightings() const { return sightings_; }
   const std::vector<RagState>& states() const { return states_; }
   /// Particles of each rag that are beyond a pressure outlet of the mesh.
   const std::vector<std::int64_t>& n_out() const { return n_out_; }
@@ -46,8 +46,8 @@ class Passage {
   MPI_Comm comm_;
   std::vector<Opening> openings_;
   std::optional<PassageGeometry> geometry_;
-  std::vector<RagJourney> journeys_;
-  std::vector<RagSighting> sightings_;
+  std::vector<PassageTracker> trackers_;
+  std::vector<RagSnapshot> sightings_;
   std::vector<RagState> states_;
   std::vector<std::int64_t> n_out_;
   std::vector<double> last_elongation_;

@@ -39,7 +39,7 @@ Vec3 at(double degrees, double radius, double z = 0.02) {
   return {radius * std::cos(degrees * degree), radius * std::sin(degrees * degree), z};
 }
 
-/// Leads a rag along lines and arcs; its journey is looked at after every step.
+/// Leads a rag along lines and arcs; its passage is looked at after every step.
 class Led {
  public:
   explicit Led(std::optional<PassageGeometry> pump_geometry = geometry(), std::vector<Opening> openings = {}, bool floor_turns = false)
@@ -82,13 +82,13 @@ class Led {
   void stay(double seconds) { line(here, seconds); }
 
   double time() const { return n_steps * step; }
-  RagVerdict verdict() const { return passage.verdict(0); }
+  PassageResult verdict() const { return passage.verdict(0); }
   std::string story() const {
     std::string all;
     for (const auto& event : verdict().events) all += (all.empty() ? "" : ", ") + std::string(words_of(event.what).key);
     return all;
   }
-  RagVerdict::Event event(PassageEvent what) const {
+  PassageResult::Event event(PassageEvent what) const {
     for (const auto& one : verdict().events)
       if (one.what == what) return one;
     return {};
@@ -118,7 +118,7 @@ TEST(Passage, StraightThrough) {
   const double at_tongue = rag.time();
   lead_out(rag);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, tongue passed, reached the outlet, exited");
-  const RagVerdict v = rag.verdict();
+  const PassageResult v = rag.verdict();
   EXPECT_EQ(v.outcome, Outcome::exited);
   EXPECT_TRUE(rag.passage.all_exited_at());
   const double entered = step + (0.2 - 0.09 - half_length) / 0.5, inside = entered + 2 * half_length / 0.5, out = at_tongue + 0.301 / 2;
@@ -220,7 +220,7 @@ TEST(Passage, StuckOnTheTongue) {
   EXPECT_EQ(rag.verdict().outcome, Outcome::in_domain);
   rag.look(on_it), rag.line(on_it, 0.499);
   EXPECT_EQ(rag.story(), "entered, wholly in the casing, tongue passed, stuck on tongue");
-  const RagVerdict v = rag.verdict();
+  const PassageResult v = rag.verdict();
   EXPECT_NEAR(v.stuck_on_tongue.value(), 1.5, 1e-9) << "short gaps included, the last half second not";
   EXPECT_NEAR(v.tongue_contact.value(), 1.47 + 0.5, 1e-9);
   EXPECT_NEAR(v.wall_contact, 1.47 + 0.5, 1e-9);
@@ -241,7 +241,7 @@ TEST(Passage, StuckOnTheImpeller) {
 }
 
 /// Led round the volute on a floor that turns as the impeller, `turns` in the time, counter-clockwise.
-RagVerdict led_round(double turns, double seconds) {
+PassageResult led_round(double turns, double seconds) {
   Led rag(geometry(), {}, true);
   const auto on_it = [](double degrees) { return at(degrees, in_gap, -0.05 + half_length + 0.9e-3); };
   rag.look(on_it(180));
@@ -251,7 +251,7 @@ RagVerdict led_round(double turns, double seconds) {
 }
 
 TEST(Passage, GoingRoundIsNotStuck) {
-  const RagVerdict slow = led_round(7, 1.4), with_the_impeller = led_round(1.4 * 125 / (2 * std::numbers::pi), 1.4);
+  const PassageResult slow = led_round(7, 1.4), with_the_impeller = led_round(1.4 * 125 / (2 * std::numbers::pi), 1.4);
   EXPECT_EQ(slow.outcome, Outcome::recirculating);
   EXPECT_EQ(slow.recirculations.value(), 7);
   EXPECT_EQ(slow.stuck_on_impeller.value(), 0);
@@ -267,7 +267,7 @@ TEST(Passage, NeverEntered) {
   EXPECT_EQ(rag.verdict().outcome, Outcome::upstream);
   rag.line(at(180, 0.03, 0.1), 0.1);
   EXPECT_EQ(rag.story(), "entered");
-  const RagVerdict v = rag.verdict();
+  const PassageResult v = rag.verdict();
   EXPECT_EQ(v.outcome, Outcome::upstream);
   EXPECT_FALSE(v.retention_time);
   EXPECT_FALSE(v.time_to_enter);
@@ -281,7 +281,7 @@ TEST(Passage, LargestTensionAndItsPlace) {
   rag.look(at(120, in_eye));
   rag.moved = [](int column, int row) { return Vec3{0, 0, column == 5 && row == 0 ? 0.5e-4 : 0.0}; };
   rag.look(at(130, in_eye));
-  const RagVerdict v = rag.verdict();
+  const PassageResult v = rag.verdict();
   const Rag& cloth = rag.piece.rag;
   EXPECT_NEAR(v.max_tension, cloth.bond[0].normal_stiffness * std::numbers::pi * 1e-6 * 1e-4, 0.02 * v.max_tension);
   EXPECT_EQ(v.max_tension_time.value(), 2 * step);

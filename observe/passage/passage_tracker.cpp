@@ -1,4 +1,4 @@
-#include "observe/passage/rag_journey.hpp"
+#include "observe/passage/passage_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr double passed_beyond = std::numbers::pi / 9;
 
 }  // namespace
 
-bool RagJourney::Contact::add(bool touched, double time, double step, double angle) {
+bool PassageTracker::Contact::add(bool touched, double time, double step, double angle) {
   if (!touched) return false;
   contact += step;
   if (last < 0 || time - step - last > longest_gap) {
@@ -29,15 +29,15 @@ bool RagJourney::Contact::add(bool touched, double time, double step, double ang
   return is_stuck && !was_stuck;
 }
 
-void RagJourney::Contact::recirculate(double time, double angle, double wall_speed) {
+void PassageTracker::Contact::recirculate(double time, double angle, double wall_speed) {
   if (last < 0 || std::abs(angle - begin_angle - wall_speed * (time - begin)) < two_pi) return;
   if (is_stuck) stuck += last - begin;
   begin = time, begin_angle = angle, is_stuck = false;
 }
 
-bool RagJourney::Contact::is_stuck_at(double time) const { return is_stuck && time - last <= longest_gap; }
+bool PassageTracker::Contact::is_stuck_at(double time) const { return is_stuck && time - last <= longest_gap; }
 
-void RagJourney::add(const RagSighting& seen, double time, double step) {
+void PassageTracker::add(const RagSnapshot& seen, double time, double step) {
   if (seen.n == 0) return;
   time_ = time;
   const bool was_out = has_exited();
@@ -59,7 +59,7 @@ void RagJourney::add(const RagSighting& seen, double time, double step) {
   volute_.add(angle_, seen.radius, step);
 }
 
-void RagJourney::enter(const RagSighting& seen, double time) {
+void PassageTracker::enter(const RagSnapshot& seen, double time) {
   if (entered_ < 0 && seen.n_upstream < seen.n) {
     entered_ = time;
     if (sense_ != 0) note(PassageEvent::entered, time);
@@ -72,7 +72,7 @@ void RagJourney::enter(const RagSighting& seen, double time) {
 }
 
 /// `before`: the unwrapped angle a step ago.
-void RagJourney::pass_tongue(const RagSighting& seen, double before, double time) {
+void PassageTracker::pass_tongue(const RagSnapshot& seen, double before, double time) {
   const auto turns = [&](double angle) { return std::floor(sense_ * angle / two_pi); };
   if (turns(angle_) > turns(before)) {
     is_passing_ = is_armed_ && 2 * seen.n_outside_impeller > seen.n, is_armed_ = false;
@@ -91,12 +91,12 @@ void RagJourney::pass_tongue(const RagSighting& seen, double before, double time
   }
 }
 
-void RagJourney::leave(const RagSighting& seen, double time) {
+void PassageTracker::leave(const RagSnapshot& seen, double time) {
   if (reached_outlet_ < 0 && seen.n_out > 0) reached_outlet_ = time, note(PassageEvent::reached_outlet, time);
   if (exited_ < 0 && seen.n_out == seen.n) exited_ = time, note(PassageEvent::exited, time);
 }
 
-Outcome RagJourney::outcome() const {
+Outcome PassageTracker::outcome() const {
   if (has_exited()) return Outcome::exited;
   if (sense_ != 0) {
     if (contact_[WallRegion::tongue].is_stuck_at(time_)) return Outcome::stuck_on_tongue;
@@ -106,8 +106,8 @@ Outcome RagJourney::outcome() const {
   return n_recirculations_ > 0 ? Outcome::recirculating : Outcome::in_domain;
 }
 
-RagVerdict RagJourney::verdict() const {
-  RagVerdict v;
+PassageResult PassageTracker::verdict() const {
+  PassageResult v;
   v.outcome = outcome();
   v.wall_contact = wall_contact_, v.impeller_contact = contact_[WallRegion::impeller].contact,
   v.other_contact = contact_[WallRegion::other].contact;
@@ -130,9 +130,9 @@ RagVerdict RagJourney::verdict() const {
   return v;
 }
 
-/// Visits all numbers of a journey but its log: one list for both ways.
+/// Visits all numbers of the state but the log: one list for both ways.
 template <class Self, class Visit>
-void RagJourney::for_numbers(Self& self, const Visit& visit) {
+void PassageTracker::for_numbers(Self& self, const Visit& visit) {
   visit(self.time_), visit(self.angle_), visit(self.is_seen_), visit(self.is_armed_), visit(self.is_passing_), visit(self.is_past_tongue_),
       visit(self.is_upstream_);
   visit(self.n_recirculations_), visit(self.entered_), visit(self.wholly_in_), visit(self.reached_outlet_), visit(self.exited_);
@@ -145,14 +145,14 @@ void RagJourney::for_numbers(Self& self, const Visit& visit) {
   for (int c = 0; c < 3; ++c) visit(self.max_tension_place_[c]);
 }
 
-std::vector<double> RagJourney::state() const {
+std::vector<double> PassageTracker::state() const {
   std::vector<double> state;
   for_numbers(*this, [&](const auto& number) { state.push_back(static_cast<double>(number)); });
   for (const Entry& entry : log_) state.insert(state.end(), {entry.time, entry.angle, static_cast<double>(entry.what)});
   return state;
 }
 
-void RagJourney::restore(const std::vector<double>& state) {
+void PassageTracker::restore(const std::vector<double>& state) {
   auto next = state.begin();
   for_numbers(*this, [&](auto& number) { number = static_cast<std::remove_reference_t<decltype(number)>>(*next++); });
   log_.clear();

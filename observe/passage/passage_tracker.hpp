@@ -23,8 +23,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
-#include "observe/outcome.hpp"
-#include "observe/volute_histogram.hpp"
+#include "observe/passage_result.hpp"
 
 namespace snag {
 
@@ -42,7 +41,7 @@ struct ByRegion {
 
 /// One rag at the end of a step, the same on every rank. Particles are counted; without a pump only n, n_upstream, n_out, contact and
 /// tension are known.
-struct RagSighting {
+struct RagSnapshot {
   std::int64_t n = 0;  // that exist; none: it is not in the run yet
   std::int64_t n_upstream = 0, n_out = 0;
   std::int64_t n_in_discharge = 0, n_outside_impeller = 0;
@@ -56,39 +55,19 @@ struct RagSighting {
   std::int64_t n_in_casing() const { return n - n_upstream - n_out; }
 };
 
-/// What is told of a rag at the end. Absent: it did not happen, or there is no pump.
-struct RagVerdict {
-  Outcome outcome = Outcome::in_domain;
-  std::optional<double> entered, exited;                // s
-  std::optional<double> retention_time, time_to_enter;  // s: wholly in the casing to exited; entered to wholly in
-  std::optional<std::int64_t> recirculations;
-  std::optional<double> stuck_on_tongue, stuck_on_impeller;          // s, of all episodes of more than 1 s
-  double wall_contact = 0, impeller_contact = 0, other_contact = 0;  // s
-  std::optional<double> tongue_contact;                              // s
-  std::optional<VoluteStay> volute;  // of the centroid from wholly in the casing until it has passed the tongue outwards
-  double max_tension = 0;
-  std::optional<double> max_tension_time, max_tension_angle;  // s, deg
-  Vec3 max_tension_place;                                     // m
-  struct Event {
-    double time = 0;              // s
-    std::optional<double> angle;  // of the centroid, unwrapped, deg
-    PassageEvent what = PassageEvent::entered;
-  };
-  std::vector<Event> events;
-};
-
-class RagJourney {
+class PassageTracker {
  public:
   /// `sense` of the impeller: +1 towards larger angles, -1 towards smaller; 0: no pump. `impeller_speed` with that sign, rad/s.
-  explicit RagJourney(int sense, double impeller_speed = 0) : sense_(sense), impeller_speed_(impeller_speed), is_upstream_(sense != 0) {}
+  explicit PassageTracker(int sense, double impeller_speed = 0)
+      : sense_(sense), impeller_speed_(impeller_speed), is_upstream_(sense != 0) {}
 
   /// The step of length `step` (s) that ended at `time`.
-  void add(const RagSighting& seen, double time, double step);
+  void add(const RagSnapshot& seen, double time, double step);
   /// s; absent: it has not.
   std::optional<double> exited_at() const { return has_exited() ? std::optional(exited_) : std::nullopt; }
   /// Of the centroid, unwrapped from where it was first seen, rad.
   double angle() const { return angle_; }
-  RagVerdict verdict() const;
+  PassageResult verdict() const;
 
   /// All that the next step needs: of any length.
   std::vector<double> state() const;
@@ -115,9 +94,9 @@ class RagJourney {
 
   bool has_exited() const { return exited_ >= 0; }
   void note(PassageEvent what, double time) { log_.push_back({time, angle_, what}); }
-  void enter(const RagSighting& seen, double time);
-  void pass_tongue(const RagSighting& seen, double before, double time);
-  void leave(const RagSighting& seen, double time);
+  void enter(const RagSnapshot& seen, double time);
+  void pass_tongue(const RagSnapshot& seen, double before, double time);
+  void leave(const RagSnapshot& seen, double time);
   Outcome outcome() const;
   template <class Self, class Visit>
   static void for_numbers(Self& self, const Visit& visit);

@@ -1,0 +1,66 @@
+#include "observe/observables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+
+namespace snag {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+template <int axis>
+double position(const Motion& motion) {
+  return motion.position[axis];
+}
+template <int axis>
+double velocity(const Motion& motion) {
+  return motion.velocity[axis];
+}
+double area(const Silhouette& picture) { return picture.area; }
+double elongation_ratio(const Silhouette& picture) { return picture.elongation_ratio; }
+double orientation(const Silhouette& picture) { return picture.orientation; }
+double retention_time(const PassageResult& passage) { return passage.retention_time.value_or(none); }
+double time_to_enter(const PassageResult& passage) { return passage.time_to_enter.value_or(none); }
+double recirculations(const PassageResult& passage) { return passage.recirculations ? static_cast<double>(*passage.recirculations) : none; }
+double stuck(const PassageResult& passage) { return words_of(passage.outcome).is_stuck ? 1 : 0; }
+double exited(const PassageResult& passage) { return passage.outcome == Outcome::exited ? 1 : 0; }
+
+constexpr std::array table{
+    ObservableRecord{"x", "m", Measure::position, 0, position<0>, false, "centre of mass"},
+    ObservableRecord{"y", "m", Measure::position, 1, position<1>, false, "centre of mass"},
+    ObservableRecord{"z", "m", Measure::position, 2, position<2>, false, "centre of mass"},
+    ObservableRecord{"vx", "m/s", Measure::velocity, 0, velocity<0>, false, "velocity of the centre of mass"},
+    ObservableRecord{"vy", "m/s", Measure::velocity, 1, velocity<1>, false, "velocity of the centre of mass"},
+    ObservableRecord{"vz", "m/s", Measure::velocity, 2, velocity<2>, false, "velocity of the centre of mass"},
+    ObservableRecord{"area", "m2", Measure::area, -1, area, false, "area in the picture"},
+    ObservableRecord{"elongation_ratio", "1", Measure::ratio, -1, elongation_ratio, false,
+                     "long over short axis of the ellipse in the picture"},
+    ObservableRecord{"orientation", "rad", Measure::axis_angle, -1, orientation, false, "direction of the long axis in the picture"},
+    ObservableRecord{"retention_time", "s", Measure::duration, -1, retention_time, false, "from wholly in to wholly out"},
+    ObservableRecord{"time_to_enter", "s", Measure::duration, -1, time_to_enter, true, "from the first particle in to wholly in"},
+    ObservableRecord{"recirculations", "1", Measure::count, -1, recirculations, true, "passes of the tongue back into the volute"},
+    ObservableRecord{"stuck", "1", Measure::event, -1, stuck, true, "1: it is stuck on the tongue or the impeller at the end"},
+    ObservableRecord{"exited", "1", Measure::event, -1, exited, false, "1: it is wholly out at the end"},
+};
+
+}  // namespace
+
+double ObservableRecord::period() const { return measure == Measure::axis_angle ? std::numbers::pi : 0; }
+
+std::span<const ObservableRecord> observables() { return table; }
+
+const ObservableRecord* find_observable(std::string_view id) {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const ObservableRecord& one) { return one.id == id; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> observable_ids() {
+  std::vector<std::string> ids;
+  for (const ObservableRecord& one : table) ids.emplace_back(one.id);
+  return ids;
+}
+
+}  // namespace snag
