@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
+#include "casework/exit_watch.hpp"
 #include "casework/outline_moments.hpp"
 #include "dem/bonds/bond_law.hpp"
 #include "dem/particles/tile_particles.hpp"
@@ -27,6 +28,10 @@ const ObservableRecord& record_of(const std::string& name) {
   if (!record)
     throw Error(ExitCode::usage,
                 "observable \"" + name + "\": a case without a mesh has no such number; there are: " + joined(observable_ids()));
+  if (record->needs == Needs::pump)
+    throw Error(ExitCode::usage, "observable \"" + name +
+                                     "\": is defined by [passage], the flanges and the tongue of a pump, which a run "
+                                     "in memory has not; leave it out");
   return *record;
 }
 
@@ -53,47 +58,6 @@ Motion motion_between(const Motion& a, const Motion& b, double dt, double s) {
 }
 
 double turned_by(double from, double to, double period) { return std::remainder(to - from, period); }
-
-/// What is told of the whole run: the first passage of the exit, the turns of the path in the picture, the rest.
-class Journey {
- public:
-  Journey(const ObserveSettings& settings, const View& view, double end) : settings_(settings), view_(view), end_(end) {}
-
-  void look(double time, const Motion& motion) {
-    const std::optional<double> beyond = settings_.beyond_exit(motion.position);
-    if (beyond && *beyond > 0 && !left_) {
-      const double before = before_.value_or(0);
-      left_ = before < 0 ? before_time_ + (time - before_time_) * before / (before - *beyond) : time;
-    }
-    before_ = beyond, before_time_ = time;
-    const double a = dot(motion.velocity, view_.right), b = dot(motion.velocity, view_.up);
-    if (std::hypot(a, b) > 0) {
-      const double angle = std::atan2(b, a);
-      if (angle_) turn_ += turned_by(*angle_, angle, 2 * std::numbers::pi);
-      angle_ = angle;
-    }
-    if (time <= 0.8 * end_) late_ = motion.position;
-    last_ = motion.position;
-  }
-
-  PassageResult verdict(double size) const {
-    PassageResult result;
-    result.retention_time = left_, result.recirculations = std::floor(std::abs(turn_) / (2 * std::numbers::pi));
-    if (left_)
-      result.outcome = Outcome::exited;
-    else if (norm(last_ - late_) < size)
-      result.outcome = Outcome::stuck_on_tongue;
-    return result;
-  }
-
- private:
-  const ObserveSettings& settings_;
-  const View& view_;
-  double end_;
-  std::optional<double> left_, before_, angle_;  // s, m, rad
-  double before_time_ = 0, turn_ = 0;
-  Vec3 late_, last_;
-};
 
 /// Where the pieces are at the end of a step.
 struct Instant {
@@ -164,8 +128,8 @@ class WindowMean {
 /// Answers as the run goes by.
 class Observer {
  public:
-  Observer(const RagSystem& rags, const ObserveSettings& settings, std::vector<Question> slots, double end, double dt)
-      : rags_(rags), settings_(settings), view_(settings.view()), journey_(settings, view_, end), slots_(std::move(slots)), dt_(dt) {
+  Observer(const RagSystem& rags, const Passage& passage, const ObserveSettings& settings, std::vector<Question> slots, double dt)
+      : rags_(rags), settings_(settings), view_(settings.view()), exit_(settings, passage), slots_(std::move(slots)), dt_(dt) {
     values_.resize(slots_.size(), std::numeric_limits<double>::quiet_NaN());
     for (const Question& slot : slots_) {
       if (slot.what->is_of_picture()) picture_times_.push_back(slot.time);
@@ -189,11 +153,11 @@ class Observer {
       const double share = here ? 1 : (slot.time - before_.time) / (time - before_.time);
       values_[slot.place] = seen_between(*slot.what, here ? now : before_, now, share);
     }
-    if (whole_run_) journey_.look(time, now.motion);
+    if (whole_run_) exit_.add(time, now.motion);
     before_ = now;
   }
   std::vector<double> values() {
-    const PassageResult passage = journey_.verdict(2 * rags_.rags().front().radius);
+    const PassageResult passage = exit_.verdict();
     for (const Question& slot : slots_) {
       if (!std::isinf(slot.time)) continue;
       const auto* read = std::get_if<double (*)(const PassageResult&)>(&slot.what->read);
@@ -212,7 +176,7 @@ class Observer {
   const RagSystem& rags_;
   const ObserveSettings& settings_;
   View view_;
-  Journey journey_;
+  ExitWatch exit_;
   WindowMean window_;
   std::vector<Question> slots_;
   std::vector<const ObservableRecord*> in_window_;  // asked as means over the window
@@ -285,7 +249,7 @@ std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& aske
   const std::int64_t n_steps = n_steps_of(run.time_settings, step_factor);
   const double dt = run.time_settings.step = end / static_cast<double>(n_steps);
   const double last = last_time(slots, end);
-  Observer observer(*run.rags, run.observe_settings, std::move(slots), end, dt);
+  Observer observer(*run.rags, *run.passage, run.observe_settings, std::move(slots), dt);
   const std::int64_t restart_step = restart ? static_cast<std::int64_t>(restart->time / dt + 1e-9) : -1;
   const auto restart_at = [&](std::int64_t n) {
     if (n == restart_step) move(*run.rags, *restart, static_cast<double>(n) * dt);

@@ -66,6 +66,17 @@ double picture_size_of(const Experiment& experiment) {
   return size;
 }
 
+/// Throws Error(usage) for what no run of the case tells. Of a whole run, other names are columns of its monitors.
+void check_observable(const PointCase& base, const std::filesystem::path& file, const std::string& id) {
+  const ObservableRecord* record = find_observable(id);
+  if (!record && !base.is_whole_run())
+    throw Error(ExitCode::usage,
+                file.string() + ": observable \"" + id + "\" is no number of a case without a mesh; there are " + joined(observable_ids()));
+  const std::string reason = record ? base.reason_against(*record) : "";
+  if (!reason.empty())
+    throw Error(ExitCode::usage, file.string() + ": observable \"" + id + "\": " + reason + "; add it, or leave the observable out");
+}
+
 /// Of the executable file: runs of another program are not these, committed or not.
 std::string program_fingerprint(MPI_Comm comm) {
   static std::string known;
@@ -126,9 +137,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     std::string fingerprint = base.sha256();
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
-      if (!base.is_whole_run() && !find_observable(id))
-        throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": observable \"" + id +
-                                         "\" is no number of a case without a mesh; there are " + joined(observable_ids()));
+      check_observable(base, experiment.points[p].case_file, id);
       asked.push_back({id, slot.time});
       fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }

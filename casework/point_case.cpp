@@ -108,6 +108,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
   facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
+  has_passage_ = run.passage->geometry().has_value(), has_exit_ = run.observe_settings.has_exit();
   forces_ = listed_forces(tree_->root);
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {
@@ -125,6 +126,19 @@ void PointCase::check_nuisance(const std::string& key) const {
                                    "\", which is no number of this case; give a key of the case with its unit such as "
                                    "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
                                    "whole flow field (of computed water: its set-points), \"drag_form\" or \"drag_form_of_point\"");
+}
+
+std::string PointCase::reason_against(const ObservableRecord& observable) const {
+  switch (observable.needs) {
+    case Needs::pump:
+      return has_passage_ ? "" : "it is defined by [passage], the flanges and the tongue of a pump, which the case lacks";
+    case Needs::planes:
+      if (is_whole_run()) return has_passage_ ? "" : "it is defined by the flanges in [passage], which the case lacks";
+      return has_exit_ ? "" : "it is defined by the exit plane in [observe], which the case lacks";
+    case Needs::nothing:
+      break;
+  }
+  return "";
 }
 
 std::string PointCase::value_of(const std::string& key) const {

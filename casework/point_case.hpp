@@ -9,6 +9,7 @@
 
 #include "base/case_file.hpp"
 #include "diagnosis/effects/effect_model.hpp"
+#include "observe/observables.hpp"
 #include "simulation/setup/water_store.hpp"
 
 namespace snag {
@@ -35,6 +36,8 @@ class PointCase {
   const std::vector<std::string>& forces() const { return forces_; }
   /// The water is computed with the rags: a run of all ranks with an output folder, instead of one in memory.
   bool is_whole_run() const { return !facts_.prescribed; }
+  /// Why runs of this case do not define an observable; empty: they do.
+  std::string reason_against(const ObservableRecord& observable) const;
   /// Runs can go on from a measured state: nothing hangs on the cell that holds a particle.
   bool restarts() const { return restarts_; }
 
@@ -73,6 +76,7 @@ class PointCase {
   BaseCase facts_;
   bool crumpled_ = false;  // a piece starts crumpled, by its seed
   bool restarts_ = false;
+  bool has_passage_ = false, has_exit_ = false;                   // [passage]; an exit plane in [observe]
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
   Vec3 right_, up_;                                               // of the camera

@@ -29,21 +29,22 @@ double stuck(const PassageResult& passage) { return words_of(passage.outcome).is
 double exited(const PassageResult& passage) { return passage.outcome == Outcome::exited ? 1 : 0; }
 
 constexpr std::array table{
-    ObservableRecord{"x", "m", Measure::position, 0, position<0>, false, "centre of mass"},
-    ObservableRecord{"y", "m", Measure::position, 1, position<1>, false, "centre of mass"},
-    ObservableRecord{"z", "m", Measure::position, 2, position<2>, false, "centre of mass"},
-    ObservableRecord{"vx", "m/s", Measure::velocity, 0, velocity<0>, false, "velocity of the centre of mass"},
-    ObservableRecord{"vy", "m/s", Measure::velocity, 1, velocity<1>, false, "velocity of the centre of mass"},
-    ObservableRecord{"vz", "m/s", Measure::velocity, 2, velocity<2>, false, "velocity of the centre of mass"},
-    ObservableRecord{"area", "m2", Measure::area, -1, area, false, "area in the picture"},
-    ObservableRecord{"elongation_ratio", "1", Measure::ratio, -1, elongation_ratio, false,
+    ObservableRecord{"x", "m", Measure::position, 0, position<0>, Needs::nothing, "centre of mass"},
+    ObservableRecord{"y", "m", Measure::position, 1, position<1>, Needs::nothing, "centre of mass"},
+    ObservableRecord{"z", "m", Measure::position, 2, position<2>, Needs::nothing, "centre of mass"},
+    ObservableRecord{"vx", "m/s", Measure::velocity, 0, velocity<0>, Needs::nothing, "velocity of the centre of mass"},
+    ObservableRecord{"vy", "m/s", Measure::velocity, 1, velocity<1>, Needs::nothing, "velocity of the centre of mass"},
+    ObservableRecord{"vz", "m/s", Measure::velocity, 2, velocity<2>, Needs::nothing, "velocity of the centre of mass"},
+    ObservableRecord{"area", "m2", Measure::area, -1, area, Needs::nothing, "area in the picture"},
+    ObservableRecord{"elongation_ratio", "1", Measure::ratio, -1, elongation_ratio, Needs::nothing,
                      "long over short axis of the ellipse in the picture"},
-    ObservableRecord{"orientation", "rad", Measure::axis_angle, -1, orientation, false, "direction of the long axis in the picture"},
-    ObservableRecord{"retention_time", "s", Measure::duration, -1, retention_time, false, "from wholly in to wholly out"},
-    ObservableRecord{"time_to_enter", "s", Measure::duration, -1, time_to_enter, true, "from the first particle in to wholly in"},
-    ObservableRecord{"recirculations", "1", Measure::count, -1, recirculations, true, "passes of the tongue back into the volute"},
-    ObservableRecord{"stuck", "1", Measure::event, -1, stuck, true, "1: it is stuck on the tongue or the impeller at the end"},
-    ObservableRecord{"exited", "1", Measure::event, -1, exited, false, "1: it is wholly out at the end"},
+    ObservableRecord{"orientation", "rad", Measure::axis_angle, -1, orientation, Needs::nothing,
+                     "direction of the long axis in the picture"},
+    ObservableRecord{"retention_time", "s", Measure::duration, -1, retention_time, Needs::planes, "from wholly in to wholly out"},
+    ObservableRecord{"time_to_enter", "s", Measure::duration, -1, time_to_enter, Needs::pump, "from the first particle in to wholly in"},
+    ObservableRecord{"recirculations", "1", Measure::count, -1, recirculations, Needs::pump, "passes of the tongue back into the volute"},
+    ObservableRecord{"stuck", "1", Measure::event, -1, stuck, Needs::pump, "1: it is stuck on the tongue or the impeller at the end"},
+    ObservableRecord{"exited", "1", Measure::event, -1, exited, Needs::nothing, "1: it is wholly out at the end"},
 };
 
 }  // namespace

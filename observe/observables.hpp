@@ -24,13 +24,16 @@ using Reading = std::variant<double (*)(const Motion&), double (*)(const Silhoue
 /// What kind of number it is: how a camera's scale changes it, and how it is averaged.
 enum class Measure { position, velocity, area, ratio, axis_angle, duration, count, event };
 
+/// What of the case defines it: nothing more; planes through which a piece comes in and goes out; the flanges and the tongue of a pump.
+enum class Needs { nothing, planes, pump };
+
 struct ObservableRecord {
   const char* id;
   const char* unit;  // SI, as in the monitors of a run
   Measure measure;
   int axis;  // of a position or velocity: 0, 1, 2 along x, y, z; -1: none
   Reading read;
-  bool needs_pump;  // it is defined by the table [passage]
+  Needs needs;
   const char* meaning;
 
   bool is_of_picture() const { return std::holds_alternative<double (*)(const Silhouette&)>(read); }

@@ -45,7 +45,7 @@ void PassageTracker::add(const RagSnapshot& seen, double time, double step) {
   angle_ = before + std::remainder(seen.angle - before, two_pi), is_seen_ = true;
   enter(seen, time);
   if (sense_ != 0 && wholly_in_ >= 0 && !was_out) pass_tongue(seen, before, time);
-  leave(seen, time);
+  leave(seen, time, step);
 
   if (std::ranges::any_of(seen.touched.values, std::identity())) wall_contact_ += step;
   for (const WallRegion region : wall_regions) {
@@ -91,9 +91,9 @@ void PassageTracker::pass_tongue(const RagSnapshot& seen, double before, double 
   }
 }
 
-void PassageTracker::leave(const RagSnapshot& seen, double time) {
+void PassageTracker::leave(const RagSnapshot& seen, double time, double step) {
   if (reached_outlet_ < 0 && seen.n_out > 0) reached_outlet_ = time, note(PassageEvent::reached_outlet, time);
-  if (exited_ < 0 && seen.n_out == seen.n) exited_ = time, note(PassageEvent::exited, time);
+  if (exited_ < 0 && seen.n_out == seen.n) exited_ = time - (1 - seen.out_after) * step, note(PassageEvent::exited, exited_);
 }
 
 Outcome PassageTracker::outcome() const {
@@ -118,10 +118,10 @@ PassageResult PassageTracker::verdict() const {
     if (sense_ != 0) v.events.back().angle = degrees * entry.angle;
   }
   v.exited = exited_at();
+  if (passageway_ != Passageway::openings && wholly_in_ >= 0 && exited_ >= 0) v.retention_time = exited_ - wholly_in_;
   if (sense_ == 0) return v;
   if (entered_ >= 0) v.entered = entered_;
   if (wholly_in_ >= 0) v.time_to_enter = wholly_in_ - entered_;
-  if (wholly_in_ >= 0 && exited_ >= 0) v.retention_time = exited_ - wholly_in_;
   v.recirculations = n_recirculations_;
   v.stuck_on_tongue = contact_[WallRegion::tongue].stuck_time(), v.stuck_on_impeller = contact_[WallRegion::impeller].stuck_time();
   v.tongue_contact = contact_[WallRegion::tongue].contact;

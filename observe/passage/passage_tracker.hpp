@@ -15,8 +15,11 @@
 //                      the contact begins anew
 //   reached the outlet the first particle is out;      exited   all of them are
 //
-// Without a pump only the last two are told. Times are ends of steps; a rag touches a wall for the whole of a step in which it touches it
-// at all.
+// Without a pump only the last two are told. Times are ends of steps, but for an exit whose place in the step is seen; a rag touches a wall
+// for the whole of a step in which it touches it at all.
+//
+// Runs in a folder show it the particles (simulation/setup/passage.hpp), pictures their pixels (observe/passage/volute_watch.hpp), runs in
+// memory the centre of mass (casework/exit_watch.hpp).
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -39,11 +42,16 @@ struct ByRegion {
   const T& operator[](WallRegion region) const { return values[static_cast<std::size_t>(region)]; }
 };
 
+/// What says where a rag is: flanges and tongue of a pump; a plane that it leaves by, where it is wholly in from the start; openings of a
+/// mesh, which define no retention time.
+enum class Passageway { pump, plane, openings };
+
 /// One rag at the end of a step, the same on every rank. Particles are counted; without a pump only n, n_upstream, n_out, contact and
 /// tension are known.
 struct RagSnapshot {
   std::int64_t n = 0;  // that exist; none: it is not in the run yet
   std::int64_t n_upstream = 0, n_out = 0;
+  double out_after = 1;  // share of the step after which all were out; 1: its end, also where it is not resolved
   std::int64_t n_in_discharge = 0, n_outside_impeller = 0;
   std::int64_t n_past_inside = 0, n_past_outside = 0;  // within a quarter turn past the tongue's angle: not in the discharge, in it
   ByRegion<std::int64_t> touching;                     // at the end of the step
@@ -58,8 +66,8 @@ struct RagSnapshot {
 class PassageTracker {
  public:
   /// `sense` of the impeller: +1 towards larger angles, -1 towards smaller; 0: no pump. `impeller_speed` with that sign, rad/s.
-  explicit PassageTracker(int sense, double impeller_speed = 0)
-      : sense_(sense), impeller_speed_(impeller_speed), is_upstream_(sense != 0) {}
+  explicit PassageTracker(Passageway passageway, int sense = 0, double impeller_speed = 0)
+      : passageway_(passageway), sense_(sense), impeller_speed_(impeller_speed), is_upstream_(sense != 0) {}
 
   /// The step of length `step` (s) that ended at `time`.
   void add(const RagSnapshot& seen, double time, double step);
@@ -96,11 +104,12 @@ class PassageTracker {
   void note(PassageEvent what, double time) { log_.push_back({time, angle_, what}); }
   void enter(const RagSnapshot& seen, double time);
   void pass_tongue(const RagSnapshot& seen, double before, double time);
-  void leave(const RagSnapshot& seen, double time);
+  void leave(const RagSnapshot& seen, double time, double step);
   Outcome outcome() const;
   template <class Self, class Visit>
   static void for_numbers(Self& self, const Visit& visit);
 
+  Passageway passageway_;
   int sense_;
   double impeller_speed_;  // rad/s
   std::vector<Entry> log_;

@@ -30,7 +30,7 @@ PassageGeometry geometry_of(const Camera& camera) {
 
 }  // namespace
 
-VoluteWatch::VoluteWatch(const Camera& camera) : geometry_(geometry_of(camera)), tracker_(geometry_.sense()) {}
+VoluteWatch::VoluteWatch(const Camera& camera) : geometry_(geometry_of(camera)), tracker_(Passageway::pump, geometry_.sense()) {}
 
 RagSnapshot VoluteWatch::sighting(const Blob& blob) const {
   RagSnapshot seen;

@@ -34,9 +34,4 @@ View ObserveSettings::view() const {
   return {x, y};
 }
 
-std::optional<double> ObserveSettings::beyond_exit(const Vec3& centre) const {
-  if (norm(exit_normal) == 0) return {};
-  return dot(centre - exit_point, unit(exit_normal));
-}
-
 }  // namespace snag

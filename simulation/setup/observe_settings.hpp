@@ -1,6 +1,5 @@
 #pragma once
 // [observe]: where the virtual camera of a case stands, and where a piece counts as gone in a flow without openings.
-#include <optional>
 #include <string>
 
 #include "base/parameter.hpp"
@@ -16,8 +15,9 @@ struct ObserveSettings {
   Section section();
   /// Unit vectors at right angles; throws Error(usage) if the two directions are parallel or zero.
   View view() const;
-  /// Way beyond the exit, m; nothing without an exit.
-  std::optional<double> beyond_exit(const Vec3& centre) const;
+  bool has_exit() const { return norm(exit_normal) > 0; }
+  /// Distance beyond the exit plane, m.
+  double beyond_exit(const Vec3& centre) const { return dot(centre - exit_point, unit(exit_normal)); }
   bool has_window() const { return norm(window_upper - window_lower) > 0; }
   bool in_window(const Vec3& centre) const;
 };

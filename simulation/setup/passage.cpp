@@ -73,7 +73,8 @@ Passage::Passage(MPI_Comm comm, std::vector<Opening> openings, std::optional<Pas
     : comm_(comm),
       openings_(std::move(openings)),
       geometry_(std::move(geometry)),
-      trackers_(n_rags, geometry_ ? PassageTracker(geometry_->sense(), geometry_->speed()) : PassageTracker(0)),
+      trackers_(n_rags, geometry_ ? PassageTracker(Passageway::pump, geometry_->sense(), geometry_->speed())
+                                  : PassageTracker(Passageway::openings)),
       sightings_(n_rags),
       states_(n_rags),
       n_out_(n_rags),
