@@ -113,39 +113,19 @@ void CoupledSolver::write_report(double dt) {
   report_.particles_outside = kernel_->n_outside();
 }
 
-std::vector<std::string> CoupledSolver::columns() {
-  return {"time [s]",
-          "force_on_rags_x [N]",
-          "force_on_rags_y [N]",
-          "force_on_rags_z [N]",
-          "force_on_water_x [N]",
-          "force_on_water_y [N]",
-          "force_on_water_z [N]",
-          "momentum_exchange_rel [1]",
-          "max_solid_fraction [1]",
-          "max_drag_number [1]",
-          "max_stiffness [1]",
-          "kernel_width_over_cell_least [1]",
-          "kernel_width_over_cell_largest [1]",
-          "particles_outside_cells [1]"};
-}
-
-std::vector<double> CoupledSolver::record() const {
-  const CouplingReport& r = report_;
-  return {r.time,
-          r.force_on_rags.x,
-          r.force_on_rags.y,
-          r.force_on_rags.z,
-          r.force_on_water.x,
-          r.force_on_water.y,
-          r.force_on_water.z,
-          r.momentum_exchange,
-          r.max_solid_fraction,
-          r.max_drag_number,
-          r.max_stiffness,
-          r.width_over_cell_least,
-          r.width_over_cell_largest,
-          static_cast<double>(r.particles_outside)};
+std::vector<Column<CouplingReport>> CoupledSolver::columns() {
+  using Report = const CouplingReport&;
+  std::vector<Column<CouplingReport>> all{{"time", "s", [](Report r) { return r.time; }}};
+  add_components(all, "force_on_rags_", "", "N", [](Report r) { return r.force_on_rags; });
+  add_components(all, "force_on_water_", "", "N", [](Report r) { return r.force_on_water; });
+  all.insert(all.end(), {{"momentum_exchange_rel", "1", [](Report r) { return r.momentum_exchange; }},
+                         {"max_solid_fraction", "1", [](Report r) { return r.max_solid_fraction; }},
+                         {"max_drag_number", "1", [](Report r) { return r.max_drag_number; }},
+                         {"max_stiffness", "1", [](Report r) { return r.max_stiffness; }},
+                         {"kernel_width_over_cell_least", "1", [](Report r) { return r.width_over_cell_least; }},
+                         {"kernel_width_over_cell_largest", "1", [](Report r) { return r.width_over_cell_largest; }},
+                         {"particles_outside_cells", "1", [](Report r) { return static_cast<double>(r.particles_outside); }}});
+  return all;
 }
 
 void CoupledSolver::save(CheckpointWriter& writer) const {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/monitor.hpp"
 #include "coupling/cell_owner.hpp"
 #include "coupling/coupling_settings.hpp"
 #include "coupling/exchange.hpp"
@@ -53,9 +54,8 @@ class CoupledSolver {
   /// on the water (weight, buoyancy, pressure gradient). Empty before the first step.
   const std::vector<Vec3>& impulses() const { return impulses_; }
 
-  /// Columns of monitors/coupling.csv, and the record of the last step.
-  static std::vector<std::string> columns();
-  std::vector<double> record() const;
+  /// Columns of monitors/coupling.csv, of a report.
+  static std::vector<Column<CouplingReport>> columns();
 
   /// What the next step needs of the last one. Flow and rags save themselves and are loaded before. Collective; throws Error(io).
   void save(CheckpointWriter& writer) const;

@@ -10,7 +10,6 @@
 #include "parallel/sum.hpp"
 #include "simulation/setup/checks.hpp"
 #include "solver/fields/rotating_zone.hpp"
-#include "solver/monitors.hpp"
 
 namespace snag {
 
@@ -24,17 +23,50 @@ constexpr int default_n_fields = 20, default_n_rag_pictures = 100;
 const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
                                     "checkpoint",         "pictures"};
 
-std::vector<std::string> residual_columns() {
-  return {"time [s]",
-          "time_step [1]",
-          "courant_max [1]",
-          "courant_mean [1]",
-          "momentum_residual [1]",
-          "momentum_sweeps_iterations [1]",
-          "pressure_residual [1]",
-          "pressure_iterations [1]",
-          "continuity_local [1]",
-          "continuity_global [m3/s]"};
+std::vector<Column<WaterRecord>> residual_columns() {
+  using Record = const WaterRecord&;
+  return {{"time", "s", [](Record r) { return r.time; }},
+          {"time_step", "1", [](Record r) { return static_cast<double>(r.time_step); }},
+          {"courant_max", "1", [](Record r) { return r.step.courant_max; }},
+          {"courant_mean", "1", [](Record r) { return r.step.courant_mean; }},
+          {"momentum_residual", "1", [](Record r) { return r.outer.momentum.final; }},
+          {"momentum_sweeps_iterations", "1", [](Record r) { return static_cast<double>(r.outer.momentum.sweeps); }},
+          {"pressure_residual", "1", [](Record r) { return r.outer.continuity.final; }},
+          {"pressure_iterations", "1", [](Record r) { return static_cast<double>(r.outer.continuity.iterations); }},
+          {"continuity_local", "1", [](Record r) { return r.step.continuity_local; }},
+          {"continuity_global", "m3/s", [](Record r) { return r.step.continuity_global; }}};
+}
+
+std::vector<Column<PatchRecord>> patch_columns(const Mesh& mesh) {
+  using Record = const PatchRecord&;
+  std::vector<Column<PatchRecord>> all{{"time", "s", [](Record r) { return r.time; }}};
+  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
+    const std::string& name = mesh.patches[p].name;
+    all.push_back({name + "_flow", "m3/s", [p](Record r) { return r.flow[p]; }});
+    all.push_back({name + "_pressure", "Pa", [p](Record r) { return r.pressure[p]; }});
+    add_components(all, name + "_force_", "", "N", [p](Record r) { return r.force[p]; });
+  }
+  return all;
+}
+
+std::vector<Column<SilhouetteRecord>> silhouette_columns() {
+  using Record = const SilhouetteRecord&;
+  return {{"time", "s", [](Record r) { return r.time; }},
+          {"rag", "1", [](Record r) { return static_cast<double>(r.rag); }},
+          {"area", "m2", [](Record r) { return r.seen.area; }},
+          {"x", "m", [](Record r) { return r.seen.x; }},
+          {"y", "m", [](Record r) { return r.seen.y; }},
+          {"elongation_ratio", "1", [](Record r) { return r.seen.elongation_ratio; }},
+          {"orientation", "rad", [](Record r) { return r.seen.orientation; }}};
+}
+
+std::vector<Column<EffortRecord>> timing_columns() {
+  using Record = const EffortRecord&;
+  return {{"time", "s", [](Record r) { return r.time; }},
+          {"flow_s", "s", [](Record r) { return r.spent.flow; }},
+          {"dem_s", "s", [](Record r) { return r.spent.rags; }},
+          {"coupling_s", "s", [](Record r) { return r.spent.coupling; }},
+          {"output_s", "s", [](Record r) { return r.spent.output; }}};
 }
 
 /// Walls on which a turbulence model gives y+. Collective.
@@ -46,11 +78,13 @@ std::vector<int> walls_with_y_plus(const FlowSolver& water) {
   return walls;
 }
 
-std::vector<std::string> wall_columns(const Mesh& mesh, const std::vector<int>& walls) {
-  std::vector<std::string> columns{"time [s]"};
-  for (const int p : walls)
-    for (const char* end : {"_y_plus_min [1]", "_y_plus_mean [1]", "_y_plus_max [1]"}) columns.push_back(mesh.patches[p].name + end);
-  return columns;
+std::vector<Column<WallRecord>> wall_columns(const Mesh& mesh, const std::vector<int>& walls) {
+  using Record = const WallRecord&;
+  std::vector<Column<WallRecord>> all{{"time", "s", [](Record r) { return r.time; }}};
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    for (const auto& [end, value] : {std::pair{"min", &YPlus::lowest}, {"mean", &YPlus::mean}, {"max", &YPlus::highest}})
+      all.push_back({mesh.patches[walls[w]].name + "_y_plus_" + end, "1", [w, value = value](Record r) { return r.y_plus[w].*value; }});
+  return all;
 }
 
 /// The code of a run: that of the first check that fails where all else went well. Says which.
@@ -107,24 +141,17 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   together(MPI_COMM_WORLD, [&] {
     if (!root) return;
     write_atomically(folder_ / "case.resolved.toml", file.resolved());
-    const auto open = [&](const std::string& name, const std::vector<std::string>& columns) {
-      return Series(folder_ / "monitors" / (name + ".csv"), columns, resume, from);
+    const auto open = [&]<class Record>(Monitor<Record>& monitor, const char* name, std::vector<Column<Record>> columns) {
+      monitor = Monitor<Record>(folder_ / "monitors" / name, std::move(columns), resume, from);
     };
-    timing_ = open("timing", {"time [s]", "flow_s [s]", "dem_s [s]", "coupling_s [s]", "output_s [s]"});
+    open(timing_, "timing.csv", timing_columns());
     if (simulation.water) {
-      residuals_ = open("residuals", residual_columns());
-      std::vector<std::string> columns{"time [s]"};
-      for (const Patch& patch : simulation.mesh->patches) {
-        for (const char* quantity : {"_flow [m3/s]", "_pressure [Pa]", "_force_x [N]", "_force_y [N]", "_force_z [N]"})
-          columns.push_back(patch.name + quantity);
-      }
-      patches_ = open("patches", columns);
-      if (!walls_with_y_plus_.empty()) wall_ = open("wall", wall_columns(*simulation.mesh, walls_with_y_plus_));
+      open(residuals_, "residuals.csv", residual_columns());
+      open(patches_, "patches.csv", patch_columns(*simulation.mesh));
+      if (!walls_with_y_plus_.empty()) open(wall_, "wall.csv", wall_columns(*simulation.mesh, walls_with_y_plus_));
     }
-    if (simulation.rags)
-      silhouettes_ =
-          open("silhouettes", {"time [s]", "rag [1]", "area [m2]", "x [m]", "y [m]", "elongation_ratio [1]", "orientation [rad]"});
-    if (simulation.coupled) coupling_ = open("coupling", CoupledSolver::columns());
+    if (simulation.rags) open(silhouettes_, "silhouettes.csv", silhouette_columns());
+    if (simulation.coupled) open(coupling_, "coupling.csv", CoupledSolver::columns());
   });
   if (simulation.water) {
     fields_ =
@@ -178,7 +205,7 @@ void Outputs::write_rags() {
   for (std::size_t rag = 0; rag < rag_output_->silhouettes().size(); ++rag) {
     const Silhouette& seen = rag_output_->silhouettes()[rag];
     if (elongation_at_start_[rag] == 0 && seen.area > 0) elongation_at_start_[rag] = seen.elongation_ratio;
-    silhouettes_.add({simulation_.time(), static_cast<double>(rag), seen.area, seen.x, seen.y, seen.elongation_ratio, seen.orientation});
+    silhouettes_.add({simulation_.time(), rag, seen});
   }
 }
 
@@ -194,13 +221,13 @@ void Outputs::write_monitors() {
   }
   if (simulation_.coupled) {
     largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
-    if (root) coupling_.add(simulation_.coupled->record());
+    if (root) coupling_.add(simulation_.coupled->report());
   }
   const Effort spent = effort();
-  if (root) timing_.add({time, spent.flow, spent.rags, spent.coupling, spent.output});
+  if (root) timing_.add({time, spent});
 }
 
-Outputs::Effort Outputs::effort() const {
+Effort Outputs::effort() const {
   Effort all = effort_before_;
   const auto spent = simulation_.seconds();
   all.wall += MPI_Wtime() - begun_;
@@ -210,7 +237,8 @@ Outputs::Effort Outputs::effort() const {
 }
 
 std::vector<const Series*> Outputs::series() const {
-  std::vector<const Series*> all{&residuals_, &patches_, &wall_, &silhouettes_, &coupling_, &timing_};
+  std::vector<const Series*> all{&residuals_.series(),   &patches_.series(),  &wall_.series(),
+                                 &silhouettes_.series(), &coupling_.series(), &timing_.series()};
   const auto append = [&](const std::vector<const Series*>& more) { all.insert(all.end(), more.begin(), more.end()); };
   if (rag_monitors_) append(rag_monitors_->series());
   if (pump_) append(pump_->series());
@@ -225,32 +253,25 @@ void Outputs::sync() const {
 
 void Outputs::write_water_monitors() {
   const StepReport& report = simulation_.flow_report;
-  std::vector<double> patches{simulation_.time()};
+  PatchRecord patches{.time = simulation_.time(), .flow = {}, .pressure = {}, .force = {}};
   double through = 0;
   const Flow& flow = simulation_.water->flow;
   for (int p = 0; p < static_cast<int>(simulation_.mesh->patches.size()); ++p) {
-    const double rate = flow_rate(flow, p);
-    const Vec3 force = patch_force(flow, p, {}).force();
-    patches.insert(patches.end(), {rate, mean_pressure(flow, p), force.x, force.y, force.z});
-    through += std::abs(rate) / 2;
+    patches.flow.push_back(flow_rate(flow, p)), patches.force.push_back(patch_force(flow, p, {}).force());
+    patches.pressure.push_back(mean_pressure(flow, p));
+    through += std::abs(patches.flow.back()) / 2;
   }
   largest_through_ = std::max(largest_through_, through);
   if (!report.outer.empty()) largest_imbalance_ = std::max(largest_imbalance_, report.outer.back().continuity.final);
   if (rank_of(MPI_COMM_WORLD) != 0) return;
   patches_.add(patches);
   if (report.outer.empty()) return;
-  const OuterReport& last = report.outer.back();
-  residuals_.add({simulation_.time(), static_cast<double>(simulation_.time_step()), report.courant_max, report.courant_mean,
-                  last.momentum.final, static_cast<double>(last.momentum.sweeps), last.continuity.final,
-                  static_cast<double>(last.continuity.iterations), report.continuity_local, report.continuity_global});
+  residuals_.add({simulation_.time(), simulation_.time_step(), report, report.outer.back()});
 }
 
 void Outputs::write_wall_monitors() {
-  std::vector<double> record{simulation_.time()};
-  for (const int patch : walls_with_y_plus_) {
-    const YPlus found = y_plus_of(simulation_.water->flow, patch);
-    record.insert(record.end(), {found.lowest, found.mean, found.highest});
-  }
+  WallRecord record{.time = simulation_.time(), .y_plus = {}};
+  for (const int patch : walls_with_y_plus_) record.y_plus.push_back(y_plus_of(simulation_.water->flow, patch));
   if (rank_of(MPI_COMM_WORLD) == 0) wall_.add(record);
 }
 

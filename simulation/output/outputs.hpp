@@ -6,13 +6,14 @@
 
 #include "base/atomic_file.hpp"
 #include "base/case_file.hpp"
-#include "base/series.hpp"
+#include "base/monitor.hpp"
 #include "simulation/output/field_output.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/rag_monitors.hpp"
 #include "simulation/output/rag_output.hpp"
 #include "simulation/output/summary.hpp"
 #include "simulation/setup/simulation.hpp"
+#include "solver/monitors.hpp"
 
 namespace snag {
 
@@ -22,6 +23,44 @@ void check_output_folder(const std::filesystem::path& folder, bool resume, bool 
 
 /// Makes the folder and its sub-folders; removes the results of an earlier run if `fresh`. Rank 0 only; throws Error(io).
 void prepare_output_folder(const std::filesystem::path& folder, bool fresh);
+
+/// Of the last outer corrector of a step.
+struct WaterRecord {
+  double time = 0;  // s
+  std::int64_t time_step = 0;
+  StepReport step;
+  OuterReport outer;
+};
+
+/// What the water does at each patch of the mesh, m3/s, Pa, N.
+struct PatchRecord {
+  double time = 0;  // s
+  std::vector<double> flow, pressure;
+  std::vector<Vec3> force;
+};
+
+/// y+ on each wall of a turbulence model.
+struct WallRecord {
+  double time = 0;  // s
+  std::vector<YPlus> y_plus;
+};
+
+struct SilhouetteRecord {
+  double time = 0;  // s
+  std::size_t rag = 0;
+  Silhouette seen;
+};
+
+/// Wall clock and work that led to a state, in all processes of the run.
+struct Effort {
+  double wall = 0, flow = 0, rags = 0, coupling = 0, output = 0;  // s
+  double particle_steps = 0;
+};
+
+struct EffortRecord {
+  double time = 0;  // s
+  Effort spent;
+};
 
 class Outputs {
  public:
@@ -42,11 +81,6 @@ class Outputs {
   void load(CheckpointReader& reader);
 
  private:
-  /// Wall clock and work that led to the present state, in all processes of the run.
-  struct Effort {
-    double wall = 0, flow = 0, rags = 0, coupling = 0, output = 0;  // s
-    double particle_steps = 0;
-  };
   Effort effort() const;
   /// Open on rank 0.
   std::vector<const Series*> series() const;
@@ -64,7 +98,13 @@ class Outputs {
   std::filesystem::path folder_;
   const CaseFile& file_;
   Simulation& simulation_;
-  Series residuals_, patches_, wall_, silhouettes_, coupling_, timing_;  // open on rank 0
+  // open on rank 0
+  Monitor<WaterRecord> residuals_;
+  Monitor<PatchRecord> patches_;
+  Monitor<WallRecord> wall_;
+  Monitor<SilhouetteRecord> silhouettes_;
+  Monitor<CouplingReport> coupling_;
+  Monitor<EffortRecord> timing_;
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<WallOutput> walls_;
   std::unique_ptr<RagMonitors> rag_monitors_;

@@ -1,6 +1,7 @@
 #include "simulation/output/pump_output.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,47 +19,76 @@ constexpr std::size_t n_bins = 72;       // of 5 degrees
 constexpr std::size_t n_harmonics = 3;   // written
 constexpr double settled_change = 0.02;  // of the means of head and torque from a revolution to the next
 
-// Quantities of one instant in the order of the columns; those of the machine's balance by name.
-const std::vector<std::string>& quantities() {
-  static const std::vector<std::string> names = {"flow_in [m3/s]",        "flow_out [m3/s]",       "head [m]",     "head_total [m]",
-                                                 "torque_pressure [N m]", "torque_friction [N m]", "torque [N m]", "shaft_power [W]",
-                                                 "hydraulic_power [W]",   "efficiency [1]"};
-  return names;
-}
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+  double (*value)(const PumpReading&);
+};
+
+/// Of one instant, in the order of the columns; those of the machine's balance by name.
+constexpr std::array quantities{Quantity{"flow_in", "m3/s", [](const PumpReading& now) { return now.flow_in; }},
+                                Quantity{"flow_out", "m3/s", [](const PumpReading& now) { return now.flow_out; }},
+                                Quantity{"head", "m", [](const PumpReading& now) { return now.head; }},
+                                Quantity{"head_total", "m", [](const PumpReading& now) { return now.head_total; }},
+                                Quantity{"torque_pressure", "N m", [](const PumpReading& now) { return now.torque_pressure; }},
+                                Quantity{"torque_friction", "N m", [](const PumpReading& now) { return now.torque_friction; }},
+                                Quantity{"torque", "N m", [](const PumpReading& now) { return now.torque(); }},
+                                Quantity{"shaft_power", "W", [](const PumpReading& now) { return now.shaft_power; }},
+                                Quantity{"hydraulic_power", "W", [](const PumpReading& now) { return now.hydraulic_power; }},
+                                Quantity{"efficiency", "1", [](const PumpReading& now) { return now.efficiency(); }}};
 enum : std::size_t { flow_out = 1, head = 2, head_total = 3, torque = 6, shaft_power = 7, hydraulic_power = 8, efficiency = 9 };
 
 std::vector<double> values_of(const PumpReading& now) {
-  return {now.flow_in,         now.flow_out, now.head,        now.head_total,      now.torque_pressure,
-          now.torque_friction, now.torque(), now.shaft_power, now.hydraulic_power, now.efficiency()};
+  std::vector<double> values;
+  for (const Quantity& quantity : quantities) values.push_back(quantity.value(now));
+  return values;
 }
 
 /// Of all quantities; efficiency is the mean hydraulic over the mean shaft power.
 std::vector<double> means_of(const Revolution& revolution) {
   std::vector<double> means;
-  for (std::size_t q = 0; q < quantities().size(); ++q) means.push_back(revolution_mean(revolution, q));
+  for (std::size_t q = 0; q < quantities.size(); ++q) means.push_back(revolution_mean(revolution, q));
   means[efficiency] = PumpReading::efficiency_of(means[hydraulic_power], means[shaft_power]);
   return means;
 }
 
-std::vector<std::string> instant_columns() {
-  std::vector<std::string> columns{"time [s]", "angle [deg]", "revolutions [1]"};
-  columns.insert(columns.end(), quantities().begin(), quantities().end());
-  return columns;
+std::vector<Column<PumpInstant>> instant_columns() {
+  using Record = const PumpInstant&;
+  std::vector<Column<PumpInstant>> all{{"time", "s", [](Record r) { return r.time; }},
+                                       {"angle", "deg", [](Record r) { return degrees * r.angle; }},
+                                       {"revolutions", "1", [](Record r) { return r.revolutions; }}};
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    all.push_back({quantities[q].name, quantities[q].unit, [q](Record r) { return r.values[q]; }});
+  return all;
 }
 
-std::vector<std::string> revolution_columns() {
-  std::vector<std::string> columns{"time [s]", "revolution [1]"};
-  columns.insert(columns.end(), quantities().begin(), quantities().end());
-  for (const char* column : {"start_up [1]", "head_change_rel [1]", "torque_change_rel [1]", "head_noise [m]"})
-    columns.emplace_back(column);
-  for (const auto& [name, unit] : {std::pair<std::string, std::string>{"head", "m"}, {"torque", "N m"}}) {
-    for (const char* end : {"_min", "_max"}) columns.push_back(name + end + " [" + unit + "]");
-    for (std::size_t n = 1; n <= n_harmonics; ++n) {
-      columns.push_back(name + "_harmonic_" + std::to_string(n) + " [" + unit + "]");
-      columns.push_back(name + "_phase_" + std::to_string(n) + " [deg]");
-    }
+/// Columns of what swings within a revolution.
+void add_swing(std::vector<Column<RevolutionRecord>>& all, std::size_t quantity, RevolutionRecord::Swing RevolutionRecord::*swing) {
+  using Record = const RevolutionRecord&;
+  const std::string name = quantities[quantity].name, unit = quantities[quantity].unit;
+  all.push_back({name + "_min", unit, [swing](Record r) { return (r.*swing).range.lowest; }});
+  all.push_back({name + "_max", unit, [swing](Record r) { return (r.*swing).range.highest; }});
+  for (std::size_t n = 0; n < n_harmonics; ++n) {
+    const std::string number = std::to_string(n + 1);
+    all.push_back({name + "_harmonic_" + number, unit, [swing, n](Record r) { return (r.*swing).harmonics[n].amplitude; }});
+    all.push_back({name + "_phase_" + number, "deg", [swing, n](Record r) { return degrees * (r.*swing).harmonics[n].phase; }});
   }
-  return columns;
+}
+
+std::vector<Column<RevolutionRecord>> revolution_columns() {
+  using Record = const RevolutionRecord&;
+  std::vector<Column<RevolutionRecord>> all{{"time", "s", [](Record r) { return r.time; }},
+                                            {"revolution", "1", [](Record r) { return static_cast<double>(r.number); }}};
+  for (std::size_t q = 0; q < quantities.size(); ++q)
+    all.push_back({quantities[q].name, quantities[q].unit, [q](Record r) { return r.means[q]; }});
+  all.insert(all.end(), {{"start_up", "1", [](Record r) { return r.is_start_up ? 1.0 : 0.0; }},
+                         {"head_change_rel", "1", [](Record r) { return r.head.change; }},
+                         {"torque_change_rel", "1", [](Record r) { return r.torque.change; }},
+                         {"head_noise", "m", [](Record r) { return r.head_noise; }}});
+  add_swing(all, head, &RevolutionRecord::head), add_swing(all, torque, &RevolutionRecord::torque);
+  return all;
 }
 
 double reduced(double angle) {
@@ -79,8 +109,8 @@ PumpOutput::PumpOutput(std::filesystem::path monitors, const Flow& flow, const P
       phase_(n_bins, 2) {
   together(flow.mesh.comm, [&] {
     if (!root_) return;
-    instants_ = Series(folder_ / "pump.csv", instant_columns(), resume, from_time);
-    revolutions_ = Series(folder_ / "revolutions.csv", revolution_columns(), resume, from_time);
+    instants_ = Monitor<PumpInstant>(folder_ / "pump.csv", instant_columns(), resume, from_time);
+    revolutions_ = Monitor<RevolutionRecord>(folder_ / "revolutions.csv", revolution_columns(), resume, from_time);
   });
 }
 
@@ -94,9 +124,7 @@ void PumpOutput::after_step(const Flow& flow, const RotorState& rotor) {
   speed_ = rotor.shaft.speed;
   for (const Revolution& revolution : sampler_.add(turned_, values)) complete(revolution, flow.time);
   if (!root_) return;
-  std::vector<double> record{flow.time, degrees * reduced(rotor.angle), std::abs(turned_) / two_pi};
-  record.insert(record.end(), values.begin(), values.end());
-  instants_.add(record);
+  instants_.add({flow.time, reduced(rotor.angle), std::abs(turned_) / two_pi, values});
 }
 
 /// Whether the start-up is over with this revolution.
@@ -110,30 +138,27 @@ bool PumpOutput::has_settled(const Revolution& revolution, const std::vector<dou
   return true;
 }
 
+RevolutionRecord::Swing PumpOutput::swing_of(const Revolution& revolution, const std::vector<double>& means, std::size_t quantity) const {
+  RevolutionRecord::Swing swing{.change = none, .range = revolution_extremes(revolution, quantity), .harmonics = {}};
+  if (!last_means_.empty()) swing.change = (means[quantity] - last_means_[quantity]) / std::abs(last_means_[quantity]);
+  swing.harmonics = revolution_spectrum(revolution, quantity).harmonics;
+  swing.harmonics.resize(n_harmonics, {none, none});
+  return swing;
+}
+
 void PumpOutput::complete(const Revolution& revolution, double time) {
   const std::vector<double> means = means_of(revolution);
   const bool is_start_up = !has_settled(revolution, means);
   keeps_speed_ = true;
   if (!is_start_up) phase_.add(revolution, {head, torque});
-  if (root_) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> record{time, static_cast<double>(revolution.number)};
-    record.insert(record.end(), means.begin(), means.end());
-    record.push_back(is_start_up);
-    for (const std::size_t q : {head, torque})
-      record.push_back(last_means_.empty() ? none : (means[q] - last_means_[q]) / std::abs(last_means_[q]));
-    record.push_back(revolution_spectrum(revolution, head).noise);
-    for (const std::size_t q : {head, torque}) {
-      const Extremes range = revolution_extremes(revolution, q);
-      const std::vector<Harmonic> harmonics = revolution_spectrum(revolution, q).harmonics;
-      record.insert(record.end(), {range.lowest, range.highest});
-      for (std::size_t n = 0; n < n_harmonics; ++n) {
-        const Harmonic harmonic = n < harmonics.size() ? harmonics[n] : Harmonic{none, none};  // not resolved by the steps
-        record.insert(record.end(), {harmonic.amplitude, degrees * harmonic.phase});
-      }
-    }
-    revolutions_.add(record);
-  }
+  if (root_)
+    revolutions_.add({.time = time,
+                      .number = revolution.number,
+                      .means = means,
+                      .is_start_up = is_start_up,
+                      .head_noise = revolution_spectrum(revolution, head).noise,
+                      .head = swing_of(revolution, means, head),
+                      .torque = swing_of(revolution, means, torque)});
   last_means_ = means;
 }
 

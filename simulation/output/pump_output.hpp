@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/series.hpp"
+#include "base/monitor.hpp"
 #include "simulation/output/revolution_statistics.hpp"
 #include "solver/pump_monitor.hpp"
 
@@ -35,6 +35,27 @@ struct PumpSummary {
   double revolutions = 0;  // of the whole run; below 1: the means are over it all
 };
 
+/// One instant: values in the order of the quantities of the pump.
+struct PumpInstant {
+  double time = 0, angle = 0, revolutions = 0;  // s; rad, of the rotor, reduced to a turn; turned since the start
+  std::vector<double> values;
+};
+
+/// One revolution: means in the same order; head and torque in particular.
+struct RevolutionRecord {
+  struct Swing {
+    double change = 0;  // of the mean since the revolution before, over its magnitude; NaN: there is none
+    Extremes range;
+    std::vector<Harmonic> harmonics;  // those that are written; NaN where the steps do not resolve them
+  };
+  double time = 0;  // s
+  std::int64_t number = 0;
+  std::vector<double> means;
+  bool is_start_up = false;
+  double head_noise = 0;  // m
+  Swing head, torque;
+};
+
 class PumpOutput {
  public:
   /// `start`: the rotor at time 0. Opens the monitors on rank 0; a resume keeps their lines up to from_time. Collective; throws
@@ -51,19 +72,21 @@ class PumpOutput {
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
   /// The files that are written a line a step; open on rank 0.
-  std::vector<const Series*> series() const { return {&instants_, &revolutions_}; }
+  std::vector<const Series*> series() const { return {&instants_.series(), &revolutions_.series()}; }
 
  private:
   void complete(const Revolution& revolution, double time);
+  RevolutionRecord::Swing swing_of(const Revolution& revolution, const std::vector<double>& means, std::size_t quantity) const;
   bool has_settled(const Revolution& revolution, const std::vector<double>& means) const;
 
   std::filesystem::path folder_;
   bool root_;
   PumpMonitor monitor_;
-  Series instants_, revolutions_;  // open on rank 0
-  double start_angle_, speed_;     // rad; rad/s, at the end of the last step
-  double turned_ = 0;              // rad, since the start
-  bool keeps_speed_ = true;        // the shaft, in this revolution
+  Monitor<PumpInstant> instants_;          // open on rank 0
+  Monitor<RevolutionRecord> revolutions_;  // likewise
+  double start_angle_, speed_;             // rad; rad/s, at the end of the last step
+  double turned_ = 0;                      // rad, since the start
+  bool keeps_speed_ = true;                // the shaft, in this revolution
   RevolutionSampler sampler_;
   PhaseAverage phase_;
   std::vector<double> last_means_;  // of the last complete revolution, empty before the first

@@ -12,58 +12,66 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-std::vector<std::string> rag_columns() {
-  return {"time [s]",
-          "rag [1]",
-          "x [m]",
-          "y [m]",
-          "z [m]",
-          "vx [m/s]",
-          "vy [m/s]",
-          "vz [m/s]",
-          "x_min [m]",
-          "y_min [m]",
-          "z_min [m]",
-          "x_max [m]",
-          "y_max [m]",
-          "z_max [m]",
-          "kinetic_energy [J]",
-          "bond_energy [J]",
-          "bond_strain_p99 [1]",
-          "bond_strain_max [1]",
-          "bond_tension_max [N]",
-          "broken_bonds [1]",
-          "particles_out [1]"};
+using Columns = std::vector<Column<RagRecord>>;
+using Record = const RagRecord&;
+
+double number(std::int64_t count) { return static_cast<double>(count); }
+
+Columns columns_of_a_rag() {
+  return {{"time", "s", [](Record r) { return r.time; }}, {"rag", "1", [](Record r) { return static_cast<double>(r.rag); }}};
 }
 
-std::vector<std::string> contact_columns() {
-  return {"time [s]", "contacts [1]", "wall_contacts [1]", "overlap_over_radius_max [1]", "particles_beyond_walls [1]"};
+Columns state_columns() {
+  Columns all = columns_of_a_rag();
+  add_components(all, "", "", "m", [](Record r) { return r.state.centre; });
+  add_components(all, "v", "", "m/s", [](Record r) { return r.state.velocity; });
+  add_components(all, "", "_min", "m", [](Record r) { return r.state.lower; });
+  add_components(all, "", "_max", "m", [](Record r) { return r.state.upper; });
+  all.insert(all.end(), {{"kinetic_energy", "J", [](Record r) { return r.state.kinetic_energy; }},
+                         {"bond_energy", "J", [](Record r) { return r.state.bond_energy; }},
+                         {"bond_strain_p99", "1", [](Record r) { return r.strain_p99; }},
+                         {"bond_strain_max", "1", [](Record r) { return r.state.max_bond_strain; }},
+                         {"bond_tension_max", "N", [](Record r) { return r.state.max_bond_tension; }},
+                         {"broken_bonds", "1", [](Record r) { return number(r.n_broken); }},
+                         {"particles_out", "1", [](Record r) { return number(r.n_out); }}});
+  return all;
 }
 
-std::vector<std::string> passage_columns() {
-  return {"time [s]",
-          "rag [1]",
-          "angle [deg]",
-          "radius [m]",
-          "height [m]",
-          "particles_upstream [1]",
-          "particles_in_casing [1]",
-          "particles_out [1]",
-          "touching_impeller [1]",
-          "touching_tongue [1]",
-          "touching_other_wall [1]",
-          "max_tension [N]",
-          "max_tension_x [m]",
-          "max_tension_y [m]",
-          "max_tension_z [m]"};
+std::vector<Column<ContactRecord>> contact_columns() {
+  return {{"time", "s", [](const ContactRecord& r) { return r.time; }},
+          {"contacts", "1", [](const ContactRecord& r) { return number(r.n); }},
+          {"wall_contacts", "1", [](const ContactRecord& r) { return number(r.n_of_walls); }},
+          {"overlap_over_radius_max", "1", [](const ContactRecord& r) { return r.max_overlap_over_radius; }},
+          {"particles_beyond_walls", "1", [](const ContactRecord& r) { return number(r.n_beyond_walls); }}};
 }
 
-std::vector<std::string> force_columns() {
-  std::vector<std::string> columns{"time [s]", "rag [1]"};
-  for (const char* of : {"fluid", "contact"})
-    for (const char* what : {"_mean [N]", "_p50 [N]", "_p90 [N]", "_p99 [N]", "_max [N]"}) columns.push_back(std::string(of) + what);
-  columns.emplace_back("in_contact [1]");
-  return columns;
+Columns passage_columns() {
+  Columns all = columns_of_a_rag();
+  all.insert(all.end(), {{"angle", "deg", [](Record r) { return degrees * r.angle; }},
+                         {"radius", "m", [](Record r) { return r.seen.radius; }},
+                         {"height", "m", [](Record r) { return r.seen.height; }},
+                         {"particles_upstream", "1", [](Record r) { return number(r.seen.n_upstream); }},
+                         {"particles_in_casing", "1", [](Record r) { return number(r.seen.n_in_casing()); }},
+                         {"particles_out", "1", [](Record r) { return number(r.seen.n_out); }},
+                         {"touching_impeller", "1", [](Record r) { return number(r.seen.touching[WallRegion::impeller]); }},
+                         {"touching_tongue", "1", [](Record r) { return number(r.seen.touching[WallRegion::tongue]); }},
+                         {"touching_other_wall", "1", [](Record r) { return number(r.seen.touching[WallRegion::other]); }},
+                         {"max_tension", "N", [](Record r) { return r.seen.tension; }}});
+  add_components(all, "max_tension_", "", "m", [](Record r) { return r.seen.tension_place; });
+  return all;
+}
+
+Columns force_columns() {
+  Columns all = columns_of_a_rag();
+  for (const auto& [name, of] : {std::pair{"fluid", &RagForceSpread::fluid}, {"contact", &RagForceSpread::contact}})
+    for (const auto& [what, value] : {std::pair{"_mean", &ForceSpread::mean},
+                                      {"_p50", &ForceSpread::p50},
+                                      {"_p90", &ForceSpread::p90},
+                                      {"_p99", &ForceSpread::p99},
+                                      {"_max", &ForceSpread::largest}})
+      all.push_back({std::string(name) + what, "N", [of = of, value = value](Record r) { return r.forces.*of.*value; }});
+  all.push_back({"in_contact", "1", [](Record r) { return number(r.forces.n_in_contact); }});
+  return all;
 }
 
 }  // namespace
@@ -72,10 +80,11 @@ RagMonitors::RagMonitors(const std::filesystem::path& folder, const RagSystem& r
     : with_passage_(with_passage), max_wall_overlap_(rags.rags().size()), max_bond_strain_p99_(rags.rags().size()) {
   together(rags.comm(), [&] {
     if (rank_of(rags.comm()) != 0) return;
-    const auto open = [&](const char* name, const std::vector<std::string>& columns) {
-      return Series(folder / name, columns, resume, from_time);
+    const auto open = [&](const char* name, Columns columns) {
+      return Monitor<RagRecord>(folder / name, std::move(columns), resume, from_time);
     };
-    rags_ = open("rags.csv", rag_columns()), contacts_ = open("contacts.csv", contact_columns());
+    rags_ = open("rags.csv", state_columns());
+    contacts_ = Monitor<ContactRecord>(folder / "contacts.csv", contact_columns(), resume, from_time);
     forces_ = open("rag_forces.csv", force_columns());
     if (with_passage) passage_ = open("passage.csv", passage_columns());
   });
@@ -93,51 +102,18 @@ void RagMonitors::after_step(RagSystem& rags, const Passage& passage, const RagF
   if (rank_of(rags.comm()) != 0) return;
   for (std::size_t rag = 0; rag < bonds.size(); ++rag) {
     if (passage.states()[rag].n_particles == 0) continue;
-    add_state(rag, passage, bonds[rag], strain_p99[rag], time);
-    add_forces(rag, spreads[rag], time);
-    if (with_passage_) add_passage(rag, passage, time);
+    const RagRecord record{.time = time,
+                           .rag = rag,
+                           .state = passage.states()[rag],
+                           .n_broken = bonds[rag].broken,
+                           .n_out = passage.n_out()[rag],
+                           .strain_p99 = strain_p99[rag],
+                           .forces = spreads[rag],
+                           .seen = passage.sightings()[rag],
+                           .angle = passage.tracker(rag).angle()};
+    rags_.add(record), forces_.add(record);
+    if (with_passage_) passage_.add(record);
   }
-}
-
-void RagMonitors::add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double strain_p99, double time) {
-  const RagState& s = passage.states()[rag];
-  rags_.add({time,
-             static_cast<double>(rag),
-             s.centre.x,
-             s.centre.y,
-             s.centre.z,
-             s.velocity.x,
-             s.velocity.y,
-             s.velocity.z,
-             s.lower.x,
-             s.lower.y,
-             s.lower.z,
-             s.upper.x,
-             s.upper.y,
-             s.upper.z,
-             s.kinetic_energy,
-             s.bond_energy,
-             strain_p99,
-             s.max_bond_strain,
-             s.max_bond_tension,
-             static_cast<double>(bonds.broken),
-             static_cast<double>(passage.n_out()[rag])});
-}
-
-void RagMonitors::add_passage(std::size_t rag, const Passage& passage, double time) {
-  const RagSnapshot& seen = passage.sightings()[rag];
-  std::vector<double> row{time, static_cast<double>(rag), degrees * passage.tracker(rag).angle(), seen.radius, seen.height};
-  for (const std::int64_t count : {seen.n_upstream, seen.n_in_casing(), seen.n_out}) row.push_back(static_cast<double>(count));
-  for (const WallRegion region : wall_regions) row.push_back(static_cast<double>(seen.touching[region]));
-  row.insert(row.end(), {seen.tension, seen.tension_place.x, seen.tension_place.y, seen.tension_place.z});
-  passage_.add(row);
-}
-
-void RagMonitors::add_forces(std::size_t rag, const RagForceSpread& spread, double time) {
-  std::vector<double> row{time, static_cast<double>(rag)};
-  for (const ForceSpread& s : {spread.fluid, spread.contact}) row.insert(row.end(), {s.mean, s.p50, s.p90, s.p99, s.largest});
-  row.push_back(static_cast<double>(spread.n_in_contact));
-  forces_.add(row);
 }
 
 void RagMonitors::measure_contacts(RagSystem& rags, double time) {
@@ -153,10 +129,10 @@ void RagMonitors::measure_contacts(RagSystem& rags, double time) {
   max_overlap_ = std::max(max_overlap_, extremes[0]);
   for (std::size_t rag = 0; rag < max_wall_overlap_.size(); ++rag)
     max_wall_overlap_[rag] = std::max(max_wall_overlap_[rag], extremes[1 + rag]);
-  const auto n_beyond = static_cast<double>(counts[2]);
-  most_beyond_walls_ = std::max(most_beyond_walls_, n_beyond);
+  most_beyond_walls_ = std::max(most_beyond_walls_, number(counts[2]));
   if (rank_of(rags.comm()) == 0)
-    contacts_.add({time, static_cast<double>(counts[0]), static_cast<double>(counts[1]), extremes[0], n_beyond});
+    contacts_.add(
+        {.time = time, .n = counts[0], .n_of_walls = counts[1], .n_beyond_walls = counts[2], .max_overlap_over_radius = extremes[0]});
 }
 
 std::vector<double> RagMonitors::state() const {

@@ -4,12 +4,31 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/series.hpp"
+#include "base/monitor.hpp"
 #include "dem/rag_system.hpp"
 #include "simulation/output/rag_forces.hpp"
 #include "simulation/setup/passage.hpp"
 
 namespace snag {
+
+/// Of one rag at the end of a step.
+struct RagRecord {
+  double time = 0;  // s
+  std::size_t rag = 0;
+  RagState state;
+  std::int64_t n_broken = 0, n_out = 0;  // bonds; particles beyond an outlet of the mesh
+  double strain_p99 = 0;
+  RagForceSpread forces;
+  RagSnapshot seen;
+  double angle = 0;  // of the centroid, unwrapped, rad
+};
+
+/// Of all contacts in a step.
+struct ContactRecord {
+  double time = 0;  // s
+  std::int64_t n = 0, n_of_walls = 0, n_beyond_walls = 0;
+  double max_overlap_over_radius = 0;
+};
 
 class RagMonitors {
  public:
@@ -26,15 +45,13 @@ class RagMonitors {
   std::vector<double> state() const;
   void restore(const std::vector<double>& state);
   /// The files; open on rank 0.
-  std::vector<const Series*> series() const { return {&rags_, &contacts_, &passage_, &forces_}; }
+  std::vector<const Series*> series() const { return {&rags_.series(), &contacts_.series(), &passage_.series(), &forces_.series()}; }
 
  private:
   void measure_contacts(RagSystem& rags, double time);
-  void add_state(std::size_t rag, const Passage& passage, const BondCount& bonds, double strain_p99, double time);
-  void add_passage(std::size_t rag, const Passage& passage, double time);
-  void add_forces(std::size_t rag, const RagForceSpread& spread, double time);
 
-  Series rags_, contacts_, passage_, forces_;  // open on rank 0
+  Monitor<RagRecord> rags_, passage_, forces_;  // open on rank 0
+  Monitor<ContactRecord> contacts_;
   bool with_passage_;
   double max_overlap_ = 0, most_beyond_walls_ = 0;
   std::vector<double> max_wall_overlap_, max_bond_strain_p99_;  // [n_rags]
