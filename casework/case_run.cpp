@@ -187,11 +187,6 @@ class Observer {
   Instant before_;
 };
 
-/// Steps that a run takes: as many as the case, over the factor.
-std::int64_t n_steps_of(const TimeSettings& time, double step_factor) {
-  return std::max<std::int64_t>(1, std::llround(static_cast<double>(time.n_steps()) / step_factor));
-}
-
 double last_time(const std::vector<Question>& slots, double end) {
   double last = 0;
   for (const Question& slot : slots) {
@@ -235,38 +230,30 @@ void move(RagSystem& rags, const Restart& restart, double time) {
 
 }  // namespace
 
-std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor, const OutsideForce& outside,
-                            WaterStore* store, const std::optional<Restart>& restart) {
+std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Asked>& asked, const OutsideForce& outside, WaterStore* store,
+                                  const std::optional<Restart>& restart) {
   const log::Silence silence;
   Simulation run(file, MPI_COMM_SELF, {}, store);
   std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());
   if (!run.rags || (run.mesh && !run.frozen()))
     throw Error(ExitCode::usage,
                 file.root().where() + ": must be a case of particles without a mesh or in frozen water, to be run in a moment");
+  run.watches_rags = run.mesh != nullptr;
   run.start();
   run.insert_rags();
-  const double end = run.time_settings.end;
-  const std::int64_t n_steps = n_steps_of(run.time_settings, step_factor);
-  const double dt = run.time_settings.step = end / static_cast<double>(n_steps);
-  const double last = last_time(slots, end);
+  const double dt = run.time_settings.step, last = last_time(slots, run.time_settings.end);
   Observer observer(*run.rags, *run.passage, run.observe_settings, std::move(slots), dt);
   const std::int64_t restart_step = restart ? static_cast<std::int64_t>(restart->time / dt + 1e-9) : -1;
-  const auto restart_at = [&](std::int64_t n) {
-    if (n == restart_step) move(*run.rags, *restart, static_cast<double>(n) * dt);
+  const auto restart_and_look = [&] {
+    if (run.time_step() == restart_step) move(*run.rags, *restart, run.time());
+    observer.look(run.time());
+    return run.time() < last * (1 - 1e-9);
   };
-  restart_at(0);
-  observer.look(0);
-  for (std::int64_t n = 0; n < n_steps && static_cast<double>(n) * dt < last * (1 - 1e-9); ++n) {
-    // Without a mesh there are no openings to leave by, and nothing to be told of the way.
-    if (run.mesh)
-      run.step();
-    else
-      run.coupled ? run.coupled->step(dt) : run.rags->advance(dt);
-    if (outside) kick(*run.rags, outside, (static_cast<double>(n) + 0.5) * dt, dt);
-    if (run.mesh && run.passage->all_exited_at()) break;
-    restart_at(n + 1);
-    observer.look(static_cast<double>(n + 1) * dt);
-  }
+  if (!restart_and_look()) return observer.values();
+  run.run([&] {
+    if (outside) kick(*run.rags, outside, run.time() - 0.5 * dt, dt);
+    return !run.passage->all_exited_at() && restart_and_look();
+  });
   return observer.values();
 }
 

@@ -32,10 +32,9 @@ using OutsideForce = std::function<Vec3(double time, const PlaceInPiece& place)>
 
 /// Runs a case in a prescribed flow or in frozen water of a mesh, up to the last time that is asked for (its end, if a number of the whole
 /// run is asked for; earlier, if every rag has left the mesh). NaN where there is no answer: a time beyond the end of the case, a retention
-/// time of a piece that stays, a window that was never reached. `step_factor`: of the time step, which is rounded to a whole number of
-/// steps, and of the sub-step, as far as that is stable. `store`: holds meshes and water between runs. `restart`: at the last step before
-/// its time; in a prescribed flow only. Throws Error.
-std::vector<double> run_for(const CaseFile& file, const std::vector<Asked>& asked, double step_factor = 1, const OutsideForce& outside = {},
-                            WaterStore* store = nullptr, const std::optional<Restart>& restart = {});
+/// time of a piece that stays, a window that was never reached. `store`: holds meshes and water between runs. `restart`: at the last step
+/// before its time; in a prescribed flow only. Throws Error.
+std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Asked>& asked, const OutsideForce& outside = {},
+                                  WaterStore* store = nullptr, const std::optional<Restart>& restart = {});
 
 }  // namespace snag

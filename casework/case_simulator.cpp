@@ -187,8 +187,9 @@ RunResult CaseSimulator::done(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   RunResult result;
   try {
-    result.values =
-        run_for(point.base.with(job.change.overrides), point.asked, job.request->step_factor, {}, &store_, job.request->restart);
+    std::vector<std::string> overrides = job.change.overrides;
+    overrides.push_back(point.base.with_step_factor(job.request->step_factor));
+    result.values = run_in_memory(point.base.with(overrides), point.asked, {}, &store_, job.request->restart);
   } catch (const std::exception& failure) {
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
     result.failure = failure.what();

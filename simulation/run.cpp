@@ -87,19 +87,20 @@ struct Run {
     const StopRequest stop(world, folder);
     CheckpointClock clock(simulation.checkpoint_settings, simulation.time());
     Progress progress(simulation.case_settings.name, simulation.time_settings.end, simulation.time());
-    while (!simulation.has_ended()) {
-      simulation.step();
+    bool is_stopped = false;
+    simulation.run([&] {
       outputs.after_step();
       if (rank_of(world) == 0) progress.update(simulation.time(), note());
-      if (simulation.has_ended()) break;
-      if (stop.asked()) {
-        write_checkpoint();
-        log::info("stopped on request (" + stop.reason() + "), checkpoint written; go on with --resume");
-        return ExitCode::stopped;
-      }
-      if (clock.due(simulation.time())) write_checkpoint();
-    }
+      if (simulation.has_ended()) return false;
+      is_stopped = stop.asked();
+      if (!is_stopped && clock.due(simulation.time())) write_checkpoint();
+      return !is_stopped;
+    });
     write_checkpoint();
+    if (is_stopped) {
+      log::info("stopped on request (" + stop.reason() + "), checkpoint written; go on with --resume");
+      return ExitCode::stopped;
+    }
     if (rank_of(world) == 0) progress.finish();  // said to be done only when the disk has it
     if (simulation.rags_have_left())
       log::info("all rags have left at " + words(*simulation.passage->all_exited_at()) + " s: the run ends here");

@@ -78,7 +78,8 @@ void place_exits(TwinExperiment& experiment) {
     if (open == std::string::npos) continue;
     std::string anywhere = text;
     anywhere.replace(open, std::string(open_exit).size(), "0");
-    const double at = run_for(CaseFile::parse(anywhere, "twin", {}), {{experiment.exit_axis, share * experiment.times.back()}}).front();
+    const double at =
+        run_in_memory(CaseFile::parse(anywhere, "twin", {}), {{experiment.exit_axis, share * experiment.times.back()}}).front();
     text.replace(open, std::string(open_exit).size(), toml_text(at));
   }
 }

@@ -65,7 +65,8 @@ std::vector<double> TwinSet::values(std::size_t point, const std::vector<Asked>&
   CaseChange change = cases[point].change(theta, input_deviations, mixed(mixed(run_seed) + static_cast<std::uint64_t>(replicate)));
   for (const auto& [name, form] : forms)
     if (theta.contains(name)) change.overrides.push_back(form);
-  std::vector<double> values = run_for(cases[point].with(change.overrides), asked, 0.5, outside_acts ? outside.force : OutsideForce{});
+  change.overrides.push_back(cases[point].with_step_factor(0.5));
+  std::vector<double> values = run_in_memory(cases[point].with(change.overrides), asked, outside_acts ? outside.force : OutsideForce{});
   const double ratio = outside_acts ? outside.pixel_ratio : 1;
   for (std::size_t i = 0; i < asked.size(); ++i)
     values[i] = pictured(asked[i].observable, values[i], change.picture_scale, ratio, picture_centre);

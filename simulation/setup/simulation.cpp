@@ -225,11 +225,11 @@ void Simulation::step() {
     rags->migrate();
     rags->advance(time_settings.step);
   }
-  if (!water) bound_speeds();
+  if (!water && watches_rags) bound_speeds();
   if (!coupled) alone_seconds_ += MPI_Wtime() - begun;
   check_inside();
   ++time_step_;
-  if (passage) passage->observe(*rags, time(), time_settings.step);
+  if (passage && watches_rags) passage->observe(*rags, time(), time_settings.step);
 }
 
 bool Simulation::rags_have_left() const {

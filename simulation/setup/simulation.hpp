@@ -34,6 +34,14 @@ class Simulation {
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
   void step();
+  /// The time loop: steps until the case has ended, or `goes_on()`, which is asked after each step, says no. Collective; throws Error.
+  template <class GoesOn>
+  void run(const GoesOn& goes_on) {
+    while (!has_ended()) {
+      step();
+      if (!goes_on()) return;
+    }
+  }
   double time() const { return static_cast<double>(time_step_) * time_settings.step; }
   std::int64_t time_step() const { return time_step_; }
   /// All rags have left, and the case is to end then: now, or run_on ago.
@@ -53,6 +61,10 @@ class Simulation {
   void insert_rags();
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
+
+  /// Looked at after each step: where the rags are, what they touch, whether their speed is possible. It takes as long as the step of one
+  /// particle in a prescribed flow, and nobody leaves where there is no mesh.
+  bool watches_rags = true;
 
   CaseSettings case_settings;
   TimeSettings time_settings;

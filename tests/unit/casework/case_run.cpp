@@ -28,9 +28,7 @@ position_m = [1, 0, 0]
 forces = ["free_stream_drag"]
 )";
 
-std::vector<double> run(const std::string& text, const std::vector<Asked>& asked, double step_factor = 1) {
-  return run_for(CaseFile::parse(text), asked, step_factor);
-}
+std::vector<double> run(const std::string& text, const std::vector<Asked>& asked) { return run_in_memory(CaseFile::parse(text), asked); }
 
 /// Requirement: place and velocity are those of the exact motion at any time, also between two steps.
 TEST(CaseRun, FallingSphereInStokesFlow) {
@@ -59,7 +57,7 @@ TEST(CaseRun, GoesOnFromAMeasuredState) {
   const std::vector<Asked> asked{{"z", 0.3999}, {"z", 0.4001}, {"z", 0.42}, {"x", 0.8}, {"vz", 0.401}};
   const Restart restart{.time = time, .position = {0.01, 0, 0.02}, .velocity = {0, 0, 0.05}};
   const auto before = run(falling_sphere, asked);
-  const auto after = run_for(CaseFile::parse(falling_sphere), asked, 1, {}, nullptr, restart);
+  const auto after = run_in_memory(CaseFile::parse(falling_sphere), asked, {}, nullptr, restart);
   EXPECT_EQ(after[0], before[0]);
   for (const auto& [i, t] : {std::pair{1, 0.4001}, {2, 0.42}})
     EXPECT_NEAR(after[i] - before[i], 0.02 + 0.05 * (1 - std::exp(-rate * (t - time))) / rate, 1e-6) << t;
