@@ -43,15 +43,6 @@ std::vector<Slot> slots_of(const Experiment& experiment, int point) {
   return slots;
 }
 
-BaseCase any_of(BaseCase a, const BaseCase& b) {
-  a.prescribed = a.prescribed && b.prescribed;
-  for (bool BaseCase::*fact :
-       {&BaseCase::wall, &BaseCase::gravity, &BaseCase::flows, &BaseCase::uniform, &BaseCase::varies, &BaseCase::gradient,
-        &BaseCase::turbulence, &BaseCase::bonds, &BaseCase::sheet, &BaseCase::several, &BaseCase::oriented})
-    a.*fact = a.*fact || b.*fact;
-  return a;
-}
-
 /// The largest range of a coordinate in the data: so large a camera's picture is at least.
 double picture_size_of(const Experiment& experiment) {
   double size = 0;

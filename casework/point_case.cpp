@@ -3,7 +3,6 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -23,9 +22,6 @@ struct PointCase::Tree {
 namespace {
 
 constexpr const char* flow_field = "flow.amplitude";
-/// What sets the flow of water that is computed.
-constexpr std::array set_points{"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s", "boundary.velocity_m_s",
-                                "flow.initial_velocity_m_s"};
 constexpr const char *drag_form = "drag_form", *drag_form_of_point = "drag_form_of_point", *drag_slope = "drag_form.slope";
 
 bool is_zero(const toml::node* node) {
@@ -75,14 +71,6 @@ std::vector<std::string> listed_forces(const toml::table& root) {
     for (const toml::node& name : *list) names.push_back(name.value_or(std::string()));
   if (root.contains("gravity")) names.emplace_back("gravity");
   return names;
-}
-
-/// Adds to the exponent of Re in the drag, beside what the candidate of that name does.
-void add_exponent(double exponent, const std::map<std::string, double>& effects, KeyChanges& keys, std::vector<std::string>& forces) {
-  constexpr const char* name = "drag_exponent";
-  const auto effect = effects.find(name);
-  keys.set(std::string("coupling.") + name + ".exponent=" + toml_text(exponent + (effect == effects.end() ? 0 : effect->second)));
-  if (std::find(forces.begin(), forces.end(), name) == forces.end()) forces.emplace_back(name);
 }
 
 /// v turned by an angle about a unit axis (Rodrigues).
@@ -157,62 +145,93 @@ void PointCase::turn(double angle, std::vector<std::string>& overrides) const {
     }
 }
 
-CaseChange PointCase::change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances,
-                             std::uint64_t seed, const std::map<std::string, int>& forms_of_effects) const {
-  CaseChange change;
-  RunChange run;
-  KeyChanges keys(tree_->root);
-  std::vector<std::string> forces = forces_;
-  std::erase(forces, "gravity");
-  const std::size_t n_base = forces.size();
-  if (crumpled_) keys.set("rag.seed=" + std::to_string(seed % 1000000007));  // each replicate is another crumple
-  for (const std::string& name : forces) {
-    const LibraryEffect* held = library_effect(name);
-    if (held && held->prior.random) keys.set(seed_of(name, seed));
+/// A run of this case, as effects and uncertain inputs change it.
+class PointCase::Edit final : public RunEdit {
+ public:
+  explicit Edit(const PointCase& point) : point_(point), keys_(point.tree_->root), forces_(point.forces_) {
+    std::erase(forces_, "gravity");
+    n_base_forces_ = forces_.size();
   }
-  for (const auto& [name, theta] : effects) {
-    if (theta == 0) continue;  // the base model to the bit
-    if (const auto alternative = alternatives_.find(name); alternative != alternatives_.end()) {
-      for (const std::string& text : alternative->second) keys.set(text);
-      continue;
+  const BaseCase& base() const override { return point_.facts_; }
+  void set(const std::string& text) override { keys_.set(text); }
+  void scale(const std::string& key, double factor) override { keys_.scale(key, factor); }
+  void turn_pieces(double angle) override { turn_ += angle; }
+  void scale_picture(double factor, int axis) override {
+    change_.picture_scale *= factor;
+    if (axis >= 0) change_.picture_centre[axis] = 1;
+  }
+
+  /// Random forces and crumpled pieces take the seed of the run.
+  void seed(std::uint64_t seed) {
+    if (point_.crumpled_) set("rag.seed=" + std::to_string(seed % 1000000007));  // each replicate is another crumple
+    for (const std::string& name : forces_) {
+      const LibraryEffect* held = library_effect(name);
+      if (held && held->prior.random) set(seed_of(name, seed));
     }
-    const auto chosen = forms_of_effects.find(name);
-    const int form = chosen == forms_of_effects.end() ? 0 : chosen->second;
-    if (const LibraryEffect* of_library = library_effect(name)) {
-      if (of_library->is_force && std::find(forces.begin(), forces.end(), name) == forces.end()) forces.push_back(name);
-      for (const std::string& text : of_library->overrides(theta, form, seed, [this](const std::string& key) { return value_of(key); }))
-        keys.set(text);
+  }
+  void add_effect(const std::string& name, double theta, int form, std::uint64_t seed) {
+    if (const auto alternative = point_.alternatives_.find(name); alternative != point_.alternatives_.end()) {
+      for (const std::string& text : alternative->second) set(text);
+    } else if (const LibraryEffect* of_library = library_effect(name)) {
+      if (of_library->is_force) add_force(name);
+      for (const std::string& text : of_library->overrides(theta, form, seed, [this](const auto& key) { return point_.value_of(key); }))
+        set(text);
     } else {
-      effect_models().make(name, "diagnosis")->change(theta, form, seed, run);
+      effect_models().make(name, "diagnosis")->change(theta, form, seed, *this);
     }
+  }
+  void add_deviation(const std::string& name, double deviation) {
+    if (name == flow_field) return scale_flow(1 + deviation);
+    if (name != drag_form && name != drag_form_of_point) return scale(name, 1 + deviation);
+    for (const std::string& key : point_.drag_factors_) scale(key, 1 + deviation);
+  }
+  /// To the exponent of Re in the drag; theta: what the candidate of that name does.
+  void add_exponent(double exponent, double theta) {
+    const std::string name = "drag_exponent";
+    set("coupling." + name + ".exponent=" + toml_text(exponent + theta));
+    add_force(name);
+  }
+  CaseChange change() {
+    if (forces_.size() > n_base_forces_) {
+      for (std::string& name : forces_) name = toml_text(name);
+      set("coupling.forces=[" + joined(forces_) + "]");
+    }
+    change_.overrides = keys_.overrides();
+    if (turn_ != 0) point_.turn(turn_, change_.overrides);
+    return std::move(change_);
+  }
+
+ private:
+  void add_force(const std::string& name) {
+    if (std::find(forces_.begin(), forces_.end(), name) == forces_.end()) forces_.push_back(name);
+  }
+
+  const PointCase& point_;
+  KeyChanges keys_;
+  std::vector<std::string> forces_;
+  std::size_t n_base_forces_;
+  double turn_ = 0;  // rad
+  CaseChange change_;
+};
+
+CaseChange PointCase::change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances,
+                             std::uint64_t seed, const std::map<std::string, int>& forms) const {
+  Edit run(*this);
+  run.seed(seed);
+  for (const auto& [name, theta] : effects) {
+    const auto form = forms.find(name);
+    if (theta != 0) run.add_effect(name, theta, form == forms.end() ? 0 : form->second, seed);  // 0: the base model to the bit
   }
   double exponent = 0;
   for (const auto& [name, deviation] : nuisances) {
-    if (deviation == 0) continue;
-    if (name == flow_field)
-      run.flow_factor *= 1 + deviation;
-    else if (name == drag_form || name == drag_form_of_point)
-      for (const std::string& key : drag_factors_) keys.scale(key, 1 + deviation);
-    else if (name == drag_slope)
+    if (name == drag_slope)
       exponent += deviation;
-    else
-      keys.scale(name, 1 + deviation);
+    else if (deviation != 0)
+      run.add_deviation(name, deviation);
   }
-  if (exponent != 0) add_exponent(exponent, effects, keys, forces);
-  if (forces.size() > n_base) {
-    for (std::string& name : forces) name = toml_text(name);
-    keys.set("coupling.forces=[" + joined(forces) + "]");
-  }
-  if (run.flow_factor != 1 && facts_.prescribed) keys.scale("flow.velocity_m_s", run.flow_factor);
-  const double varying = run.flow_factor * run.varying_factor;
-  if (varying != 1)
-    for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s", "start.velocity_factor"}) keys.scale(key, varying);
-  if (run.flow_factor != 1 && !facts_.prescribed)
-    for (const char* key : set_points) keys.scale(key, run.flow_factor);
-  change.overrides = keys.overrides();
-  if (run.turn != 0) turn(run.turn, change.overrides);
-  change.picture_scale = run.picture_scale, change.picture_centre = run.picture_centre;
-  return change;
+  const auto candidate = effects.find("drag_exponent");
+  if (exponent != 0) run.add_exponent(exponent, candidate == effects.end() ? 0 : candidate->second);
+  return run.change();
 }
 
 std::string PointCase::with_step_factor(double factor) const {

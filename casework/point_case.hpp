@@ -66,6 +66,7 @@ class PointCase {
 
  private:
   struct Tree;
+  class Edit;
   void turn(double angle, std::vector<std::string>& overrides) const;
   /// Whether a key of the case holds a path.
   bool names_file(const std::string& table, const std::string& key) const;

@@ -1,10 +1,11 @@
 #pragma once
 // Candidates that are no forces of the water: errors of the measurement, of the set-points and of the start. One a file; each names its one
 // number theta, says where a base case cannot show it, and how it changes a run.
+#include <array>
 #include <cstdint>
+#include <string>
 
 #include "base/registry.hpp"
-#include "base/vec3.hpp"
 #include "diagnosis/data/simulator.hpp"
 
 namespace snag {
@@ -19,14 +20,31 @@ struct BaseCase {
   bool bonds = false, sheet = false, several = false, oriented = false;  // of the pieces: fibres and cloth have a direction
 };
 
-/// How a run departs from the base model; as it stands here: not at all.
-struct RunChange {
-  double flow_factor = 1;     // of the velocity of the whole flow field
-  double varying_factor = 1;  // of the part that changes in space or time
-  double picture_scale = 1;   // of all lengths that a camera tells
-  Vec3 picture_centre{};      // about this point, in sizes of the picture
-  double turn = 0;            // of the pieces at the start, about the camera's line of sight, rad
+/// What of several cases at least one has; prescribed: all of them.
+BaseCase any_of(BaseCase a, const BaseCase& b);
+
+/// A run of a case that effects change. As it is handed to them, it is the base model.
+class RunEdit {
+ public:
+  virtual ~RunEdit() = default;
+  /// What effects may know of the case.
+  virtual const BaseCase& base() const = 0;
+  /// Gives a key a value, "section.key=value"; the last one counts.
+  virtual void set(const std::string& text) = 0;
+  /// Multiplies the numbers that the case has at a key; factors on one key multiply. Nothing where the case has no such number.
+  virtual void scale(const std::string& key, double factor) = 0;
+  /// The velocity of the whole flow field, or of the part that changes in space or time: of computed water, its set-points.
+  void scale_flow(double factor);
+  void scale_varying_flow(double factor);
+  /// The pieces at the start, about the camera's line of sight, rad.
+  virtual void turn_pieces(double angle) = 0;
+  /// All lengths that a camera tells, about a point in sizes of the picture: an axis, or the origin of the coordinates (-1).
+  virtual void scale_picture(double factor, int axis) = 0;
 };
+
+/// What sets the flow of water that is computed.
+inline constexpr std::array set_points{"boundary.flow_rate_m3_s", "boundary.target_flow_rate_m3_s", "boundary.velocity_m_s",
+                                       "flow.initial_velocity_m_s"};
 
 class EffectModel {
  public:
@@ -34,7 +52,7 @@ class EffectModel {
   /// Its record, with the reason why this base case cannot show it, if there is one.
   virtual Effect effect(const BaseCase& base) const = 0;
   /// Adds an effect of strength theta to a run; `form`: index among its forms and deviations, `seed`: that of the run.
-  virtual void change(double theta, int form, std::uint64_t seed, RunChange& run) const = 0;
+  virtual void change(double theta, int form, std::uint64_t seed, RunEdit& run) const = 0;
 };
 
 /// All that are no forces, by the names of the candidates.

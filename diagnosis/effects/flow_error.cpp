@@ -20,7 +20,7 @@ struct FlowError final : EffectModel {
             .acts_on_water = false,
             .blind = base.prescribed && base.uniform && base.varies ? "" : "the flow has no steady mean beside a part that varies"};
   }
-  void change(double theta, int, std::uint64_t, RunChange& run) const override { run.varying_factor *= 1 + theta; }
+  void change(double theta, int, std::uint64_t, RunEdit& run) const override { run.scale_varying_flow(1 + theta); }
 };
 [[maybe_unused]] const bool registered = effect_models().add<FlowError>();
 

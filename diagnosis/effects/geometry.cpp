@@ -19,7 +19,7 @@ struct Geometry final : EffectModel {
             .acts_on_water = false,
             .blind = base.prescribed ? "a prescribed flow has no casing" : "the geometry of a mesh is varied by cases of their own"};
   }
-  void change(double, int, std::uint64_t, RunChange&) const override {}
+  void change(double, int, std::uint64_t, RunEdit&) const override {}
 };
 [[maybe_unused]] const bool registered = effect_models().add<Geometry>();
 

@@ -27,7 +27,7 @@ struct InitialPose final : EffectModel {
             .acts_on_water = false,
             .blind = base.oriented ? "" : "a sphere has no direction"};
   }
-  void change(double theta, int, std::uint64_t seed, RunChange& run) const override { run.turn += theta * normal_deviate(seed); }
+  void change(double theta, int, std::uint64_t seed, RunEdit& run) const override { run.turn_pieces(theta * normal_deviate(seed)); }
 };
 [[maybe_unused]] const bool registered = effect_models().add<InitialPose>();
 

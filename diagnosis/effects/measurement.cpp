@@ -22,10 +22,7 @@ struct Measurement final : EffectModel {
             .blind = {},
             .n_deviations = 3};
   }
-  void change(double theta, int form, std::uint64_t, RunChange& run) const override {
-    run.picture_scale *= 1 + theta;
-    if (form > 0) run.picture_centre[form - 1] = 1;
-  }
+  void change(double theta, int form, std::uint64_t, RunEdit& run) const override { run.scale_picture(1 + theta, form - 1); }
 };
 [[maybe_unused]] const bool registered = effect_models().add<Measurement>();
 

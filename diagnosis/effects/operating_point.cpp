@@ -22,7 +22,7 @@ struct OperatingPoint final : EffectModel {
                      : base.prescribed ? "the water is at rest"
                                        : "the case sets neither a flow rate nor a velocity of the water"};
   }
-  void change(double theta, int, std::uint64_t, RunChange& run) const override { run.flow_factor *= 1 + theta; }
+  void change(double theta, int, std::uint64_t, RunEdit& run) const override { run.scale_flow(1 + theta); }
 };
 [[maybe_unused]] const bool registered = effect_models().add<OperatingPoint>();
 
