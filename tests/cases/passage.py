@@ -7,27 +7,11 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import harness
-from small_cases import CHANNEL, CHANNEL_MESH
-from turning_zone import Rings
+from small_cases import CHANNEL, CHANNEL_MESH, pump_case, tight_flow
+from turning_zone import RING_WALLS, Rings
 
 N_STEPS, N_PARTICLES = 100, 60
-CASE = """
-[case]
-name = "rag-through-rings"
-[mesh]
-file = "{mesh}"
-[time]
-end_s = 0.1
-step_s = 1e-3
-[rotating_zone]
-zone = "rotor"
-speed = "600 rpm"
-[flow]
-initial_velocity_m_s = [0, 0, -0.5]
-pressure_tolerance = 1e-11
-pressure_tolerance_intermediate = 1e-11
-momentum_tolerance = 1e-11
-[pump]
+PASSAGE = """
 [passage]
 inlet_flange_m = [0, 0, 0.04]
 inlet_normal = [0, 0, -1]
@@ -38,16 +22,8 @@ outlet_radius_m = 0.08
 tongue_m = [0.0565685, 0.0565685, 0.02]
 tongue_reach_m = 0.03
 impeller_radius_m = 0.05
-[[boundary]]
-patch = "inlet"
-kind = "flow_rate_inlet"
-flow_rate_m3_s = 5e-3
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["impeller_walls", "walls"]
-kind = "wall"
+"""
+RAG = """
 [[wall]]
 kind = "patches"
 patches = ["impeller_walls", "walls"]
@@ -58,11 +34,6 @@ radius_mm = 1
 centre_m = [0.04, 0, 0.05]
 lengthwise = [0, 1, 0]
 crosswise = [1, 0, 0]
-[checkpoint]
-interval_s = 0.06
-[output]
-report = false
-rags_interval_s = 0.001
 """
 
 
@@ -81,7 +52,10 @@ class RagThroughRings(harness.CaseTest):
         mesh = cls.shared / "rings.msh"
         Rings().write(mesh)
         cls.file = cls.shared / "case.toml"
-        cls.file.write_text(CASE.format(mesh=mesh))
+        cls.file.write_text(pump_case(
+            "rag-through-rings", mesh, rotor='speed = "600 rpm"', time="end_s = 0.1\nstep_s = 1e-3",
+            flow="initial_velocity_m_s = [0, 0, -0.5]\n" + tight_flow("1e-11"), flow_rate_L_s=5, walls=RING_WALLS, more=PASSAGE + RAG,
+            output="rags_interval_s = 0.001\n[checkpoint]\ninterval_s = 0.06"))
         cls.done = harness.snag(["run", cls.file, "--out", cls.shared / "1"], 1, cls.shared / "1")
         assert cls.done.code == 0, cls.done.tail()
 
@@ -188,9 +162,7 @@ class RagThroughRings(harness.CaseTest):
             self.assertEqual(self.done.monitor(monitor).lines, other.monitor(monitor).lines, monitor)
 
     def test_passage_needs_a_turning_zone(self):
-        text = self.file.read_text()
-        table = text[text.index("[passage]") : text.index("[[boundary]]")]
-        refused = self.run_case(self.case(CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell") + table), code=2)
+        refused = self.run_case(self.case(CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell") + PASSAGE), code=2)
         self.assertIn("[passage]", refused.stderr)
         self.assertIn("add [rotating_zone]", refused.stderr)
 

@@ -9,46 +9,10 @@ import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import harness
+from small_cases import FLANGES, pump_case, tight_flow
 
 STEP, OMEGA = 2e-4, 1200 * 2 * numpy.pi / 60  # 1.44 degrees a step
-CASE = """
-[case]
-name = "pump"
-[mesh]
-file = "{mesh}"
-[rotating_zone]
-zone = "rotor"
-speed_rpm = 1200
-[time]
-end_s = {end}
-step_s = 2e-4
-[flow]
-kinematic_viscosity_m2_s = 1.0048e-6
-pressure_tolerance = 1e-10
-pressure_tolerance_intermediate = 1e-10
-momentum_tolerance = 1e-10
-[turbulence]
-model = "k_epsilon"
-[pump]
-inlet_diameter_mm = 100
-outlet_diameter_mm = 80
-[[boundary]]
-patch = "inlet"
-kind = "flow_rate_inlet"
-flow_rate_L_s = 26.8
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["impeller_walls", "casing_walls"]
-kind = "wall"
-[output]
-report = false
-single_precision = false
-fields_interval_s = {fields}
-[checkpoint]
-interval_s = {checkpoint}
-"""
+WATER = "kinematic_viscosity_m2_s = 1.0048e-6\n"
 
 
 def surface(file):
@@ -64,8 +28,11 @@ class Pump(harness.CaseTest):
 
     def setUp(self):
         super().setUp()
-        self.file = self.case(CASE.format(mesh=harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", end=self.n_steps * STEP,
-                                          fields=self.n_between_fields * STEP, checkpoint=self.n_before_checkpoint * STEP))
+        self.file = self.case(pump_case(
+            "pump", harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", rotor="speed_rpm = 1200", pump=FLANGES,
+            time=f"end_s = {self.n_steps * STEP}\nstep_s = {STEP}", flow=WATER + tight_flow("1e-10"),
+            output=f"single_precision = false\nfields_interval_s = {self.n_between_fields * STEP}\n"
+                   f"[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}"))
 
     def test_pump_and_its_resume(self):
         whole = self.run_case(self.file, 2, out="whole")

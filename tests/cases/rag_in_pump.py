@@ -9,39 +9,11 @@ import signal
 import numpy
 
 import harness
+from small_cases import FLANGES, K_EPSILON, pump_case, tight_flow
 
-CASE = """
-[case]
-name = "rag-in-pump"
-[mesh]
-file = "{mesh}"
-[rotating_zone]
-zone = "rotor"
-speed_rpm = 600     # an impact at full speed multiplies round-off of the water by some thousand
-[time]
-end_ms = {end_ms}
-step_ms = 0.1
-[flow]
-kinematic_viscosity_m2_s = 1.0048e-6
-initial_velocity_m_s = [0, 0, -1]
-pressure_tolerance = 1e-11
-pressure_tolerance_intermediate = 1e-11
-momentum_tolerance = 1e-11
-[turbulence]
-model = "k_epsilon"
-[pump]
-inlet_diameter_mm = 100
-outlet_diameter_mm = 80
-[[boundary]]
-patch = "inlet"
-kind = "flow_rate_inlet"
-flow_rate_L_s = 26.8
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["impeller_walls", "casing_walls"]
-kind = "wall"
+WATER = "kinematic_viscosity_m2_s = 1.0048e-6\ninitial_velocity_m_s = [0, 0, -1]\n"
+SPEED = "speed_rpm = 600     # an impact at full speed multiplies round-off of the water by some thousand"
+RAGS = """
 [[wall]]
 kind = "patches"
 patches = ["impeller_walls", "casing_walls"]
@@ -91,11 +63,6 @@ mode = "two_way"
 kernel = "{kernel}"
 kernel_width_mm = 6
 forces = ["free_stream_drag"]
-[output]
-report = false
-single_precision = false
-fields_interval_s = 1
-rags_interval_ms = {picture_ms}
 """
 MONITORS = ("rags", "passage", "rag_forces", "contacts", "coupling", "patches", "pump")
 
@@ -108,7 +75,11 @@ class RagInPump(harness.CaseTest):
     ranks = {"gaussian": (2,), "cell": (3,)}  # that are compared with one rank
 
     def pump(self, kernel="gaussian"):
-        return self.case(CASE.format(mesh=harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", kernel=kernel, **self.settings), kernel)
+        return self.case(pump_case(
+            "rag-in-pump", harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", rotor=SPEED, pump=FLANGES,
+            time=f"end_ms = {self.settings['end_ms']}\nstep_ms = 0.1", flow=WATER + tight_flow("1e-11"),
+            more=K_EPSILON + RAGS.format(kernel=kernel, **self.settings),
+            output=f"single_precision = false\nfields_interval_s = 1\nrags_interval_ms = {self.settings['picture_ms']}"), kernel)
 
     def whole(self, kernel, ranks):
         return self.run_once(self.pump(kernel), ranks)

@@ -87,3 +87,48 @@ single_precision = false
 """
 CHANNEL_MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="tetrahedra"', "size_mm=16", "wall_ratio=1")
 COARSE_CHANNEL_MESH = tuple(setting.replace("size_mm=16", "size_mm=25") for setting in CHANNEL_MESH)
+
+# Water in a pump: flow rate at the inlet, pressure at the outlet. What differs between the cases that use it is filled in.
+PUMP = """
+[case]
+name = "{name}"
+[mesh]
+file = "{mesh}"
+[rotating_zone]
+zone = "rotor"
+{rotor}
+[time]
+{time}
+[flow]
+{flow}
+[pump]
+{pump}
+[[boundary]]
+patch = "inlet"
+kind = "flow_rate_inlet"
+flow_rate_L_s = {flow_rate_L_s}
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = {walls}
+kind = "wall"
+{more}
+[output]
+report = false
+{output}
+"""
+FLANGES = "inlet_diameter_mm = 100\noutlet_diameter_mm = 80"  # of cases/meshes/pump_coarse.msh
+K_EPSILON = '[turbulence]\nmodel = "k_epsilon"\n'
+CASING = '["impeller_walls", "casing_walls"]'
+
+
+def tight_flow(tolerance):
+    """Keys of [flow] for water that is solved to this tolerance."""
+    return f"pressure_tolerance = {tolerance}\npressure_tolerance_intermediate = {tolerance}\nmomentum_tolerance = {tolerance}"
+
+
+def pump_case(name, mesh, *, rotor, time, flow="", pump="", flow_rate_L_s=26.8, walls=CASING, more=K_EPSILON, output=""):
+    """Text of a case; `more`: whole tables, `output`: further keys of [output], then whole tables."""
+    return PUMP.format(name=name, mesh=mesh, rotor=rotor, time=time, flow=flow, pump=pump, flow_rate_L_s=flow_rate_L_s, walls=walls, more=more,
+                       output=output)

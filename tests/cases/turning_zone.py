@@ -7,47 +7,11 @@ import math
 import numpy
 
 import harness
+from small_cases import K_EPSILON, pump_case, tight_flow
 
 STEP = 1e-3  # s
-CASE = """
-[case]
-name = "turning-rings"
-[mesh]
-file = "{mesh}"
-[time]
-end_s = {end}
-step_s = 1e-3
-[rotating_zone]
-zone = "rotor"
-motion = "{motion}"
-speed = "1200 rpm"
-ramp = "0.02 s"
-start_angle = "5 deg"
-[flow]
-pressure_tolerance = 1e-11
-pressure_tolerance_intermediate = 1e-11
-momentum_tolerance = 1e-11
-[pump]
-[turbulence]
-model = "k_epsilon"
-initial_k_m2_s2 = 0.01
-initial_epsilon_m2_s3 = 0.1
-[[boundary]]
-patch = "inlet"
-kind = "flow_rate_inlet"
-flow_rate_m3_s = 2e-3
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["impeller_walls", "walls"]
-kind = "wall"
-[checkpoint]
-interval_s = {checkpoint}
-[output]
-report = false
-single_precision = false
-"""
+START = "initial_k_m2_s2 = 0.01\ninitial_epsilon_m2_s3 = 0.1\n"
+RING_WALLS = '["impeller_walls", "walls"]'
 
 SURFACES = {"interface_rotor": 1, "interface_stator": 2, "inlet": 3, "outlet": 4, "impeller_walls": 5, "walls": 6}
 INNER, RADIUS, OUTER, HEIGHT, TOP = 0.03, 0.05, 0.08, 0.04, 0.06  # m
@@ -105,7 +69,11 @@ class TurningZone(harness.CaseTest):
     def rings(self, motion="sliding"):
         mesh = self.shared / "rings.msh"
         Rings().write(mesh)
-        return self.case(CASE.format(mesh=mesh, motion=motion, end=self.n_steps * STEP, checkpoint=self.n_before_checkpoint * STEP), motion)
+        rotor = f'motion = "{motion}"\nspeed = "1200 rpm"\nramp = "0.02 s"\nstart_angle = "5 deg"'
+        return self.case(pump_case(
+            "turning-rings", mesh, rotor=rotor, time=f"end_s = {self.n_steps * STEP}\nstep_s = {STEP}", flow=tight_flow("1e-11"),
+            flow_rate_L_s=2, walls=RING_WALLS, more=K_EPSILON + START,
+            output=f"single_precision = false\n[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}"), motion)
 
     def agree(self, motion):
         case = self.rings(motion)

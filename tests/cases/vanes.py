@@ -3,38 +3,14 @@
 import numpy
 
 import harness
+from small_cases import pump_case
 
 COARSE = ("impeller_width_mm=20", "side_gap_mm=5", "design_flow_L_s=8", "inlet_length_mm=60", "outlet_length_mm=80", "wall_size_mm=16", "core_size_mm=24",
           "interface_size_mm=13", "pipe_size_mm=40")
-CASE = """
-[case]
-name = "three-vanes"
-[mesh]
-file = "{mesh}"
-[rotating_zone]
-zone = "rotor"
-speed_rpm = 1000
-[time]
-end_ms = 40
-step_ms = 2
-[flow]
-outer_correctors = 2
-[turbulence]
-model = "k_epsilon"
-[pump]
-[[boundary]]
-patch = "inlet"
-kind = "flow_rate_inlet"
-flow_rate_L_s = 6
-[[boundary]]
-patch = "outlet"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["impeller_walls", "casing_walls"]
-kind = "wall"
-[output]
-report = false
-"""
+
+
+def three_vanes(mesh):
+    return pump_case("three-vanes", mesh, rotor="speed_rpm = 1000", time="end_ms = 40\nstep_ms = 2", flow="outer_correctors = 2", flow_rate_L_s=6)
 
 
 class Vanes(harness.CaseTest):
@@ -42,7 +18,7 @@ class Vanes(harness.CaseTest):
         mesh = self.mesh("pump", "vanes=3", *COARSE)
         judged = harness.snag(["mesh", "--info", mesh])
         self.assertEqual(judged.code, 0, judged.tail())
-        run = self.run_case(self.case(CASE.format(mesh=mesh)))
+        run = self.run_case(self.case(three_vanes(mesh)))
         self.assertEqual(run.summary["time_steps"], 20)
         pump = run.monitor("pump")
         # Water at rest that vanes set into motion: all five torques brake the impeller, and the interface lets all of the water through.

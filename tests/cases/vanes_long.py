@@ -33,7 +33,7 @@ class ManyVanes(harness.CaseTest):
                 self.assertLess(skew, 10)
                 settings = ["rotating_zone.speed_rpm=1200", "rotating_zone.ramp_ms=20", "time.step_ms=0.4", "time.end_ms=160",
                             f"boundary.0.flow_rate_L_s={flow}", "boundary.0.ramp_ms=20"]
-                run = self.run_case(self.case(vanes.CASE.format(mesh=mesh), name), 1, *[word for s in settings for word in ("--set", s)],
+                run = self.run_case(self.case(vanes.three_vanes(mesh), name), 1, *[word for s in settings for word in ("--set", s)],
                                     out=name, timeout=3600)
                 self.assertGreaterEqual(run.summary["pump"]["revolutions"], 3)
                 self.assertLess(run.summary["water"]["max_speed_over_scale"], 3)
