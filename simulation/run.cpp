@@ -4,7 +4,6 @@
 #include <optional>
 #include <sstream>
 
-#include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/progress.hpp"
 #include "base/version.hpp"
@@ -12,6 +11,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/checkpoint_slots.hpp"
 #include "parallel/session.hpp"
+#include "simulation/output/output_folder.hpp"
 #include "simulation/output/outputs.hpp"
 #include "simulation/setup/forecast.hpp"
 #include "simulation/setup/rag_assumptions.hpp"
@@ -169,15 +169,15 @@ void load(Simulation& simulation, CheckpointReader& checkpoint) {
 }
 
 /// Initial state, or that of the checkpoint (null: there is none); makes the folders and opens the log.
-void begin(Simulation& simulation, const CaseFile& file, const std::filesystem::path& folder, CheckpointReader* reader) {
+void begin(Simulation& simulation, const CaseFile& file, const OutputFolder& folder, CheckpointReader* reader) {
   const std::string start = reader ? "" : simulation.start();
   if (!reader) simulation.insert_rags();
   together(world, [&] {
     if (rank_of(world) != 0) return;
-    prepare_output_folder(folder, !reader);
-    if (simulation.poses) simulation.poses->write(folder / "rags");
+    folder.prepare(!reader);
+    if (simulation.poses) simulation.poses->write(folder.path() / "rags");
   });
-  log::open(folder / "log.txt", reader != nullptr);
+  log::open(folder.path() / "log.txt", reader != nullptr);
   log_heading(simulation, file);
   if (!start.empty()) log::info(start);
   if (!reader) return;
@@ -225,13 +225,8 @@ void summarise_failed(Outputs& outputs, ExitCode code, const std::string& messag
 ExitCode run_case(const RunOptions& options) {
   const double begun = MPI_Wtime();
   const CaseFile file = CaseFile::read(options.case_file, options.overrides);
-  const auto folder = output_folder(options, file);
-  std::optional<FolderLock> lock;
-  together(world, [&] {
-    if (rank_of(world) != 0) return;
-    lock.emplace(folder);
-    check_output_folder(folder, options.resume, options.overwrite);
-  });
+  const OutputFolder output(output_folder(options, file), options.resume, options.overwrite);
+  const auto& folder = output.path();
   std::unique_ptr<CheckpointReader> reader;
   if (options.resume) reader = std::make_unique<CheckpointReader>(world, folder / "checkpoint");
 
@@ -246,7 +241,7 @@ ExitCode run_case(const RunOptions& options) {
               " s, there is nothing to resume and nothing is changed; with a later [time] end it goes on, with --overwrite it begins anew");
     return ExitCode::ok;
   }
-  begin(simulation, file, folder, reader.get());
+  begin(simulation, file, output, reader.get());
   Outputs outputs(folder, file, simulation, options.resume, begun);
   if (reader) {
     outputs.load(*reader);

@@ -20,9 +20,6 @@ namespace {
 // Without intervals in the case: enough pictures for a film of the rags, few enough fields for a disk.
 constexpr int default_n_fields = 20, default_n_rag_pictures = 100;
 
-const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
-                                    "checkpoint",         "pictures"};
-
 std::vector<Column<WaterRecord>> residual_columns() {
   using Record = const WaterRecord&;
   return {{"time", "s", [](Record r) { return r.time; }},
@@ -105,27 +102,6 @@ RotorState rotor_state(const RotatingZone& zone, double time) {
 }
 
 }  // namespace
-
-void check_output_folder(const fs::path& folder, bool resume, bool overwrite) {
-  std::error_code ignored;
-  if (resume || overwrite || !fs::exists(folder, ignored)) return;
-  for (const char* name : {"summary.json", "checkpoint", "monitors"}) {
-    if (fs::exists(folder / name, ignored))
-      throw Error(ExitCode::usage, folder.string() + ": holds the results of a run already (" + name +
-                                       "), which are never overwritten unasked; choose another --out, or --resume, or --overwrite");
-  }
-}
-
-void prepare_output_folder(const fs::path& folder, bool fresh) {
-  try {
-    if (fresh) {
-      for (const char* name : result_names) fs::remove_all(folder / name);
-    }
-    for (const char* name : {"monitors", "fields", "rags", "walls", "checkpoint"}) fs::create_directories(folder / name);
-  } catch (const fs::filesystem_error& failure) {
-    throw Error(ExitCode::io, folder.string() + ": cannot be written (" + failure.code().message() + "); choose another --out");
-  }
-}
 
 Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun)
     : folder_(std::move(folder)), file_(file), simulation_(simulation), begun_(begun) {

@@ -1,5 +1,5 @@
 #pragma once
-// The output folder of a run: what is written when, and what a resume keeps.
+// What a run writes when, and what a resume keeps.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -16,13 +16,6 @@
 #include "solver/monitors.hpp"
 
 namespace snag {
-
-/// Throws Error(usage) if the folder holds results of a run that this one would replace without being asked to. Rank 0 only; changes
-/// nothing.
-void check_output_folder(const std::filesystem::path& folder, bool resume, bool overwrite);
-
-/// Makes the folder and its sub-folders; removes the results of an earlier run if `fresh`. Rank 0 only; throws Error(io).
-void prepare_output_folder(const std::filesystem::path& folder, bool fresh);
 
 /// Of the last outer corrector of a step.
 struct WaterRecord {

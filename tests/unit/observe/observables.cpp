@@ -56,8 +56,7 @@ TEST(Observables, ReadsThePassage) {
 TEST(Observables, TutorialNamesThem) {
   std::ifstream file(std::string(std::getenv("SNAG_SOURCE_DIR")) + "/docs/tutorial-diagnosis.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  for (const ObservableRecord& one : observables())
-    EXPECT_NE(text.find("| `" + std::string(one.id) + "` |"), std::string::npos) << one.id;
+  for (const ObservableRecord& one : observables()) EXPECT_NE(text.find("| `" + std::string(one.id) + "` |"), std::string::npos) << one.id;
 }
 
 }  // namespace

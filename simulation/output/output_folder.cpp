@@ -1,0 +1,49 @@
+#include "simulation/output/output_folder.hpp"
+
+#include <mpi.h>
+
+#include "base/error.hpp"
+#include "parallel/session.hpp"
+
+namespace snag {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
+                                    "checkpoint",         "pictures"};
+
+/// Rank 0 only.
+void refuse_results(const fs::path& folder, bool resume, bool overwrite) {
+  std::error_code ignored;
+  if (resume || overwrite || !fs::exists(folder, ignored)) return;
+  for (const char* name : {"summary.json", "checkpoint", "monitors"}) {
+    if (fs::exists(folder / name, ignored))
+      throw Error(ExitCode::usage, folder.string() + ": holds the results of a run already (" + name +
+                                       "), which are never overwritten unasked; choose another --out, or --resume, or --overwrite");
+  }
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder, bool resume, bool overwrite) : path_(std::move(folder)) {
+  together(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
+    lock_.emplace(path_);
+    refuse_results(path_, resume, overwrite);
+  });
+}
+
+void OutputFolder::prepare(bool fresh) const {
+  try {
+    if (fresh) {
+      for (const char* name : result_names) fs::remove_all(path_ / name);
+    }
+    for (const char* name : {"monitors", "fields", "rags", "walls", "checkpoint"}) fs::create_directories(path_ / name);
+  } catch (const fs::filesystem_error& failure) {
+    throw Error(ExitCode::io, path_.string() + ": cannot be written (" + failure.code().message() + "); choose another --out");
+  }
+}
+
+}  // namespace snag
