@@ -13,7 +13,7 @@
 #include "base/words.hpp"
 #include "casework/exit_watch.hpp"
 #include "casework/outline_moments.hpp"
-#include "dem/bonds/bond_law.hpp"
+#include "dem/bonds/elastic_bond.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "observe/observables.hpp"
 #include "simulation/setup/observe_settings.hpp"

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "dem/bonds/tile_bonds.hpp"
+#include "dem/bonds/bond_law.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "parallel/quantile.hpp"
 #include "parallel/rows.hpp"
@@ -15,27 +16,6 @@
 namespace snag {
 
 namespace {
-
-/// Visits the whole bonds whose first end is in the tile, or with `all` also those from the ring: f(first place, second place).
-template <class F>
-void for_whole_bonds(const Tile& tile, bool all, const F& f) {
-  for (int j = all ? -1 : 0; j < tile.ny; ++j)
-    for (int i = all ? -1 : 0; i < tile.nx; ++i) {
-      const int k = tile.index(i, j);
-      if (j >= 0 && tile.bond_x[k] > 0.5) f(k, k + 1);
-      if (i >= 0 && tile.bond_y[k] > 0.5) f(k, k + tile.stride);
-    }
-}
-
-/// The same with the elastic bond: f(first place, second place, bond).
-template <class F>
-void for_bonds(const Tile& tile, const BondLaws& laws, bool all, const F& f) {
-  for_whole_bonds(tile, all, [&](int a, int b) {
-    f(a, b,
-      b == a + 1 ? bond_force<0, false>(laws[0], bond_end<0>(tile, a), bond_end<0>(tile, b))
-                 : bond_force<1, false>(laws[1], bond_end<1>(tile, a), bond_end<1>(tile, b)));
-  });
-}
 
 /// Terms of one rag's sums on this rank; summed over ranks without regard to their order.
 struct Terms {
@@ -117,12 +97,13 @@ std::vector<RagState> rag_states(const RagSystem& rags) {
     const Rag& rag = rags.rags()[tile.rag];
     Terms& t = terms[tile.rag];
     add_particles(tile, rag, t);
-    for_bonds(tile, bond_laws(rag), false, [&](int a, int b, const BondForce& bond) {
-      t.bond.push_back(bond.energy_parts[0] + bond.energy_parts[1] + bond.energy_parts[2] + bond.energy_parts[3]);
+    for (const MeasuredBond& bond : rags.bonds(tile.rag).measured(tile, false)) {
+      const auto [a, b] = std::pair{bond.first, bond.second};
+      t.bond.push_back(bond.energy);
       t.strain = std::max(t.strain, bond.length / (2 * rag.radius) - 1);
       const std::int64_t first = particle_id(rag, tile, a % tile.stride - 1, a / tile.stride - 1);
       t.add_tension(bond.tension, 2 * first + (b != a + 1), 0.5 * (tile.vector(Tile::x, a) + tile.vector(Tile::x, b)));
-    });
+    }
   }
   std::vector<RagState> states;
   for (std::size_t r = 0; r < terms.size(); ++r) states.push_back(state_of(rags.comm(), rags.rags()[r], terms[r]));
@@ -160,10 +141,9 @@ std::vector<double> sheet_rows(const RagSystem& rags, const std::vector<const st
   for (const Tile& tile : rags.tiles()) {
     const Rag& rag = rags.rags()[tile.rag];
     std::vector<double> tension(tile.exists.size(), -infinity), strain(tile.exists.size(), -infinity);
-    for_bonds(tile, bond_laws(rag), true, [&](int a, int b, const BondForce& bond) {
-      for (const int k : {a, b})
+    for (const MeasuredBond& bond : rags.bonds(tile.rag).measured(tile, true))
+      for (const int k : {bond.first, bond.second})
         tension[k] = std::max(tension[k], bond.tension), strain[k] = std::max(strain[k], bond.length / (2 * rag.radius) - 1);
-    });
     for_particles(tile, [&](int k, int i, int j) {
       rows.push_back(static_cast<double>(particle_id(rag, tile, i, j))), rows.push_back(tile.rag);
       for (int f = Tile::x; f <= Tile::qz; ++f) rows.push_back(tile.field(f)[k]);

@@ -29,7 +29,7 @@ RagSystem::RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<Rag
     id += static_cast<std::int64_t>(rag.n_columns) * rag.n_rows;
     rag.n_particles = count_particles(piece), rag.n_bonds = count_bonds(piece);
     rags_.push_back(rag);
-    laws_.push_back(bond_laws(rag));
+    bonds_.push_back(bonds_of(rag));
     grids_.push_back(tile_grid(rag.n_columns, rag.n_rows));
     grids_.back().first_tile = n_tiles;
     n_tiles += grids_.back().n_tiles();
@@ -163,7 +163,7 @@ void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* for
     if (rags_[tile.rag].n_bonds == 0) {
       std::fill_n(tile.field(Tile::fx), (Tile::n_fields - Tile::fx) * tile.field_size, 0.0);
     } else {
-      broken_[tile.rag] += set_bond_forces(laws_[tile.rag], rags_[tile.rag].breakage, tile, tiles_[(i + 1) % tiles_.size()]);
+      broken_[tile.rag] += bonds_[tile.rag]->set_forces(rags_[tile.rag].breakage, tile, tiles_[(i + 1) % tiles_.size()]);
     }
     if (contacts_) contacts_->add_to_tile(i);
     if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "dem/bonds/bond_law.hpp"
 #include "dem/bonds/stable_step.hpp"
-#include "dem/bonds/tile_bonds.hpp"
 #include "dem/particles/integrator.hpp"
 #include "dem/particles/rag.hpp"
 #include "dem/particles/tile.hpp"
@@ -77,6 +77,7 @@ class RagSystem {
 
   MPI_Comm comm() const { return comm_; }
   const std::vector<Rag>& rags() const { return rags_; }
+  const PieceBonds& bonds(int rag) const { return *bonds_[rag]; }
   /// Owned tiles in order of their number; the reference stays, its content changes with migrate() and load().
   std::vector<Tile>& tiles() { return tiles_; }
   const std::vector<Tile>& tiles() const { return tiles_; }
@@ -155,7 +156,7 @@ class RagSystem {
   std::vector<RagPiece> pieces_;
   std::vector<Rag> rags_;
   std::vector<TileGrid> grids_;
-  std::vector<BondLaws> laws_;
+  std::vector<std::unique_ptr<PieceBonds>> bonds_;  // [n_rags]
   Vec3 gravity_;
   double damping_rate_ = 0;
   StepLimit limit_;

@@ -1,34 +1,32 @@
 #include "dem/bonds/bond_law.hpp"
 
-#include <algorithm>
-#include <numbers>
-
 namespace snag {
 
-BondLaw bond_law(const Rag& rag, int direction) {
-  const BondProperties& p = rag.bond[direction];
-  const double r = rag.radius, pi = std::numbers::pi;
-  const double I = pi * r * r * r * r / 4, J = 2 * I;
-  BondLaw law;
-  law.length = 2 * r;
-  const double area = pi * r * r;
-  law.per_area = 1 / area, law.per_bending_modulus = r / I, law.per_torsion_modulus = r / J;
-  law.normal = p.normal_stiffness * area, law.shear = p.tangential_stiffness * area;
-  law.bending = p.bending_stiffness * I, law.torsion = p.tangential_stiffness * J;
+Registry<BondLaw>& bond_laws() {
+  static Registry<BondLaw> laws("bond law");
+  return laws;
+}
 
-  // c_d sqrt(2 k m_eq) with m_eq = m/2
-  const auto dashpot = [&](double stiffness, double mass) { return rag.bond_damping * std::sqrt(stiffness * mass); };
-  law.normal_damping = dashpot(law.normal, rag.mass), law.shear_damping = dashpot(law.shear, rag.mass);
-  law.bending_damping = dashpot(law.bending, rag.inertia), law.torsion_damping = dashpot(law.torsion, rag.inertia);
-  law.friction_damping = std::sqrt(std::min(law.bending, law.torsion) * rag.inertia);
-  law.friction_arm = law.friction_damping > 0 ? r * rag.rotation_friction : 0;
-
-  if (rag.breakage) {
-    if (p.normal_strength > 0) law.normal_strength = p.normal_strength;
-    if (p.shear_strength > 0) law.shear_strength = p.shear_strength;
-    law.longest = 2 * rag.contact_radius_ratio * r;
+std::vector<Section> bond_law_sections() {
+  // The records point into these laws: they live as long as the program.
+  static const std::vector<std::unique_ptr<BondLaw>> laws = [] {
+    std::vector<std::unique_ptr<BondLaw>> all;
+    for (const std::string& name : bond_laws().names()) all.push_back(bond_laws().make(name, "manual"));
+    return all;
+  }();
+  std::vector<Section> sections;
+  for (const auto& law : laws) {
+    const BondCard card = law->card();
+    sections.push_back({"rag." + card.name,
+                        "A `bond_law` of `[[rag]]`; of `[[disc]]` and `[[fibre]]` the table is `[disc." + card.name + "]`, `[fibre." +
+                            card.name + "]`. " + card.equation + ". Source: " + card.source + ". Valid for: " + card.valid_for + ".",
+                        law->parameters()});
   }
-  return law;
+  return sections;
+}
+
+std::unique_ptr<PieceBonds> bonds_of(const Rag& rag) {
+  return rag.bond_law ? rag.bond_law->bonds(rag) : bond_laws().make(default_bond_law, rag.name)->bonds(rag);
 }
 
 }  // namespace snag

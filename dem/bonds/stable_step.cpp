@@ -45,7 +45,7 @@ struct Scale {
   double translation, rotation;
 };
 
-void add_modes(const BondLaw& law, int direction, double phase, Scale scale, std::vector<StrainMode>& modes) {
+void add_modes(const BondCoefficients& law, int direction, double phase, Scale scale, std::vector<StrainMode>& modes) {
   const double difference = 2 * std::sin(phase / 2), mean = law.length * std::cos(phase / 2);
   const int a = direction, b = 1 - direction, z = 2;  // along, across in the plane, normal to it
   const double side = direction == 0 ? 1 : -1;        // (a, b, z) is left-handed for direction 1
@@ -102,7 +102,8 @@ std::string dominant(const std::vector<StrainMode>& modes, double damping_rate, 
 }  // namespace
 
 StepLimit stable_bond_step(const Rag& rag, double damping_rate) {
-  const BondLaw along = bond_law(rag, 0), across = bond_law(rag, 1);
+  const auto bonds = bonds_of(rag);
+  const BondCoefficients &along = bonds->coefficients(0), &across = bonds->coefficients(1);
   const Scale scale{1 / std::sqrt(rag.mass), 1 / std::sqrt(rag.inertia)};
   const bool is_chain = rag.n_rows == 1;
   constexpr int n_phases = 4;  // intervals of 0 .. pi

@@ -1,5 +1,5 @@
 #pragma once
-// Largest stable step of leapfrog for the bonds of a flat piece at rest.
+// Largest stable step of leapfrog for the bonds of a flat piece at rest, by the coefficients of its law.
 #include <string>
 
 #include "dem/particles/rag.hpp"

@@ -2,11 +2,14 @@
 // One piece of cloth: its lattice, its place, and the properties that all its particles and bonds share.
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "base/vec3.hpp"
 
 namespace snag {
+
+class BondLaw;
 
 /// Stiffness and strength of the bonds of one lattice direction, per unit area of the bond (A = pi r^2, I = pi r^4/4, J = 2 I).
 struct BondProperties {
@@ -28,10 +31,11 @@ struct Rag {
   double inertia = 0;                         // 2/5 m r^2, kg m2
   double hydrodynamic_volume = 0;    // V_h: thickness (2 r)^2 of the cloth it stands for; a sphere's own volume for a single particle, m3
   double hydrodynamic_diameter = 0;  // d of the drag law: 2 r_p, m
-  std::array<BondProperties, 2> bond{};  // along the row (lengthwise), between rows (crosswise)
-  double bond_damping = 0.5;             // c_d of Guo et al. (2013a), thesis Eqs. 1.1, 1.2
-  double rotation_friction = 0.001;      // c_r, thesis Eqs. 1.5, 1.6
-  double contact_radius_ratio = 2.2;     // r_c / r_p: a bond ends when 2 r_c is exceeded (if breakage is on)
+  std::array<BondProperties, 2> bond{};     // along the row (lengthwise), between rows (crosswise)
+  std::shared_ptr<const BondLaw> bond_law;  // none: default_bond_law (dem/bonds/bond_law.hpp)
+  double bond_damping = 0.5;                // c_d of Guo et al. (2013a), thesis Eqs. 1.1, 1.2
+  double rotation_friction = 0.001;         // c_r, thesis Eqs. 1.5, 1.6
+  double contact_radius_ratio = 2.2;        // r_c / r_p: a bond ends when 2 r_c is exceeded (if breakage is on)
   bool breakage = false;
   // contacts (Hertz-Mindlin)
   double shear_modulus = 1e6;  // Pa

@@ -117,7 +117,8 @@ RagPiece flat_piece(const RagPiece& given) {
 }
 
 PipeWall::Law wall_law(const Rag& rag) {
-  const double stiffness = wall_share * std::max(bond_law(rag, 0).normal, bond_law(rag, 1).normal);
+  const auto bonds = bonds_of(rag);
+  const double stiffness = wall_share * std::max(bonds->coefficients(0).normal, bonds->coefficients(1).normal);
   return {stiffness, 2 * wall_damping_ratio * std::sqrt(stiffness * rag.mass), closing_rate};
 }
 

@@ -113,6 +113,7 @@ void set_bonds(const RagSettings& s, const std::string& where, const std::filesy
   rag.breakage = s.breakage;
   rag.shear_modulus = shear_modulus(s), rag.poisson_ratio = s.poisson_ratio;
   if (s.shape == Shape::particle) return;
+  rag.bond_law = s.law ? s.law : bond_laws().make(s.bond_law, where + " bond_law");
   if (!s.passport.empty()) {
     if (s.properties == "given")
       throw Error(ExitCode::usage,

@@ -129,6 +129,7 @@ void add_bond_direction(const std::string& direction, BondProperties& p, Records
 
 void add_bonds(RagSettings& s, Records& r) {
   if (s.shape == Shape::particle) return;
+  r.push_back(setting("bond_law", &s.bond_law, "Law of the bonds; its own keys are in a table of its name.", bond_laws().names()));
   r.push_back(
       file_setting("passport", &s.passport,
                    "Bonds as calibrated from tests of the cloth (`snag calibrate`), instead of `properties`: a textile passport such "
@@ -189,6 +190,16 @@ Section DemSettings::section() {
             .meaning = "Share of the stable step that is taken."}}};
 }
 
+namespace {
+
+std::shared_ptr<const BondLaw> read_bond_law(const std::string& name, const Table& table) {
+  std::shared_ptr<BondLaw> law = bond_laws().make(name, table.where() + " bond_law");
+  table.table(name).read(law->parameters());
+  return law;
+}
+
+}  // namespace
+
 std::vector<RagPiece> read_pieces(const CaseFile& file) {
   std::vector<RagPiece> pieces;
   for (const Shape shape : {Shape::rag, Shape::disc, Shape::fibre, Shape::particle}) {
@@ -197,6 +208,7 @@ std::vector<RagPiece> read_pieces(const CaseFile& file) {
     for (const Table& table : file.root().tables(name)) {
       RagSettings settings(shape);
       table.read(settings.section().parameters);
+      if (shape != Shape::particle) settings.law = read_bond_law(settings.bond_law, table);
       for (RagPiece& piece : copies_of(make_piece(settings, table.where(), file.path(".")), settings.copies, table.where())) {
         ++count;
         if (piece.rag.name.empty()) piece.rag.name = name + " " + std::to_string(count);

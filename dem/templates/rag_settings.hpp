@@ -7,6 +7,7 @@
 
 #include "base/case_file.hpp"
 #include "base/parameter.hpp"
+#include "dem/bonds/bond_law.hpp"
 #include "dem/templates/lattice.hpp"
 #include "dem/templates/pose_plan.hpp"
 #include "dem/templates/rag_copies.hpp"
@@ -44,6 +45,8 @@ struct RagSettings {
   bool with_water = false;  // the water's mean velocity is added to `velocity`
   RagCopies copies;
   // bonds
+  std::string bond_law = default_bond_law;
+  std::shared_ptr<const BondLaw> law;    // with its own parameters; none: `bond_law` with their defaults
   std::string passport;                  // file of a calibration; "": as `properties` says
   std::string properties = "published";  // published | given | beam
   double youngs_modulus = 1e9;           // beam, Pa

@@ -49,7 +49,9 @@ std::vector<Section> AllSections::list() {
   append({s.rotating_zone.section()});
   append(turbulence_sections());
   append({s.start.section(), s.pump.section(), s.passage.section(), s.prescribed.section(), s.rag.section(), s.disc.section(),
-          s.fibre.section(), s.particle.section(), s.dem.section()});
+          s.fibre.section(), s.particle.section()});
+  append(bond_law_sections());
+  append({s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});

@@ -10,6 +10,7 @@
 #include "coupling/fluid_force.hpp"
 #include "coupling/kernel_shape.hpp"
 #include "mesh/import/structured.hpp"
+#include "tests/sources.hpp"
 
 namespace snag {
 namespace {
@@ -254,14 +255,6 @@ TEST(Forces, ParametersAreComplete) {
       EXPECT_NO_THROW(key_with_unit(parameter));
     }
   });
-}
-
-std::size_t n_sources(const std::string& folder) {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  EXPECT_NE(root, nullptr) << "run by ctest, or set SNAG_SOURCE_DIR";
-  if (!root) return 0;
-  const auto files = std::filesystem::directory_iterator(std::filesystem::path(root) / folder);
-  return static_cast<std::size_t>(std::count_if(begin(files), end(files), [](const auto& f) { return f.path().extension() == ".cpp"; }));
 }
 
 // Requirement: no model is dropped by the linker: a registry holds what its folder holds.

@@ -99,7 +99,7 @@ TEST(FoldedPose, LeavesTheBondsUnstretchedAndTheLayersApart) {
     // Energy of bending alone: each bond of a bend by pi/m, 1/2 S_nb I (pi/m)^2.
     const bool lengthwise = piece.plan.folds_lengthwise > 0;
     const double bends = lengthwise ? 3. * piece.rag.n_rows : 2. * piece.rag.n_columns, angle = pi / bonds_of_bend;
-    const double expected = bends * bonds_of_bend * 0.5 * bond_law(piece.rag, lengthwise ? 0 : 1).bending * angle * angle;
+    const double expected = bends * bonds_of_bend * 0.5 * bonds_of(piece.rag)->coefficients(lengthwise ? 0 : 1).bending * angle * angle;
     EXPECT_NEAR(rag_states(rags)[0].bond_energy, expected, 1e-9 * expected);
     const Vec3 normal = rotate(piece.orientation, {0, 0, 1});
     const int layers = lengthwise ? 4 : 3;

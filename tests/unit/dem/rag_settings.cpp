@@ -96,7 +96,7 @@ TEST(RagSettings, FibreIsABeamOfItsDiameter) {
   const Rag& rag = piece.rag;
   const double d = 0.5e-3, pi = std::numbers::pi, l0 = 2e-3;
   EXPECT_NEAR(rag.radius, 1e-3, 1e-15);
-  const BondLaw law = bond_law(rag, 0);
+  const BondCoefficients law = bonds_of(rag)->coefficients(0);
   EXPECT_NEAR(law.normal * l0, 1e7 * pi / 4 * d * d, 1e-12);
   EXPECT_NEAR(law.bending * l0, 1e7 * pi / 64 * d * d * d * d, 1e-18);
   EXPECT_NEAR(rag.mass * 10, 1380 * pi / 4 * d * d * 0.02, 1e-15);

@@ -5,7 +5,8 @@
 #include <cstdio>
 #include <ctime>
 
-#include "dem/bonds/tile_bonds.hpp"
+#include "dem/bonds/bond_law.hpp"
+#include "dem/bonds/tile_rows.hpp"
 #include "dem/templates/lattice.hpp"
 #include "tests/verification/dem/pieces.hpp"
 
@@ -32,18 +33,19 @@ TEST(BondSpeed, TilesAreFasterThanBondByBond) {
   RagPiece piece = testing_pieces::cloth(30, 14);
   piece.rag.bond_damping = 0.5, piece.rag.rotation_friction = 0.001;
   Tile tile = make_tile(piece, 0, tile_grid(30, 14), 0);
-  const BondLaws laws = bond_laws(piece.rag);
+  const auto bonds = bonds_of(piece.rag);
   const double n_bonds = static_cast<double>(count_bonds(piece));
   const int n = 600;
   const double kernel = least_time([&] {
-    for (int repetition = 0; repetition < n; ++repetition) set_bond_forces(laws, false, tile, tile);
+    for (int repetition = 0; repetition < n; ++repetition) bonds->set_forces(false, tile, tile);
   });
   Vec3 sum;
   const double plain = least_time([&] {
     for (int repetition = 0; repetition < n; ++repetition)
       for (int j = 0; j < tile.ny; ++j)
         for (int i = 0; i + 1 < tile.nx; ++i) {
-          const BondForce bond = bond_force<0, true>(laws[0], bond_end<0>(tile, tile.index(i, j)), bond_end<0>(tile, tile.index(i + 1, j)));
+          const int k = tile.index(i, j);
+          const BondForce bond = bond_force<0, true>(bonds->coefficients(0), bond_end<0>(tile, k), bond_end<0>(tile, k + 1));
           sum += bond.force + bond.torque1 + bond.torque2;
         }
   });

@@ -169,6 +169,37 @@ TEST(BondStatics, CantileverOfTenParticlesBendsAsEulerAndBernoulliSay) {
   EXPECT_NEAR(std::log2(ten / nineteen), 2, 0.1);
 }
 
+TEST(BondStatics, CantileverOfBeamsIsExactAtItsParticles) {
+  // Requirement: bonds that are beams of Timoshenko give the tip of a cantilever under an end load as y = F L^3/(3 EI) + F L/(kappa G A)
+  // for any number of bonds, one included, to 1e-6; with kappa = 0 without the second part.
+  const double EI = 6e-8, L = 0.018, F = 1e-4 * EI / (L * L);
+  for (const double kappa : {0.0, 0.5})
+    for (const int n : {2, 3, 6}) {
+      RagPiece piece = beam(n, EI, L);
+      const std::shared_ptr<BondLaw> law = bond_laws().make("timoshenko_beam", "test");
+      *std::get<double*>(law->parameters().at(0).target) = kappa;
+      piece.rag.bond_law = law;
+      const double GA = 40 * EI / (L * L);
+      piece.rag.bond[0].tangential_stiffness = GA / (2 * piece.rag.radius) / BondSection(piece.rag.radius).area;
+      LoadedChain chain(piece, {0, 0, F}, {}, 100, 0.6);
+      const double exact = F * L * L * L / (3 * EI) + (kappa > 0 ? F * L / (kappa * GA) : 0);
+      EXPECT_NEAR(chain.tip().z / exact, 1, 1e-6) << n << ' ' << kappa;
+    }
+}
+
+TEST(BondStatics, BeamsTwistAsARoundRod) {
+  // Requirement: a chain of n beams under a torque T twists by T L/(G J), G J = 2 (G/E) E I, to 1e-9.
+  RagPiece piece = cloth(8, 1);
+  piece.rag.bond_damping = 0.5, piece.rag.bond_law = bond_laws().make("timoshenko_beam", "test");
+  const BondProperties& bond = piece.rag.bond[0];
+  const double l = 2e-3, GJ = 2 * (bond.tangential_stiffness / bond.normal_stiffness) * bond.bending_stiffness * pi * 1e-12 / 4 * l,
+               T = 1e-7;
+  LoadedChain chain(piece, {}, {T, 0, 0}, 250, 0.2);
+  const auto [tile, k] = find(chain.rags, 7);
+  const double angle = 2 * std::atan2(tile->field(Tile::qx)[k], tile->field(Tile::qw)[k]);
+  EXPECT_NEAR(angle / (T * 7 * l / GJ), 1, 1e-9);
+}
+
 /// Tip of a clamped inextensible elastica under a dead load F across its clamp: deflection w/L and u/L, from load = F L^2/EI.
 /// Bisshopp and Drucker (1945): sqrt(load) = K(k) - F(k, p), sin(p) = 1/(k sqrt 2); the slope t of the tip is sin(t) = 2 k^2 - 1.
 std::array<double, 2> elastica(double load) {

@@ -182,9 +182,8 @@ RagPiece bent_sheet(double radius) {
 /// Positions, bond forces and torques of the particles of a system.
 struct Loads {
   explicit Loads(RagSystem& rags) {
-    const BondLaws laws = bond_laws(rags.rags()[0]);
     for (Tile tile : rags.tiles()) {
-      set_bond_forces(laws, false, tile, tile);
+      rags.bonds(0).set_forces(false, tile, tile);
       for (int j = 0; j < tile.ny; ++j)
         for (int i = 0; i < tile.nx; ++i)
           for (int c = 0; c < 3; ++c) vectors[c].push_back(tile.vector(fields[c], tile.index(i, j)));

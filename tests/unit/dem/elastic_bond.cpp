@@ -1,4 +1,4 @@
-// The bond law of one pair: derivative of its energy, symmetric, objective, momentum kept, and the incremental law for small strains.
+// The elastic bond of one pair: derivative of its energy, symmetric, objective, momentum kept, and the incremental law for small strains.
 #include "dem/bonds/bond_law.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ BondEnd end_of(const Pose& p) {
 }
 
 template <int direction, bool damped>
-BondForce evaluate(const BondLaw& law, const Pose& one, const Pose& two) {
+BondForce evaluate(const BondCoefficients& law, const Pose& one, const Pose& two) {
   return bond_force<direction, damped>(law, end_of<direction>(one), end_of<direction>(two));
 }
 
@@ -64,7 +64,7 @@ std::pair<Pose, Pose> random_pair(Random& random, int direction) {
 template <int direction>
 void check_gradient() {
   // Requirement: elastic forces and torques are minus the derivative of the energy.
-  const BondLaw law = bond_law(cloth(), direction);
+  const BondCoefficients law = bonds_of(cloth())->coefficients(direction);
   Random random;
   for (int sample = 0; sample < 20; ++sample) {
     const auto [one, two] = random_pair(random, direction);
@@ -85,14 +85,14 @@ void check_gradient() {
   }
 }
 
-TEST(BondLaw, IsTheDerivativeOfItsEnergy) {
+TEST(ElasticBond, IsTheDerivativeOfItsEnergy) {
   check_gradient<0>();
   check_gradient<1>();
 }
 
 template <int direction>
 void check_pair_laws() {
-  const BondLaw law = bond_law(cloth(), direction);
+  const BondCoefficients law = bonds_of(cloth())->coefficients(direction);
   Random random;
   for (int sample = 0; sample < 50; ++sample) {
     const auto [one, two] = random_pair(random, direction);
@@ -132,12 +132,12 @@ void check_pair_laws() {
   }
 }
 
-TEST(BondLaw, KeepsMomentumAndIsSymmetricAndObjective) {
+TEST(ElasticBond, KeepsMomentumAndIsSymmetricAndObjective) {
   check_pair_laws<0>();
   check_pair_laws<1>();
 }
 
-TEST(BondLaw, ArcTangentRatioIsExactToTheLastDigits) {
+TEST(ElasticBond, ArcTangentRatioIsExactToTheLastDigits) {
   EXPECT_EQ(arc_tangent_ratio(0), 1);
   for (int k = 1; k <= 1000; ++k) {
     const double t = k / 1000.0;
@@ -145,9 +145,9 @@ TEST(BondLaw, ArcTangentRatioIsExactToTheLastDigits) {
   }
 }
 
-TEST(BondLaw, MomentsAreProportionalToTheAnglesUpToAHalfTurn) {
+TEST(ElasticBond, MomentsAreProportionalToTheAnglesUpToAHalfTurn) {
   // Requirement: pure bending by beta gives S_nb I beta, pure torsion by psi gives S_t J psi, at any angle.
-  const BondLaw law = bond_law(cloth(), 0);
+  const BondCoefficients law = bonds_of(cloth())->coefficients(0);
   for (double angle = 0.01; angle < 3.1; angle += 0.13) {
     Pose one{}, two{};
     one.q = turn({0, 0, -angle / 2}), two.q = turn({0, 0, angle / 2}), two.x = {law.length, 0, 0};
@@ -162,10 +162,10 @@ TEST(BondLaw, MomentsAreProportionalToTheAnglesUpToAHalfTurn) {
   }
 }
 
-TEST(BondLaw, AgreesWithTheIncrementalLawForModerateMotions) {
+TEST(ElasticBond, AgreesWithTheIncrementalLawForModerateMotions) {
   // Requirement: Eqs. 3.10-3.20 of the thesis, integrated in 20,000 increments along one smooth motion of amplitude s, differ from the law
   // of the present pose by terms of second order in s: halving s divides the relative difference by more than 1.8.
-  const BondLaw law = bond_law(cloth(), 0);
+  const BondCoefficients law = bonds_of(cloth())->coefficients(0);
   const auto difference = [&law](double s) {
     const Vec3 v1{0.1, -0.3, 0.2}, v2{0.35, 0.5, -0.4}, w1{0.3, -0.5, 0.4}, w2{-0.6, 0.7, 0.9};
     Vec3 force, moment;  // of the bond on end 2
