@@ -7,6 +7,7 @@ std::vector<Parameter> ContactSettings::parameters() {
     return Parameter{.key = key, .target = target, .minimum = minimum, .maximum = maximum, .basis = basis, .meaning = meaning};
   };
   return {
+      setting("law", &law_name, "Law of contact; its own keys are in a table of its name.", contact_laws().names()),
       setting("self_contact", &self_contact, "Contacts between the particles of one piece; without, its folds pass through each other."),
       setting("mutual_contact", &mutual_contact,
               "Contacts between particles of different pieces; without, one piece passes through another."),
@@ -34,6 +35,13 @@ std::vector<Parameter> ContactSettings::parameters() {
                 .basis = Basis::assumed,
                 .meaning = "Fastest impact that the step must resolve: sets the Hertz impact time."},
   };
+}
+
+void ContactSettings::read(const Table& contact) {
+  contact.read(parameters());
+  const std::shared_ptr<ContactLaw> chosen = contact_laws().make(law_name, contact.where() + " law");
+  contact.table(law_name).read(chosen->parameters());
+  law = chosen;
 }
 
 }  // namespace snag

@@ -1,17 +1,23 @@
 #pragma once
 // Settings of contacts, table [contact] of the case file.
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "base/case_file.hpp"
 #include "base/parameter.hpp"
+#include "dem/contacts/contact_law.hpp"
 
 namespace snag {
 
 struct ContactSettings {
-  bool self_contact = true;        // of particles of one piece with each other
-  bool mutual_contact = true;      // of particles of different pieces
-  double restitution = 0.01;       // e, of normal impact
-  double static_friction = 0.5;    // mu, Coulomb
-  double rolling_friction = 0.01;  // mu_r, between particles
+  std::string law_name = default_contact_law;
+  std::shared_ptr<const ContactLaw> law;  // with its own parameters; none: `law_name` with their defaults
+  bool self_contact = true;               // of particles of one piece with each other
+  bool mutual_contact = true;             // of particles of different pieces
+  double restitution = 0.01;              // e, of normal impact
+  double static_friction = 0.5;           // mu, Coulomb
+  double rolling_friction = 0.01;         // mu_r, between particles
   double wall_restitution = 0.01;
   double wall_friction = 0.5;
   double wall_rolling_friction = 0;
@@ -21,6 +27,8 @@ struct ContactSettings {
 
   /// Records of the table; they refer to this object.
   std::vector<Parameter> parameters();
+  /// Reads the table and that of the chosen law.
+  void read(const Table& contact);
 };
 
 }  // namespace snag

@@ -156,9 +156,9 @@ StepLimit step_limit(const std::vector<Rag>& rags, const std::vector<ContactPair
     limit.lower(rayleigh_fraction * rayleigh_time(rag), "Rayleigh time of the particles of rag \"" + rag.name + "\"");
   const std::string impact = " at impact_speed = " + words(speed) + " m/s";
   for (const ContactPair& pair : pairs)
-    limit.lower(stable_contact_step(pair, speed), "contact of particles of radius " + words(pair.smaller_radius) + " m" + impact);
+    limit.lower(pair.law->stable_step(speed), "contact of particles of radius " + words(pair.smaller_radius) + " m" + impact);
   for (std::size_t i = 0; i < walls.size(); ++i)
-    limit.lower(stable_contact_step(walls[i], speed), "contact of rag \"" + rags[i].name + "\" with a wall" + impact);
+    limit.lower(walls[i].law->stable_step(speed), "contact of rag \"" + rags[i].name + "\" with a wall" + impact);
   return limit;
 }
 

@@ -11,52 +11,12 @@
 
 namespace snag {
 
-namespace {
-constexpr int block_size = 64;  // contacts: the arrays of a block stay in the first-level cache
-constexpr int lanes = 8;  // doubles of the widest vector: blocks are padded to it, so that every contact goes through the same instructions
-}  // namespace
-
-struct PairForces::Block {
-  int n = 0;
+struct PairForces::Block : PairBlock {
   const ContactPair* pair = nullptr;  // all contacts of a block are of one kind
-  int index[block_size];              // into the list
-  // in: difference of positions, of velocities, rotation l_1 w_1 + l_2 w_2 (over d), relative rotation, slip; out: force, torque n x F,
-  // rolling torque
-  alignas(64) double x[3][block_size] = {}, v[3][block_size] = {}, w[3][block_size] = {}, spin[3][block_size] = {},
-                     slip[3][block_size] = {};
-  alignas(64) double force[3][block_size] = {}, arm_torque[3][block_size] = {}, rolling[3][block_size] = {}, overlap[block_size] = {};
+  int index[contact_block_size];      // into the list
 
-  void put(double (&field)[3][block_size], double a, double b, double c) { field[0][n] = a, field[1][n] = b, field[2][n] = c; }
-  void law(const ContactPair& kind, int c, double step);
-  void laws(double step);
+  void put(ContactVectors& field, double a, double b, double c) { field[0][n] = a, field[1][n] = b, field[2][n] = c; }
 };
-
-// One contact, apart from its loop: temporaries of a loop body marked simd would be kept in memory and stop the vectoriser.
-[[gnu::always_inline]] inline void PairForces::Block::law(const ContactPair& kind, int c, double step) {
-  const Vec3 r{x[0][c], x[1][c], x[2][c]};
-  const double distance = std::sqrt(norm_squared(r) + smallest_square);
-  ContactMotion contact;
-  contact.overlap = std::max(kind.reach - distance, 0.0);
-  contact.normal = (1 / distance) * r;
-  contact.velocity = Vec3{v[0][c], v[1][c], v[2][c]} + cross(Vec3{w[0][c], w[1][c], w[2][c]}, r);
-  contact.slip = {slip[0][c], slip[1][c], slip[2][c]};
-  const ContactForce result = hertz_mindlin(kind.law, contact, step);
-  const Vec3 relative{spin[0][c], spin[1][c], spin[2][c]};
-  const Vec3 M = rolling_friction(kind.rolling, result.normal, relative - dot(relative, contact.normal) * contact.normal, step);
-  const Vec3 torque = cross(r, result.force);
-  force[0][c] = result.force.x, force[1][c] = result.force.y, force[2][c] = result.force.z;
-  arm_torque[0][c] = torque.x, arm_torque[1][c] = torque.y, arm_torque[2][c] = torque.z;
-  rolling[0][c] = M.x, rolling[1][c] = M.y, rolling[2][c] = M.z;
-  slip[0][c] = result.slip.x, slip[1][c] = result.slip.y, slip[2][c] = result.slip.z;
-  overlap[c] = contact.overlap;
-}
-
-void PairForces::Block::laws(double step) {
-  const ContactPair kind = *pair;
-  const int padded = (n + lanes - 1) / lanes * lanes;
-#pragma omp simd
-  for (int c = 0; c < padded; ++c) law(kind, c, step);
-}
 
 PairForces::PairForces(const std::vector<Rag>& rags, const ContactSettings& settings) : block_(std::make_unique<Block>()) {
   std::vector<const Rag*> kinds;
@@ -90,7 +50,7 @@ PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, dou
       if (slip.touching > 0) slip = {};
       continue;
     }
-    if (block_->n == block_size || block_->pair != &kind) {
+    if (block_->n == contact_block_size || block_->pair != &kind) {
       evaluate(particles, list, step);
       block_->pair = &kind;
     }
@@ -111,7 +71,7 @@ PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, dou
 void PairForces::evaluate(ContactParticles& particles, ContactList& list, double step) {
   Block& b = *block_;
   if (b.n == 0) return;
-  b.laws(step);
+  b.pair->law->evaluate(b, *b.pair, step);
   double deepest = 0;
   const double f1 = b.pair->arm_1, f2 = b.pair->arm_2;
   int first = list.pairs[b.index[0]].p;  // pairs of one particle follow each other: its load is kept at hand

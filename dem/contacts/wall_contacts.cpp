@@ -1,7 +1,7 @@
 // A particle with centre x, at distance s of a wall with direction e (unit, into the fluid):
 //
 //   overlap = min(r - s, 2 r),  n = -e,  contact point c = x - s e
-//   u = v + w x s n - u_wall(c),  force F on the particle by hertz_mindlin, torque s n x F + M,  -F on the wall
+//   u = v + w x s n - u_wall(c),  force F on the particle by the law, torque s n x F + M,  -F on the wall
 //
 // The slip is kept in the frame of the wall: so it turns with a turning wall. Laws are evaluated in blocks of contacts, so that they
 // vectorise; loads are added in the order of the contacts.
@@ -16,51 +16,17 @@ namespace snag {
 namespace {
 // How far a moving wall may come, and a particle may go, before the list is made anew: longer lists against rarer ones.
 constexpr double allowance_over_radius = 4, path_over_radius = 1;
-constexpr int block_size = 64;  // contacts
-constexpr int lanes = 8;        // doubles of the widest vector: every contact goes through the same instructions
 }  // namespace
 
-struct WallContacts::Block {
+struct WallContacts::Block : WallBlock {
   struct Place {
     int particle, body;
     std::int64_t id;
     Vec3 direction;  // frame of the wall
   };
-  int n = 0;
   const ContactPair* pair = nullptr;
-  Place place[block_size];
-  // in: normal, relative velocity at the contact, relative rotation, slip, distance; out: force, torque, slip
-  alignas(64) double normal[3][block_size] = {}, velocity[3][block_size] = {}, spin[3][block_size] = {}, slip[3][block_size] = {};
-  alignas(64) double distance[block_size] = {}, force[3][block_size] = {}, torque[3][block_size] = {};
-
-  static void set(double (&field)[3][block_size], int c, const Vec3& v) { field[0][c] = v.x, field[1][c] = v.y, field[2][c] = v.z; }
-  static Vec3 get(const double (&field)[3][block_size], int c) { return {field[0][c], field[1][c], field[2][c]}; }
-  [[gnu::always_inline]] void law(const ContactPair& kind, int c, double step);
-  void laws(double step);
+  Place place[contact_block_size];
 };
-
-// One contact, apart from its loop, as in pair_forces.cpp.
-inline void WallContacts::Block::law(const ContactPair& kind, int c, double step) {
-  const Vec3 e{normal[0][c], normal[1][c], normal[2][c]};
-  const ContactMotion contact{std::min(kind.reach - distance[c], 2 * kind.reach),
-                              e,
-                              {velocity[0][c], velocity[1][c], velocity[2][c]},
-                              {slip[0][c], slip[1][c], slip[2][c]}};
-  const ContactForce result = hertz_mindlin(kind.law, contact, step);
-  const Vec3 relative{spin[0][c], spin[1][c], spin[2][c]};
-  const Vec3 M =
-      cross(distance[c] * e, result.force) + rolling_friction(kind.rolling, result.normal, relative - dot(relative, e) * e, step);
-  force[0][c] = result.force.x, force[1][c] = result.force.y, force[2][c] = result.force.z;
-  torque[0][c] = M.x, torque[1][c] = M.y, torque[2][c] = M.z;
-  slip[0][c] = result.slip.x, slip[1][c] = result.slip.y, slip[2][c] = result.slip.z;
-}
-
-void WallContacts::Block::laws(double step) {
-  const ContactPair kind = *pair;
-  const int padded = (n + lanes - 1) / lanes * lanes;
-#pragma omp simd
-  for (int c = 0; c < padded; ++c) law(kind, c, step);
-}
 
 WallContacts::~WallContacts() = default;
 WallContacts::WallContacts(WallContacts&&) noexcept = default;
@@ -234,7 +200,7 @@ Vec3 WallContacts::old_slip(int body, const Vec3& direction) {
 
 void WallContacts::put(ContactParticles& particles, const Particle& p, const Touch& touch) {
   Block& block = *block_;
-  if (block.n == block_size || block.pair != &pairs[p.rag]) {
+  if (block.n == contact_block_size || block.pair != &pairs[p.rag]) {
     evaluate(particles);
     block.pair = &pairs[p.rag];
   }
@@ -246,10 +212,10 @@ void WallContacts::put(ContactParticles& particles, const Particle& p, const Tou
   const int c = block.n++;
   block.place[c] = {p.number, touch.body, p.id, direction};
   block.distance[c] = s;
-  Block::set(block.normal, c, n);
-  Block::set(block.velocity, c, p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{}));
-  Block::set(block.spin, c, p.w - pose.spin);
-  Block::set(block.slip, c, moves ? pose.turned(slip) : slip);
+  snag::put(block.normal, c, n);
+  snag::put(block.velocity, c, p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{}));
+  snag::put(block.spin, c, p.w - pose.spin);
+  snag::put(block.slip, c, moves ? pose.turned(slip) : slip);
   max_overlap_over_radius[p.rag] = std::max(max_overlap_over_radius[p.rag], (radius - s) / radius);
   ++n_contacts;
 }
@@ -257,13 +223,13 @@ void WallContacts::put(ContactParticles& particles, const Particle& p, const Tou
 void WallContacts::evaluate(ContactParticles& particles) {
   Block& block = *block_;
   if (block.n == 0) return;
-  block.laws(step_);
+  block.pair->law->evaluate(block, *block.pair, step_);
   for (int c = 0; c < block.n; ++c) {
     const Block::Place& place = block.place[c];
     ParticleLoad& load = particles.load[place.particle];
     load.fx += block.force[0][c], load.fy += block.force[1][c], load.fz += block.force[2][c];
     load.tx += block.torque[0][c], load.ty += block.torque[1][c], load.tz += block.torque[2][c];
-    const Vec3 slip = Block::get(block.slip, c);
+    const Vec3 slip = snag::get(block.slip, c);
     slips.push_back(
         {place.id, place.body, place.direction, walls_->bodies()[place.body].motion.moves() ? poses_[place.body].turned_back(slip) : slip});
   }

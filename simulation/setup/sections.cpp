@@ -55,6 +55,7 @@ std::vector<Section> AllSections::list() {
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});
+  append(contact_law_sections());
   append(coupling_sections());
   append({s.output.section(), s.checkpoint.section(), s.observe.section()});
   return all;

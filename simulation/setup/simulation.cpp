@@ -154,7 +154,7 @@ void Simulation::build_rags(const CaseFile& file) {
   if (zone) rotor = {.axis = zone->axis(), .origin = zone->origin(), .speed = zone->full_speed(), .velocity = {}, .ramp = zone->ramp()};
   walls = read_walls(file, mesh.get(), rotor ? &*rotor : nullptr);
   ContactSettings contacts;
-  file.root().table("contact").read(contacts.parameters());
+  contacts.read(file.root().table("contact"));
   impact_speed_ = contacts.impact_speed;
   DemSettings settings;
   read(file.root(), settings);

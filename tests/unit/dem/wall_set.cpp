@@ -333,11 +333,10 @@ TEST(ContactSettings, CaseFile) {
     if (const auto* number = std::get_if<double*>(&p.target)) {
       EXPECT_TRUE(**number >= p.minimum && **number <= p.maximum) << p.key;
     }
-  CaseFile::parse(
-      "[contact]\nrestitution = 0.2\nimpact_speed = \"2 m/s\"\nwall_stiffness_factor = 10\nself_contact = false\nmutual_contact = false\n")
-      .root()
-      .table("contact")
-      .read(settings.parameters());
+  settings.read(CaseFile::parse("[contact]\nrestitution = 0.2\nimpact_speed = \"2 m/s\"\nwall_stiffness_factor = 10\nself_contact = "
+                                "false\nmutual_contact = false\n")
+                    .root()
+                    .table("contact"));
   EXPECT_EQ(settings.restitution, 0.2);
   EXPECT_EQ(settings.impact_speed, 2);
   EXPECT_EQ(settings.wall_stiffness_factor, 10);

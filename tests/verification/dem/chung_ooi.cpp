@@ -31,7 +31,7 @@ Impact on_plane(const Material& material, double radius, double restitution, con
   ContactSettings settings = settings_of(restitution, material.friction);
   settings.wall_stiffness_factor = rigid ? 2 : 1;
   ContactSolver contacts(settings, pieces.rags, &walls);
-  const double step = hertz_time(wall_pair(pieces.rags[0], settings), -velocity.z) / steps;
+  const double step = wall_pair(pieces.rags[0], settings).law->impact_time(-velocity.z) / steps;
   return run_impact(pieces, contacts, step, [&] { return radius - pieces.get(0, Tile::x).z; });
 }
 
@@ -47,7 +47,7 @@ PairImpact of_pair(const Rag& a, const Rag& b, double restitution, double fricti
   pieces.add_sphere(b, {1.0001 * reach, 0, 0}, {-speed, 0, 0}, spin_b);
   const ContactSettings settings = settings_of(restitution, friction);
   ContactSolver contacts(settings, pieces.rags, nullptr);
-  const double step = hertz_time(particle_pair(pieces.rags[0], pieces.rags[1], settings), 2 * speed) / 4000;
+  const double step = particle_pair(pieces.rags[0], pieces.rags[1], settings).law->impact_time(2 * speed) / 4000;
   PairImpact impact;
   static_cast<Impact&>(impact) =
       run_impact(pieces, contacts, step, [&] { return reach - norm(pieces.get(1, Tile::x) - pieces.get(0, Tile::x)); });

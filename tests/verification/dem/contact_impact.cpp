@@ -2,6 +2,8 @@
 // impact).
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/verification/dem/impact.hpp"
 
 namespace snag {
@@ -16,7 +18,7 @@ Impact head_on(double restitution, double steps_per_impact) {
   pieces.add_sphere(Pieces::sphere(1.5e-3, 900), {2.5005e-3, 0, 0}, {-0.5, 0, 0});
   ContactSolver contacts(settings_of(restitution, 0), pieces.rags, nullptr);
   const ContactPair pair = particle_pair(pieces.rags[0], pieces.rags[1], settings_of(restitution, 0));
-  Impact impact = run_impact(pieces, contacts, hertz_time(pair, 2) / steps_per_impact,
+  Impact impact = run_impact(pieces, contacts, pair.law->impact_time(2) / steps_per_impact,
                              [&] { return 2.5e-3 - norm(pieces.get(1, Tile::x) - pieces.get(0, Tile::x)); });
   impact.speed_after = pieces.get(1, Tile::vx).x - pieces.get(0, Tile::vx).x;
   return impact;
@@ -27,12 +29,12 @@ TEST(ContactImpact, ElasticSpheresFollowHertz) {
   const Impact impact = head_on(1, 1000);
   const Rag a = Pieces::sphere(1e-3, 540), b = Pieces::sphere(1.5e-3, 900);
   const ContactPair pair = particle_pair(a, b, settings_of(1, 0));
-  EXPECT_NEAR(impact.duration / hertz_time(pair, 2), 1, 1e-4);
-  EXPECT_NEAR(impact.deepest / hertz_overlap(pair, 2), 1, 1e-5);
+  EXPECT_NEAR(impact.duration / pair.law->impact_time(2), 1, 1e-4);
+  EXPECT_NEAR(impact.deepest / pair.law->deepest_overlap(2), 1, 1e-5);
   EXPECT_NEAR(impact.speed_after / 2, 1, 1e-5);
   // The formulas themselves: 1/2 m* u^2 is the work 8/15 E* sqrt(R*) d^(5/2) up to the deepest overlap.
   const double m = a.mass * b.mass / (a.mass + b.mass), E = 1e6 / (1 - 0.25), R = 0.6e-3;  // E* of two bodies of G, nu: G/(1 - nu)
-  EXPECT_NEAR(8.0 / 15 * E * std::sqrt(R) * std::pow(hertz_overlap(pair, 2), 2.5) / (0.5 * m * 4), 1, 1e-12);
+  EXPECT_NEAR(8.0 / 15 * E * std::sqrt(R) * std::pow(pair.law->deepest_overlap(2), 2.5) / (0.5 * m * 4), 1, 1e-12);
 }
 
 // The speed after an impact converges to the exact one: elastic with second order in the step; damped with first order, because velocities
@@ -49,6 +51,26 @@ TEST(ContactImpact, RestitutionIsReproduced) {
   EXPECT_NEAR(head_on(0.01, 20000).speed_after / 2, 0.01, 2e-3);
 }
 
+// A linear spring and dashpot gives back e exactly, after half a period of the damped oscillator, with the deepest overlap of its formula.
+TEST(ContactImpact, LinearSpringIsADampedOscillator) {
+  const Rag sphere = Pieces::sphere(1e-3, 1150);
+  for (const double e : {1.0, 0.8, 0.3}) {
+    Pieces pieces;
+    pieces.add_sphere(sphere, {}, {0.5, 0, 0});
+    pieces.add_sphere(sphere, {2.0001e-3, 0, 0}, {-0.5, 0, 0});
+    ContactSettings settings = settings_of(e, 0);
+    settings.law_name = "linear_spring";
+    ContactSolver contacts(settings, pieces.rags, nullptr);
+    const double E = sphere.shear_modulus / (1 - sphere.poisson_ratio), m = sphere.mass / 2, omega = std::sqrt(0.4 * E * 0.5e-3 / m);
+    const double B = damping_of_restitution(e), damped = omega * std::sqrt(1 - B * B);
+    const Impact impact = run_impact(pieces, contacts, std::numbers::pi / omega / 20000,
+                                     [&] { return 2e-3 - norm(pieces.get(1, Tile::x) - pieces.get(0, Tile::x)); });
+    EXPECT_NEAR(pieces.get(1, Tile::vx).x - pieces.get(0, Tile::vx).x, e, 1e-3) << e;
+    EXPECT_NEAR(impact.duration * damped / std::numbers::pi, 1, 1e-3) << e;
+    EXPECT_NEAR(impact.deepest * omega, std::exp(-B / std::sqrt(1 - B * B) * std::acos(B)), 1e-3) << e;
+  }
+}
+
 // A sphere meets an elastic plane as it meets a sphere of infinite radius.
 TEST(ContactImpact, ElasticPlaneFollowsHertz) {
   Pieces pieces;
@@ -60,7 +82,7 @@ TEST(ContactImpact, ElasticPlaneFollowsHertz) {
   s.wall_stiffness_factor = 4;
   ContactSolver contacts(s, pieces.rags, &walls);
   const ContactPair pair = wall_pair(rag, s);
-  const Impact impact = run_impact(pieces, contacts, hertz_time(pair, 1) / 1000, [&] { return 2e-3 - pieces.get(0, Tile::x).z; });
+  const Impact impact = run_impact(pieces, contacts, pair.law->impact_time(1) / 1000, [&] { return 2e-3 - pieces.get(0, Tile::x).z; });
   const double k = 16.0 / 15 * 4 * 1e6 / (1 - 0.25) * std::sqrt(2e-3);
   EXPECT_NEAR(impact.duration / (2.943175 * std::pow(rag.mass * rag.mass / (k * k), 0.2)), 1, 1e-4);
   EXPECT_NEAR(impact.deepest / std::pow(rag.mass / k, 0.4), 1, 1e-5);
@@ -75,7 +97,7 @@ Impact oblique(double angle, double e, double mu, double poisson_ratio) {
   WallSet walls;
   walls.add_plane("floor", {}, {0, 0, 1});
   ContactSolver contacts(settings_of(e, mu), pieces.rags, &walls);
-  const double step = hertz_time(wall_pair(rag, settings_of(e, mu)), 3 * std::cos(angle)) / 4000;
+  const double step = wall_pair(rag, settings_of(e, mu)).law->impact_time(3 * std::cos(angle)) / 4000;
   return run_impact(pieces, contacts, step, [&] { return 2e-3 - pieces.get(0, Tile::x).z; });
 }
 

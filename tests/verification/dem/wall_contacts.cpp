@@ -37,7 +37,10 @@ struct Led {
   Vec3 torque() const { return pieces.get(0, Tile::tx); }
 };
 
-double hertz_force(double overlap) { return wall_pair(sphere, {}).law.normal * std::pow(overlap, 1.5); }
+/// F = 4/3 E* sqrt(r) d^(3/2), of two bodies of the same material E* = G/(1 - nu).
+double hertz_force(double overlap) {
+  return 4.0 / 3 * sphere.shear_modulus / (1 - sphere.poisson_ratio) * std::sqrt(r) * std::pow(overlap, 1.5);
+}
 
 /// A flat floor of uneven triangles, some smaller and some larger than the sphere.
 WallSurface uneven_floor() {
