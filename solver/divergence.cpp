@@ -192,7 +192,9 @@ void DivergenceWatch::count_unsolved(const Flow& flow, const BoundarySet& bounda
   if (report.outer.empty()) return;
   const OuterReport& last = report.outer.back();
   const auto is_unsolved = [](const SweepReport& sweeps) { return !sweeps.converged && !(sweeps.final <= DivergenceBounds::residual); };
-  unsolved_turbulence_ = is_unsolved(last.turbulence.k) || is_unsolved(last.turbulence.epsilon) ? unsolved_turbulence_ + 1 : 0;
+  const auto& equations = last.turbulence.equations;
+  const bool unsolved = std::any_of(equations.begin(), equations.end(), [&](const auto& equation) { return is_unsolved(equation.sweeps); });
+  unsolved_turbulence_ = unsolved ? unsolved_turbulence_ + 1 : 0;
   unsolved_ = is_unsolved(last.momentum) ? unsolved_ + 1 : 0;
   most_unsolved_ = std::max(most_unsolved_, unsolved_);
   if (unsolved_ > DivergenceBounds::unsolved_steps)

@@ -211,14 +211,15 @@ void FlowSolver::correct_turbulence(int outer, const TimeScheme& time, StepRepor
   const double begun = seconds();
   TurbulenceReport& did = report.outer.back().turbulence;
   did = turbulence_->correct(flow, boundary_, time, outer);
-  if (!std::isfinite(did.k.final + did.epsilon.final))
-    watch_.fail(flow, boundary_, time.dt, "the equations of k and epsilon have residuals that are no numbers");
-  for (const auto& [name, sweeps] : {std::pair{"k", did.k}, std::pair{"epsilon", did.epsilon}})
+  for (const auto& [symbol, sweeps] : did.equations)
+    if (!std::isfinite(sweeps.final))
+      watch_.fail(flow, boundary_, time.dt, "the equation of " + symbol + " has a residual that is no number");
+  for (const auto& [symbol, sweeps] : did.equations)
     if (!sweeps.converged)
-      log::warning(std::string("equation of ") + name + ": change of " + scientific(sweeps.final) + " after " +
-                   std::to_string(sweeps.sweeps) + " sweeps; take smaller steps");
+      log::warning("equation of " + symbol + ": change of " + scientific(sweeps.final) + " after " + std::to_string(sweeps.sweeps) +
+                   " sweeps; take smaller steps");
   if (did.raised_cells > 0)
-    log::warning("turbulence: k or epsilon was too small to compute with in " + std::to_string(did.raised_cells) +
+    log::warning("turbulence: what the model transports was too small to compute with in " + std::to_string(did.raised_cells) +
                  " cells and was raised; look at the turbulence of inlets and of the start");
   report.seconds_turbulence += seconds() - begun;
 }

@@ -242,6 +242,10 @@ class Findings {
     add(("flow." + name + "_share").c_str(), bytes / bandwidth_ / spent, "1", 1, "of the bandwidth, by that estimate", nullptr);
   }
 
+  static std::pair<double, double> drop_of(const OuterReport& outer, std::string_view symbol) {
+    const SweepReport sweeps = outer.turbulence.of(symbol);
+    return {sweeps.initial, sweeps.final};
+  }
   void solves() {
     const auto number = [&](const auto& of) { return mean_of_outer(steps_, of); };
     add("flow.momentum_sweeps", number([](const OuterReport& outer) { return outer.momentum.sweeps; }), "1", {}, "Gauss-Seidel, a step",
@@ -251,20 +255,19 @@ class Findings {
         [](const PeerFlow& peer) { return peer.pressure.iterations; });
     add("flow.pressure_setups", number([](const OuterReport& outer) { return outer.continuity.rebuilt ? 1 : 0; }), "1", {},
         "of the preconditioner, a step", nullptr);
-    add("flow.k_sweeps", number([](const OuterReport& outer) { return outer.turbulence.k.sweeps; }), "1", {}, "a step",
+    add("flow.k_sweeps", number([](const OuterReport& outer) { return outer.turbulence.of("k").sweeps; }), "1", {}, "a step",
         [](const PeerFlow& peer) { return peer.k.iterations; });
-    add("flow.epsilon_sweeps", number([](const OuterReport& outer) { return outer.turbulence.epsilon.sweeps; }), "1", {}, "a step",
+    add("flow.epsilon_sweeps", number([](const OuterReport& outer) { return outer.turbulence.of("epsilon").sweeps; }), "1", {}, "a step",
         [](const PeerFlow& peer) { return peer.epsilon.iterations; });
     const char* const drop = "final over initial residual of an outer correction, geometric mean";
     add("flow.momentum_drop", mean_drop(steps_, [](const OuterReport& o) { return std::pair(o.momentum.initial, o.momentum.final); }), "1",
         {}, drop, [](const PeerFlow& peer) { return peer.momentum.drop; });
     add("flow.pressure_drop", mean_drop(steps_, [](const OuterReport& o) { return std::pair(o.continuity.initial, o.continuity.final); }),
         "1", {}, drop, [](const PeerFlow& peer) { return peer.pressure.drop; });
-    add("flow.k_drop", mean_drop(steps_, [](const OuterReport& o) { return std::pair(o.turbulence.k.initial, o.turbulence.k.final); }), "1",
-        {}, drop, [](const PeerFlow& peer) { return peer.k.drop; });
-    add("flow.epsilon_drop",
-        mean_drop(steps_, [](const OuterReport& o) { return std::pair(o.turbulence.epsilon.initial, o.turbulence.epsilon.final); }), "1",
-        {}, drop, [](const PeerFlow& peer) { return peer.epsilon.drop; });
+    add("flow.k_drop", mean_drop(steps_, [](const OuterReport& o) { return drop_of(o, "k"); }), "1", {}, drop,
+        [](const PeerFlow& peer) { return peer.k.drop; });
+    add("flow.epsilon_drop", mean_drop(steps_, [](const OuterReport& o) { return drop_of(o, "epsilon"); }), "1", {}, drop,
+        [](const PeerFlow& peer) { return peer.epsilon.drop; });
     add("flow.courant_max", steps_.courant_max, "1", {}, "of the last step", nullptr);
     add("flow.courant_mean", steps_.courant_mean, "1", {}, "of the last step", nullptr);
     add("flow.cells", steps_.n_cells, "1", {}, "", nullptr);

@@ -83,7 +83,7 @@ Traffic traffic_of(const StepReport& step, double n_cells, double n_faces) {
     const int n_solves = outer.continuity.solves;
     traffic.pressure += bytes(pressure_once + n_solves * pressure_right_side + (n_solves - 1) * gradient_pressure +
                               outer.continuity.iterations * pressure_iteration);
-    traffic.turbulence += bytes(turbulence_once + (outer.turbulence.k.sweeps + outer.turbulence.epsilon.sweeps) * sweep_scalar);
+    traffic.turbulence += bytes(turbulence_once + outer.turbulence.sweeps() * sweep_scalar);
     traffic.rest += bytes(gradient_vector);
   }
   return traffic;

@@ -13,6 +13,18 @@ struct Heading {
 
 }  // namespace
 
+SweepReport TurbulenceReport::of(std::string_view symbol) const {
+  for (const Equation& equation : equations)
+    if (equation.symbol == symbol) return equation.sweeps;
+  return {};
+}
+
+int TurbulenceReport::sweeps() const {
+  int n = 0;
+  for (const Equation& equation : equations) n += equation.sweeps.sweeps;
+  return n;
+}
+
 Registry<Turbulence>& turbulence_models() {
   static Registry<Turbulence> registry("turbulence model");
   return registry;

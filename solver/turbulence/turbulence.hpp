@@ -1,11 +1,17 @@
 #pragma once
-// Turbulence models: one model, one file in solver/turbulence/, chosen by [turbulence] model = "...".
+// Turbulence models: one model, one file in solver/turbulence/models/, chosen by [turbulence] model = "...".
+//
+// What a model transports, and how it treats walls, is its own affair (scalar_transport.hpp, wall_functions.hpp are there to be used). What
+// others read of turbulence is the same for all models, and each fills it: flow.turbulent_kinetic_energy, dissipation_rate (a model of k
+// and omega: epsilon = C_mu k omega) and eddy_viscosity, y_plus and wall_function; forces on rags, field files and monitors take them from
+// there. Among stored() there are "k" and "epsilon": a run may start from the water of another model.
 //
 // A model gives the momentum equation the viscosity of the faces, mu + mu_t, with the shear of wall functions at walls; flow.pressure then
 // holds p + 2/3 rho k. Within a step it follows each correction of velocity and pressure: with one outer correction mu_t is that of the
 // last step (first order in time where the turbulence changes), with more it is of the present one.
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/boundaries/boundary.hpp"
@@ -16,9 +22,17 @@ namespace snag {
 
 /// What a model did in one correction.
 struct TurbulenceReport {
-  SweepReport k, epsilon;
-  std::int64_t raised_cells = 0;  // where k or epsilon was below what can be computed with, and was raised: none in a sound run
+  struct Equation {
+    std::string symbol;  // of what it transports: "k", "epsilon"
+    SweepReport sweeps;
+  };
+  std::vector<Equation> equations;
+  std::int64_t raised_cells = 0;  // where one of them was below what can be computed with, and was raised: none in a sound run
   double largest_viscosity = 0;   // mu_t / mu, the largest of all cells
+
+  /// Of the equation of this symbol; that of nothing to solve if the model has none.
+  SweepReport of(std::string_view symbol) const;
+  int sweeps() const;  // of all equations
 };
 
 /// A cell field that a checkpoint keeps.

@@ -130,10 +130,10 @@ TEST(DivergenceWatch, unsolved_steps) {
 TEST(DivergenceWatch, unsolved_turbulence) {
   Watched w;
   OuterReport& last = w.report.outer.back();
-  last.turbulence.epsilon.converged = false, last.turbulence.epsilon.final = 1e3;
+  last.turbulence.equations = {{"k", {}}, {"epsilon", SweepReport{0, 1e3, 0, false}}};
   for (int n = 0; n < 30; ++n) EXPECT_EQ(w.error(), "");
   EXPECT_EQ(w.watch.unsolved_steps(), 30);
-  last.turbulence.epsilon.final = 1e-6;
+  last.turbulence.equations[1].sweeps.final = 1e-6;
   EXPECT_EQ(w.error(), "");
   EXPECT_EQ(w.watch.unsolved_steps(), 0);
 }

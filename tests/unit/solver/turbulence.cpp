@@ -7,6 +7,7 @@
 #include "solver/flow_solver.hpp"
 #include "solver/monitors.hpp"
 #include "solver/turbulence/wall_functions.hpp"
+#include "tests/sources.hpp"
 
 using namespace snag;
 using namespace snag::test;
@@ -33,8 +34,9 @@ TEST(WallLaw, profile) {
   EXPECT_DOUBLE_EQ(law.viscosity_ratio(100), 0.41 * 100 / std::log(9.8 * 100));
 }
 
-// Every model registers itself, and the manual shows the choice and each model.
+// Every model registers itself: none of the folder is dropped by the linker; and the manual shows the choice and each model.
 TEST(Turbulence, registry) {
+  EXPECT_EQ(turbulence_models().names().size(), n_sources("solver/turbulence/models"));
   const std::vector<std::string> known{"k_epsilon", "laminar"};
   EXPECT_EQ(turbulence_models().names(), known);
   EXPECT_EQ(turbulence_sections().size(), known.size() + 1);

@@ -42,7 +42,8 @@ class BackwardFacingStep {
     for (int i = 1; i <= most; ++i) {
       const StepReport report = solver.advance(dt);
       for (const OuterReport& outer : report.outer)
-        sweeps = std::max<double>(sweeps, std::max({outer.momentum.sweeps, outer.turbulence.k.sweeps, outer.turbulence.epsilon.sweeps}));
+        sweeps = std::max<double>(
+            sweeps, std::max({outer.momentum.sweeps, outer.turbulence.of("k").sweeps, outer.turbulence.of("epsilon").sweeps}));
       if (i % 10 != 0) continue;
       const double now = reattachment();
       const bool rests = i >= 50 && std::abs(now - before) < rest;

@@ -1,3 +1,9 @@
+// Standard k-epsilon model, Launder and Spalding (1974), with the wall functions of solver/turbulence/wall_functions.hpp:
+//
+//   dk/dt + div(u k) = div((nu + nu_t/sigma_k) grad k) + P - epsilon
+//   d epsilon/dt + div(u epsilon) = div((nu + nu_t/sigma_epsilon) grad epsilon) + (epsilon/k) (C_1 P - C_2 epsilon)
+//   nu_t = C_mu k^2/epsilon,   P = 2 nu_t S:S,   S = (grad u + grad u^T)/2
+//
 // One correction: epsilon with k as guessed, then k with the sink epsilon/k* of the epsilon just found, then mu_t.
 //
 // epsilon:  P_eps = C_1 C_mu k* 2 S:S,      s_eps = C_2 epsilon*/k*          (P/nu_t = 2 S:S, and nu_t epsilon/k = C_mu k)
@@ -9,17 +15,55 @@
 // A guess a* is extrapolated from a^n and a^(n-1), linearly where a grows and with 1/a linear where it falls: positive, and exact for the
 // turnover time k/epsilon of decaying turbulence, which grows linearly. Where a step is longer than the turnover time or the Courant number
 // large, the guess goes over to a^n, which is first order and robust.
-#include "solver/turbulence/k_epsilon.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
+#include "solver/turbulence/scalar_transport.hpp"
+#include "solver/turbulence/turbulence.hpp"
+#include "solver/turbulence/wall_functions.hpp"
 
 namespace snag {
 
 namespace {
+
+class KEpsilon final : public Turbulence {
+ public:
+  static constexpr const char* name = "k_epsilon";
+  Section section() override;
+  void prepare(Flow& flow, const BoundarySet& boundary) override;
+  void start(Flow& flow, const BoundarySet& boundary) override;
+  void mesh_turned(Flow& flow, const BoundarySet& boundary) override;
+  void begin_step(Flow& flow, const TimeScheme& time) override;
+  TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
+  const std::vector<Vec3>& velocity_for_gradient(const Flow& flow, const BoundarySet& boundary) override;
+  std::vector<StoredField> stored() override;
+  void restore(Flow& flow, const BoundarySet& boundary) override;
+
+ private:
+  void fill_initial(const Flow& flow, const BoundarySet& boundary);
+  void guess(Flow& flow, const TimeScheme& time, int outer);
+  void set_entering(const Flow& flow, const BoundarySet& boundary);
+  double boundary_eddy_viscosity(const Flow& flow, int f) const;
+  void set_diffusivity(const Flow& flow, double sigma);
+  void set_viscosity(Flow& flow, const BoundarySet& boundary);
+  std::int64_t raise(const Mesh& mesh);
+
+  WallLaw law_;
+  double C_1_ = 1.44, C_2_ = 1.92, sigma_k_ = 1, sigma_epsilon_ = 1.3, tolerance_ = 1e-8;
+  std::optional<double> initial_k_, initial_epsilon_;
+  WallFunctions walls_;
+  std::optional<ScalarTransport> k_equation_, epsilon_equation_;
+  std::vector<double>*k_ = nullptr, *epsilon_ = nullptr;  // of the flow, [n_all_cells]
+  std::vector<double> k_old_, k_older_, k_guess_;         // [n_all_cells]
+  std::vector<double> epsilon_old_, epsilon_older_, epsilon_guess_;
+  std::vector<double> production_, sink_, strain_;     // [n_cells]; strain_: 2 S:S, 1/s2
+  std::vector<double> diffusivity_;                    // [n_faces], m2/s
+  std::vector<double> k_entering_, epsilon_entering_;  // [n_faces - n_interior]
+  std::vector<Vec3> velocity_for_gradient_;            // likewise
+};
 
 const bool registered = turbulence_models().add<KEpsilon>();
 
@@ -43,8 +87,6 @@ bool all_zero(const Mesh& mesh, const std::vector<double>& field) {
   for (const double value : field) largest = std::max(largest, std::abs(value));
   return maximum(mesh.comm, largest) == 0;
 }
-
-}  // namespace
 
 Section KEpsilon::section() {
   const auto constant = [](const char* key, double* target, double low, double high) {
@@ -157,7 +199,7 @@ TurbulenceReport KEpsilon::correct(Flow& flow, const BoundarySet& boundary, cons
     production_[c] = C_1_ * law_.C_mu * k_guess_[c] * strain_[c];
     sink_[c] = C_2_ * epsilon_guess_[c] / k_guess_[c];
   }
-  report.epsilon =
+  const SweepReport epsilon =
       epsilon_equation_->solve({epsilon_old_, epsilon_older_, epsilon_guess_}, {production_, sink_, diffusivity_, epsilon_entering_},
                                {walls_.cells(), walls_.dissipation()}, *epsilon_);
   set_diffusivity(flow, sigma_k_);
@@ -167,8 +209,9 @@ TurbulenceReport KEpsilon::correct(Flow& flow, const BoundarySet& boundary, cons
     sink_[c] = (*epsilon_)[c] / k_guess_[c];
   }
   for (std::size_t i = 0; i < walls_.cells().size(); ++i) production_[walls_.cells()[i]] = walls_.production()[i];
-  report.k = k_equation_->solve({k_old_, k_older_, k_guess_}, {production_, sink_, diffusivity_, k_entering_}, {}, *k_);
+  const SweepReport k = k_equation_->solve({k_old_, k_older_, k_guess_}, {production_, sink_, diffusivity_, k_entering_}, {}, *k_);
 
+  report.equations = {{"k", k}, {"epsilon", epsilon}};
   report.raised_cells = raise(mesh);
   set_viscosity(flow, boundary);
   double largest = 0;
@@ -271,4 +314,5 @@ void KEpsilon::restore(Flow& flow, const BoundarySet& boundary) {
   set_viscosity(flow, boundary);
 }
 
+}  // namespace
 }  // namespace snag
