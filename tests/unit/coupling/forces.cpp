@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <numbers>
 
 #include "coupling/coupling_settings.hpp"
@@ -301,7 +299,8 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
   }
   EXPECT_THROW(read("[coupling]\nforces = [\"gravity\", \"gravity\"]\n"), Error);
   EXPECT_THROW(read("[coupling]\nforces = [\"recommended\", \"added_mass\"]\n"), Error);
-  EXPECT_EQ(read("[coupling]\nforces = [\"published\", \"wall\"]\n").settings.forces, (std::vector<std::string>{"free_stream_drag", "wall"}));
+  EXPECT_EQ(read("[coupling]\nforces = [\"published\", \"wall\"]\n").settings.forces,
+            (std::vector<std::string>{"free_stream_drag", "wall"}));
   EXPECT_EQ(read("[coupling]\n").settings.forces, read("[coupling]\nforces = [\"recommended\"]\n").settings.forces);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\n").forces.size(), 0u);
   EXPECT_EQ(read("[coupling]\nmode = \"none\"\nforces = [\"torque\", \"pressure_gradient\"]\n").forces.size(), 0u);
