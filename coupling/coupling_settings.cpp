@@ -55,17 +55,18 @@ const std::vector<ForceSet>& force_sets() {
 Section CouplingSettings::section() {
   std::string sets;
   for (const ForceSet& set : force_sets()) sets += " \"" + set.name + "\": " + joined(set.forces) + " (" + set.meaning + ").";
-  return {"coupling",
-          "How water and rags feel each other.",
-          {setting("mode", &mode,
-                   "none: rags and water ignore each other; one_way: rags feel the water; two_way: and the water feels the rags.",
-                   {"none", "one_way", "two_way"}),
-           setting("kernel", &kernel, "Smoothing kernel between particles and cells.", kernel_shapes().names()),
-           {"kernel_width", &kernel_width, "m", 1e-6, 10, Basis::assumed,
-            "Rms width per axis of the kernel, for every kernel but cell; a physical length, not a cell count. Chosen: twice the largest "
-            "particle "
-            "diameter."},
-           setting("forces", &forces, "Forces of the water on a particle: " + joined(fluid_forces().names()) + ", or sets of them." + sets)}};
+  return {
+      "coupling",
+      "How water and rags feel each other.",
+      {setting("mode", &mode,
+               "none: rags and water ignore each other; one_way: rags feel the water; two_way: and the water feels the rags.",
+               {"none", "one_way", "two_way"}),
+       setting("kernel", &kernel, "Smoothing kernel between particles and cells.", kernel_shapes().names()),
+       {"kernel_width", &kernel_width, "m", 1e-6, 10, Basis::assumed,
+        "Rms width per axis of the kernel, for every kernel but cell; a physical length, not a cell count. Chosen: twice the largest "
+        "particle "
+        "diameter."},
+       setting("forces", &forces, "Forces of the water on a particle: " + joined(fluid_forces().names()) + ", or sets of them." + sets)}};
 }
 
 double Coupling::kernel_width(const std::vector<Rag>& rags) const {

@@ -23,7 +23,7 @@ const std::vector<ForceSet>& force_sets();
 struct CouplingSettings {
   std::string mode = "two_way";  // none | one_way | two_way
   std::string kernel = "gaussian";
-  std::optional<double> kernel_width;  // delta, m; not given: twice the largest particle diameter
+  std::optional<double> kernel_width;                             // delta, m; not given: twice the largest particle diameter
   std::vector<std::string> forces = force_sets().front().forces;  // sets are spelt out when a case is read
 
   Section section();

@@ -108,9 +108,9 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   const Mesh& mesh = flow.mesh;
   const FaceRows rows(mesh);
   const Poisson& poisson = continuity_.poisson();
-  checkpoint.shared("flow/scalars", std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step),
-                                                        started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0,
-                                                        has_history_ ? 1.0 : 0.0});
+  checkpoint.shared("flow/scalars",
+                    std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step), started_ ? 1.0 : 0.0,
+                                        poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0, has_history_ ? 1.0 : 0.0});
   if (const std::vector<double> state = boundary_.state(); !state.empty())
     checkpoint.shared("flow/boundary", std::span<const double>(state));
   write_cells(checkpoint, "flow/velocity", mesh, first(flow.velocity), 3);

@@ -69,8 +69,8 @@ class FlowSolver {
   /// Everything a resume needs; the same numbers to the bit on the same ranks. Names begin with "flow/".
   void save(CheckpointWriter& checkpoint) const;
   void load(CheckpointReader& checkpoint);
-  /// From the checkpoint of another run on the same mesh, where its rotor stands as here: the water with what was before, at time 0, so that
-  /// the next step goes on as the step of that run would. False, and nothing read, where it lacks something. Collective.
+  /// From the checkpoint of another run on the same mesh, where its rotor stands as here: the water with what was before, at time 0, so
+  /// that the next step goes on as the step of that run would. False, and nothing read, where it lacks something. Collective.
   bool go_on_from(CheckpointReader& checkpoint);
 
   const BoundarySet& boundary() const { return boundary_; }

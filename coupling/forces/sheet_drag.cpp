@@ -52,8 +52,9 @@ struct SheetDrag final : FluidForce {
   void set_coupling(bool two_way) override { chosen_coefficient = two_way ? of_cloth : of_plate; }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (share == 0) return;
-    const double rho = fluid.density, side = 2 * particles.rag.radius, area = side * side, C_n = normal_coefficient.value_or(chosen_coefficient),
-                 C_t = tangential_coefficient, theta = share, viscous = form == "viscous" ? 1 : 0;
+    const double rho = fluid.density, side = 2 * particles.rag.radius, area = side * side,
+                 C_n = normal_coefficient.value_or(chosen_coefficient), C_t = tangential_coefficient, theta = share,
+                 viscous = form == "viscous" ? 1 : 0;
     const double per_speed = rho * side / fluid.dynamic_viscosity;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;

@@ -12,8 +12,8 @@ class FieldOutput {
  public:
   /// Keeps the entries of a resumed run up to from_time. Collective.
   FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time);
-  /// The cells where they are now, with velocity, pressure, solid fraction, reaction, rank, skew cells and those in corners, what turns, and k,
-  /// epsilon, nu_t of a turbulence model, at the flow's time. Collective; throws Error(io).
+  /// The cells where they are now, with velocity, pressure, solid fraction, reaction, rank, skew cells and those in corners, what turns,
+  /// and k, epsilon, nu_t of a turbulence model, at the flow's time. Collective; throws Error(io).
   void write(const Flow& flow);
 
  private:

@@ -47,8 +47,10 @@ struct TwoWay {
       : mesh(structured_box(comm, {0, 0, 0}, {0.06, 0.04, 0.08}, n)),
         flow(mesh),
         rags(comm, {}, pieces()),
-        solver(read_coupling(CaseFile::parse("[coupling]\nkernel = \"" + kernel + "\"\nkernel_width_mm = 5\nforces = [\"published\"]\n" + more).root()), rags, flow,
-               [this](double dt) { advance_water(dt); }) {}
+        solver(
+            read_coupling(
+                CaseFile::parse("[coupling]\nkernel = \"" + kernel + "\"\nkernel_width_mm = 5\nforces = [\"published\"]\n" + more).root()),
+            rags, flow, [this](double dt) { advance_water(dt); }) {}
 
   void advance_water(double dt) {
     for (int c = 0; c < mesh.n_cells; ++c) {

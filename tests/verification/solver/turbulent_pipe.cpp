@@ -138,7 +138,9 @@ TEST(TurbulentPipe, pressure_gradient) {
 // Cells at the wall that are thinner than the viscous layer do not change friction: at y+ 1, 3 and 5 it is that at y+ 100 within 4 %.
 TEST(TurbulentPipe, thin_cells_at_the_wall) {
   constexpr double G = 168, y_plus_one = 1.09e-5;  // Pa/m, m
-  const auto velocity = [&](double y_plus, double dt) { return develop(pipe_sector(rings(20, y_plus * y_plus_one)), sector_boundary, G, dt).mean_velocity; };
+  const auto velocity = [&](double y_plus, double dt) {
+    return develop(pipe_sector(rings(20, y_plus * y_plus_one)), sector_boundary, G, dt).mean_velocity;
+  };
   const double thick = velocity(100, 0.5);
   for (const double y_plus : {1.0, 3.0, 5.0}) {
     const double U = velocity(y_plus, 5e-3);
