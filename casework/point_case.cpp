@@ -11,6 +11,7 @@
 #include "base/words.hpp"
 #include "casework/key_changes.hpp"
 #include "casework/library.hpp"
+#include "coupling/coupling_settings.hpp"
 #include "simulation/setup/simulation.hpp"
 
 namespace snag {
@@ -66,9 +67,12 @@ BaseCase facts_of(const toml::table& root, const Simulation& run) {
 }
 
 std::vector<std::string> listed_forces(const toml::table& root) {
-  std::vector<std::string> names;
-  if (const auto* list = root["coupling"]["forces"].as_array())
+  std::vector<std::string> names = CouplingSettings().forces;
+  if (const auto* list = root["coupling"]["forces"].as_array()) {
+    names.clear();
     for (const toml::node& name : *list) names.push_back(name.value_or(std::string()));
+    names = spelt_out(names);
+  }
   if (root.contains("gravity")) names.emplace_back("gravity");
   return names;
 }

@@ -22,19 +22,6 @@ constexpr double least_width_over_cell = 0.3;
 // Above this many cells a particle the transfers cost more than the flow.
 constexpr double most_cells_per_particle = 3000;
 
-/// The forces with every set in place of its name.
-std::vector<std::string> spelt_out(const std::vector<std::string>& names) {
-  std::vector<std::string> forces;
-  for (const std::string& name : names) {
-    const auto set = std::find_if(force_sets().begin(), force_sets().end(), [&](const ForceSet& s) { return s.name == name; });
-    if (set == force_sets().end())
-      forces.push_back(name);
-    else
-      forces.insert(forces.end(), set->forces.begin(), set->forces.end());
-  }
-  return forces;
-}
-
 double largest_diameter(const std::vector<Rag>& rags) {
   double largest = 0;
   for (const Rag& rag : rags) largest = std::max(largest, rag.hydrodynamic_diameter);
@@ -50,6 +37,18 @@ const std::vector<ForceSet>& force_sets() {
        "resistance of the cloth across and along itself, inertia of the water; with [gravity] weight and buoyancy"},
       {"published", {"free_stream_drag"}, "as in the published simulations: drag of free spheres, no inertia of the water"}};
   return sets;
+}
+
+std::vector<std::string> spelt_out(const std::vector<std::string>& names) {
+  std::vector<std::string> forces;
+  for (const std::string& name : names) {
+    const auto set = std::find_if(force_sets().begin(), force_sets().end(), [&](const ForceSet& s) { return s.name == name; });
+    if (set == force_sets().end())
+      forces.push_back(name);
+    else
+      forces.insert(forces.end(), set->forces.begin(), set->forces.end());
+  }
+  return forces;
 }
 
 Section CouplingSettings::section() {

@@ -19,6 +19,8 @@ struct ForceSet {
 };
 /// The first is what a case without `forces` gets.
 const std::vector<ForceSet>& force_sets();
+/// The forces with every set in place of its name.
+std::vector<std::string> spelt_out(const std::vector<std::string>& names);
 
 struct CouplingSettings {
   std::string mode = "two_way";  // none | one_way | two_way

@@ -26,6 +26,7 @@ with_water = true
 [coupling]
 mode = "{mode}"
 kernel = "cell"
+forces = ["published"]
 [observe]
 window_lower_m = [0.35, 0, 0]
 window_upper_m = [0.45, 0.1, 0.1]

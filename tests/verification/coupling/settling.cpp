@@ -56,7 +56,8 @@ TEST(Settling, MomentumCloses) {
     water.watch().widen(1, "fall of the spheres");  // m/s
     RagSystem rags(world, {}, pieces());
     const std::string text =
-        "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n[coupling]\nkernel_width_mm = 5\nkernel = \"" + std::string(kernel) + "\"\n";
+        "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n[coupling]\nkernel_width_mm = 5\nforces = [\"published\"]\nkernel = \"" +
+        std::string(kernel) + "\"\n";
     CoupledSolver solver(read_coupling(CaseFile::parse(text).root()), rags, water.flow, [&](double dt) { water.advance(dt); });
     const double dt = 1e-3;
     const Momentum before = momentum(rags, water.flow.density, {0, 0, -9.81});
