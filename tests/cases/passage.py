@@ -34,6 +34,8 @@ radius_mm = 1
 centre_m = [0.04, 0, 0.05]
 lengthwise = [0, 1, 0]
 crosswise = [1, 0, 0]
+[coupling]
+forces = ["published"]
 """
 
 
