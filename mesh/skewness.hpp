@@ -31,8 +31,8 @@ inline bool is_aslant(const Mesh& mesh, int f) {
 /// Skew faces of this rank, ascending, and its owned cells with one of them, ascending. Local.
 std::vector<int> skew_faces(const Mesh& mesh);
 std::vector<int> skew_cells(const Mesh& mesh);
-/// Owned cells in a corner, ascending: two faces or more on the boundary and at most two to other cells (those of a sliding interface are
-/// one), as tetrahedra along the edge of a vane. Their gradient is made of what the boundary says. Local.
+/// Owned corner cells, ascending: two or more faces on the boundary and at most two to other cells (all facets of a sliding interface count
+/// as one), for example tetrahedra at the edge of a vane. Their gradient depends mainly on boundary values. Local.
 std::vector<int> corner_cells(const Mesh& mesh);
 
 }  // namespace snag

@@ -10,7 +10,7 @@
 
 namespace snag {
 
-/// What is told of a rag at the end. Absent: it did not happen, or there is no pump.
+/// Result of the passage of one rag at the end of a run. A value is absent if its event did not happen or the case has no pump.
 struct PassageResult {
   Outcome outcome = Outcome::in_domain;
   std::optional<double> entered, exited;                // s

@@ -108,9 +108,8 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   const Mesh& mesh = flow.mesh;
   const FaceRows rows(mesh);
   const Poisson& poisson = continuity_.poisson();
-  checkpoint.shared("flow/scalars",
-                    std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step), started_ ? 1.0 : 0.0,
-                                        poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0, has_history_ ? 1.0 : 0.0});
+  checkpoint.shared("flow/scalars", std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step),
+                                                        started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0});
   if (const std::vector<double> state = boundary_.state(); !state.empty())
     checkpoint.shared("flow/boundary", std::span<const double>(state));
   write_cells(checkpoint, "flow/velocity", mesh, first(flow.velocity), 3);
@@ -139,7 +138,7 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   const Mesh& mesh = flow.mesh;
   const auto scalars = checkpoint.shared("flow/scalars");
   flow.time = scalars.at(0), flow.time_step_size = scalars.at(1), flow.time_step = static_cast<std::int64_t>(scalars.at(2));
-  started_ = scalars.at(3) != 0, has_history_ = scalars.at(6) != 0;
+  started_ = scalars.at(3) != 0;
   if (started_) load_preconditioner(checkpoint, scalars.at(4), scalars.at(5) != 0);
   if (rotating_zone_) turn_mesh(flow.time);
   if (checkpoint.has("flow/boundary")) boundary_.restore_state(checkpoint.shared("flow/boundary"));
@@ -157,13 +156,13 @@ bool FlowSolver::go_on_from(CheckpointReader& checkpoint) {
   const auto scalars = checkpoint.shared("flow/scalars");
   const auto lacks = [&](const StoredField& field) { return !checkpoint.has("flow/" + field.name); };
   const std::vector<StoredField> stored = turbulence_->stored();
-  if (scalars.size() < 7 || scalars[6] == 0 || std::any_of(stored.begin(), stored.end(), lacks)) return false;
+  if (scalars.at(1) <= 0 || std::any_of(stored.begin(), stored.end(), lacks)) return false;
   load_water(checkpoint);
-  flow.time_step_size = scalars[1];
+  flow.time_step_size = scalars.at(1);
   boundary_.update(flow, 0);
   turbulence_->restore(flow, boundary_);
   watch_.begin(flow);
-  started_ = has_history_ = true;
+  started_ = true;
   return true;
 }
 

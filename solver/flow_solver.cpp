@@ -85,13 +85,12 @@ StepReport FlowSolver::advance(double dt) {
   start(flow.time);
   StepReport report;
   const double begun = seconds();
-  time_ = bdf(dt, has_history_ ? flow.time_step_size : 0);
+  time_ = bdf(dt, flow.time_step_size);
   begin_step(time_, report);
-  const int n_outer = has_history_ ? settings_.outer_correctors : std::max(settings_.outer_correctors, first_step_correctors);
+  const int n_outer = flow.time_step_size > 0 ? settings_.outer_correctors : std::max(settings_.outer_correctors, first_step_correctors);
   for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, time_, report);
   continuity_.history.end_step(flow, momentum_.gradient_guess());
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
-  has_history_ = true;
   measure(dt, report);
   report.seconds_rest = seconds() - begun - report.seconds_momentum - report.seconds_pressure - report.seconds_turbulence;
   return report;

@@ -69,8 +69,8 @@ class FlowSolver {
   /// Everything a resume needs; the same numbers to the bit on the same ranks. Names begin with "flow/".
   void save(CheckpointWriter& checkpoint) const;
   void load(CheckpointReader& checkpoint);
-  /// From the checkpoint of another run on the same mesh, where its rotor stands as here: the water with what was before, at time 0, so
-  /// that the next step goes on as the step of that run would. False, and nothing read, where it lacks something. Collective.
+  /// Reads the water and its history from the checkpoint of another run on the same mesh, with its rotor at the same angle; the time stays
+  /// 0, and the next step equals the next step of that run. Returns false, and reads nothing, if the checkpoint lacks a field. Collective.
   bool go_on_from(CheckpointReader& checkpoint);
 
   const BoundarySet& boundary() const { return boundary_; }
@@ -101,7 +101,7 @@ class FlowSolver {
   std::unique_ptr<RotatingZone> rotating_zone_;
   DivergenceWatch watch_;
   TimeScheme time_;
-  bool started_ = false, has_history_ = false;  // a step before this one is known
+  bool started_ = false;
 };
 
 }  // namespace snag

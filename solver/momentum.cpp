@@ -6,12 +6,13 @@
 //     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C), each component for itself (solver/fields/face.hpp)
 //   diffusion    mu (c (u_N - u_P) + G_f T [+ G_f^T S where mu varies])     first part implicit
 //
-// Where mu varies, faces of a cell in a corner (mesh/skewness.hpp) have the first part alone. The gradient of such a cell is made of what
-// walls say, and beyond a wall function the profile is not the line that it is made with: along the edge of a vane the explicit parts
-// drove single cells to six times the speed of the vane.
+// Where mu varies, the faces of a corner cell (mesh/skewness.hpp) have the implicit part alone. Least squares take the gradient of such a
+// cell mainly from wall values, and assume a linear profile, which a wall function is not. With the explicit parts, single cells at the
+// edge of a vane reached six times the speed of the vane.
 //
-// Where mu is constant div(mu grad u^T) is zero, and its part of the force on a wall stands in no equation: - mu (omega x S)_i = mu S_j
-// du_j/dx_i, for u is omega x r along the wall, and du_n/dn is zero. It is kept apart, for the forces on patches.
+// Where mu is constant, div(mu grad u^T) is zero and the equation omits it. The force on a turning wall has this part of the stress all
+// the same: (grad u^T S)_i = S_j du_j/dx_i = (S x omega)_i, because u = omega x r on the wall and du_n/dn = 0. Flow::turning_friction
+// holds it, mu omega x S, the force of the fluid on the wall; only the forces on patches use it.
 //
 // Explicit parts from u extrapolated fully in time are unstable at large steps (von Neumann analysis of BDF2 with Fromm's scheme:
 // amplification up to 1.2 above Courant 0.5, none for half the extrapolation). So cells take a share e of the extrapolation: 1 below

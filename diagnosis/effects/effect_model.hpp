@@ -38,7 +38,7 @@ class RunEdit {
   void scale_varying_flow(double factor);
   /// The pieces at the start, about the camera's line of sight, rad.
   virtual void turn_pieces(double angle) = 0;
-  /// All lengths that a camera tells, about a point in sizes of the picture: an axis, or the origin of the coordinates (-1).
+  /// Multiplies all lengths that a camera measures. The fixed point lies one picture size along `axis`, or at the origin (axis -1).
   virtual void scale_picture(double factor, int axis) = 0;
 };
 

@@ -15,8 +15,8 @@
 //                      the contact begins anew
 //   reached the outlet the first particle is out;      exited   all of them are
 //
-// Without a pump only the last two are told. Times are ends of steps, but for an exit whose place in the step is seen; a rag touches a wall
-// for the whole of a step in which it touches it at all.
+// A case without a pump defines only the last two. Each event has the time of the end of its step; an exit through a plane has the time
+// interpolated within the step. A contact with a wall counts for the whole step.
 //
 // Runs in a folder show it the particles (simulation/setup/passage.hpp), pictures their pixels (observe/passage/volute_watch.hpp), runs in
 // memory the centre of mass (casework/exit_watch.hpp).

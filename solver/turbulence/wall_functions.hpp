@@ -6,8 +6,8 @@
 //   tau_w = rho kappa u* (u_P - u_w)_t / ln(E y~*) = mu_w (u_P - u_w)_t / y,   mu_w = mu kappa y* / ln(E y~*)
 //   production in the cell   tau_w u* / (rho kappa y~),   epsilon_P = u*^3 / (kappa y~)
 //
-// So a cell nearer to the wall than the log layer stands for its edge: the mesh begins there, and k-epsilon is not asked for the viscous
-// layer, where it makes friction larger by half.
+// A cell centre nearer to the wall than y*_lam is treated as if it were at y*_lam, the lower end of the log layer. The standard k-epsilon
+// model is not valid in the viscous layer below: there it computes a friction that is too large by half.
 //
 // u_t: part along the wall. A cell with several wall faces takes the mean of both, weighted with the areas of the faces. The velocity
 // gradient in the cell at the wall is that of the shear in force, tau_w / (mu + mu_t), and not (u_P - u_w)/y, which is several times as

@@ -4,7 +4,7 @@
 // For small steps it is the incremental law of Potyondy and Cundall (2004), Int. J. Rock Mech. Min. Sci. 41, 1329; Jensen (2018) Eqs.
 // 3.10-3.20, with S_n replaced by S_nb in bending (Eq. 3.24). A chain of n such bonds bends under an end load P across it by
 //   P L^3/(3 E I) (1 - 1/(4 n^2)) + n P/k_s,   E I = k_b l0,  L = n l0:
-// bonds bend at their middle and shear beside that.
+// each bond bends at its middle and shears too.
 #include "dem/bonds/bond_law.hpp"
 
 namespace snag {

@@ -1,4 +1,4 @@
-// The words of outcomes and events are one table: each enumerator stands in its row, and the schema of summary.json lists the same words.
+// One table has the words of outcomes and events: row i belongs to enumerator i, and the schema of summary.json lists the same words.
 #include "observe/outcome.hpp"
 
 #include <gtest/gtest.h>
