@@ -31,6 +31,12 @@ class Registry {
     }
     return maker->second();
   }
+  /// One model of each name, in the order of names(): for the manual.
+  std::vector<std::unique_ptr<Interface>> make_all() const {
+    std::vector<std::unique_ptr<Interface>> all;
+    for (const auto& [name, maker] : makers_) all.push_back(maker());
+    return all;
+  }
   std::vector<std::string> names() const {
     std::vector<std::string> all;
     for (const auto& [name, maker] : makers_) all.push_back(name);

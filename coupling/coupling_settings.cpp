@@ -113,24 +113,21 @@ Vec3 read_gravity(const Table& root) {
 std::vector<Section> coupling_sections() {
   // The records point into these models: they live as long as the program.
   static CouplingSettings settings;
-  static FluidForces forces;
-  static std::vector<std::unique_ptr<KernelShape>> shapes;
+  static const auto forces = fluid_forces().make_all();
+  static const auto shapes = kernel_shapes().make_all();
   std::vector<Section> sections{settings.section()};
-  forces.clear(), shapes.clear();
-  for (const std::string& name : fluid_forces().names()) {
-    forces.push_back(fluid_forces().make(name, "manual"));
-    const Card card = forces.back()->card();
-    sections.push_back({name == gravity ? gravity : "coupling." + name,
+  for (const auto& force : forces) {
+    const Card card = force->card();
+    sections.push_back({card.name == gravity ? gravity : "coupling." + card.name,
                         card.equation + ". Source: " + card.source + ". Valid for: " + card.valid_for + "." +
                             (card.reacts_on_fluid ? "" : " Does not react on the water."),
-                        forces.back()->parameters()});
+                        force->parameters()});
   }
-  for (const std::string& name : kernel_shapes().names()) {
-    shapes.push_back(kernel_shapes().make(name, "manual"));
-    auto parameters = shapes.back()->parameters();
+  const std::vector<std::string> names = kernel_shapes().names();  // in the order of make_all
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto parameters = shapes[i]->parameters();
     if (!parameters.empty())
-      sections.push_back(
-          {"coupling." + name, shapes.back()->equation() + ". Source: " + shapes.back()->source() + ".", std::move(parameters)});
+      sections.push_back({"coupling." + names[i], shapes[i]->equation() + ". Source: " + shapes[i]->source() + ".", std::move(parameters)});
   }
   return sections;
 }

@@ -9,11 +9,7 @@ Registry<BondLaw>& bond_laws() {
 
 std::vector<Section> bond_law_sections() {
   // The records point into these laws: they live as long as the program.
-  static const std::vector<std::unique_ptr<BondLaw>> laws = [] {
-    std::vector<std::unique_ptr<BondLaw>> all;
-    for (const std::string& name : bond_laws().names()) all.push_back(bond_laws().make(name, "manual"));
-    return all;
-  }();
+  static const auto laws = bond_laws().make_all();
   std::vector<Section> sections;
   for (const auto& law : laws) {
     const BondCard card = law->card();

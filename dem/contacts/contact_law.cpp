@@ -21,11 +21,7 @@ double spring_limit(double stiffness, double mass, double damping, double q) {
 
 std::vector<Section> contact_law_sections() {
   // The records point into these laws: they live as long as the program.
-  static const std::vector<std::unique_ptr<ContactLaw>> laws = [] {
-    std::vector<std::unique_ptr<ContactLaw>> all;
-    for (const std::string& name : contact_laws().names()) all.push_back(contact_laws().make(name, "manual"));
-    return all;
-  }();
+  static const auto laws = contact_laws().make_all();
   std::vector<Section> sections;
   for (const auto& law : laws) {
     const ContactCard card = law->card();

@@ -38,11 +38,6 @@ std::vector<ChainPlace> folded_chain(int n, int n_folds, double radius) {
   return chain;
 }
 
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-  const Vec3 u{a.x, a.y, a.z}, v{b.x, b.y, b.z}, w = a.w * v + b.w * u + cross(u, v);
-  return {a.w * b.w - dot(u, v), w.x, w.y, w.z};
-}
-
 void check_folds(const RagPiece& piece) {
   const PosePlan& plan = piece.plan;
   const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, plan.where + ": pose = \"folded\": " + what); };

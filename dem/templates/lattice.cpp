@@ -11,6 +11,17 @@ Vec3 rotate(const Quaternion& q, const Vec3& v) {
   return v + q.w * t + cross(u, t);
 }
 
+Quaternion product(const Quaternion& p, const Quaternion& q) {
+  const Vec3 u{p.x, p.y, p.z}, v{q.x, q.y, q.z}, w = p.w * v + q.w * u + cross(u, v);
+  return {p.w * q.w - dot(u, v), w.x, w.y, w.z};
+}
+
+Quaternion rotation_by(const Vec3& angle) {
+  const double a = norm(angle);
+  const Vec3 v = a > 0 ? std::sin(a / 2) / a * angle : 0.5 * angle;
+  return {std::cos(a / 2), v.x, v.y, v.z};
+}
+
 Quaternion rotation_to(const Vec3& lengthwise, const Vec3& crosswise) {
   const Vec3 a = unit(lengthwise);
   const Vec3 across = crosswise - dot(crosswise, a) * a;

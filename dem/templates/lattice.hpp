@@ -15,6 +15,10 @@ struct Quaternion {
 };
 /// v turned by the unit quaternion q.
 Vec3 rotate(const Quaternion& q, const Vec3& v);
+/// Rotation by q, then by p.
+Quaternion product(const Quaternion& p, const Quaternion& q);
+/// Rotation by |angle| rad about `angle`.
+Quaternion rotation_by(const Vec3& angle);
 /// Rotation that takes x, y, z to `lengthwise`, `crosswise` (made perpendicular to it), and their cross product. Throws Error(usage) if
 /// they are parallel or zero.
 Quaternion rotation_to(const Vec3& lengthwise, const Vec3& crosswise);

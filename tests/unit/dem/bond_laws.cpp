@@ -6,21 +6,11 @@
 #include "dem/bonds/bond_law.hpp"
 #include "dem/bonds/stable_step.hpp"
 #include "dem/rag_system.hpp"
+#include "dem/templates/lattice.hpp"
 #include "tests/sources.hpp"
 
 namespace snag {
 namespace {
-
-Quaternion product(const Quaternion& p, const Quaternion& q) {
-  return {p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z, p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
-          p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
-}
-
-Quaternion turned_by(const Vec3& angle) {
-  const double a = norm(angle);
-  const Vec3 v = a > 0 ? std::sin(a / 2) / a * angle : 0.5 * angle;
-  return {std::cos(a / 2), v.x, v.y, v.z};
-}
 
 struct Pose {
   Vec3 x;
@@ -82,10 +72,10 @@ struct Random {
 /// Two ends far from rest: stretched by tens of per cent, bent and twisted by up to about a radian, turned at will.
 Ends random_ends(Random& random, int direction) {
   const double l0 = 2e-3;
-  const Pose one{random.vector(0.1), turned_by(random.vector(3)), random.vector(1), random.vector(500)};
+  const Pose one{random.vector(0.1), rotation_by(random.vector(3)), random.vector(1), random.vector(500)};
   const Vec3 along = rotate(one.q, direction == 0 ? Vec3{l0, 0, 0} : Vec3{0, l0, 0});
   return {one,
-          {one.x + along + random.vector(0.3 * l0), product(turned_by(random.vector(0.8)), one.q), random.vector(1), random.vector(500)}};
+          {one.x + along + random.vector(0.3 * l0), product(rotation_by(random.vector(0.8)), one.q), random.vector(1), random.vector(500)}};
 }
 
 template <class Work>
@@ -125,8 +115,8 @@ TEST(BondLaws, ReferenceCases) {
       Rag rag = reference.rag;
       rag.bond_damping = rag.rotation_friction = 0;
       const BondOfTwo bond = Pair(law, rag, 0)
-                                 .at({Pose{{}, turned_by(reference.turn[0]), {}, {}},
-                                      Pose{Vec3{2 * rag.radius, 0, 0} + reference.shift, turned_by(reference.turn[1]), {}, {}}});
+                                 .at({Pose{{}, rotation_by(reference.turn[0]), {}, {}},
+                                      Pose{Vec3{2 * rag.radius, 0, 0} + reference.shift, rotation_by(reference.turn[1]), {}, {}}});
       const double couple = std::max(norm(reference.torque[0]), norm(reference.torque[1]));
       const double force = std::max(norm(reference.force), couple / rag.radius),
                    torque = std::max(couple, norm(reference.force) * rag.radius);
@@ -151,7 +141,7 @@ TEST(BondLaws, AreDerivativesOfTheirEnergy) {
         for (const int side : {0, 1}) {
           Ends moved = ends;
           const double by = (2 * side - 1) * size;
-          moved[e].x += by * shift, moved[e].q = product(turned_by(by * turn), ends[e].q);
+          moved[e].x += by * shift, moved[e].q = product(rotation_by(by * turn), ends[e].q);
           U[side] = pair.at(moved).energy;
         }
         return (U[1] - U[0]) / (2 * size);
@@ -181,7 +171,7 @@ TEST(BondLaws, KeepMomentumAndAreObjective) {
       EXPECT_EQ(bond.sum, 0);
       EXPECT_LT(norm(bond.torque[0] + bond.torque[1] + cross(ends[1].x - ends[0].x, bond.force)), 1e-14 * moment);
 
-      const Quaternion Q = turned_by(random.vector(2));
+      const Quaternion Q = rotation_by(random.vector(2));
       const Vec3 shift = random.vector(0.05), spin = random.vector(300);
       Ends moved = ends;
       for (Pose& p : moved)

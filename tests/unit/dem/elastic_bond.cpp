@@ -18,17 +18,6 @@ Rag cloth() {
   return rag;
 }
 
-Quaternion product(const Quaternion& p, const Quaternion& q) {
-  return {p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z, p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
-          p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};
-}
-
-Quaternion turn(const Vec3& angle) {
-  const double a = norm(angle);
-  const Vec3 v = a > 0 ? std::sin(a / 2) / a * angle : 0.5 * angle;
-  return {std::cos(a / 2), v.x, v.y, v.z};
-}
-
 struct Pose {
   Vec3 x, v, w;
   Quaternion q;
@@ -55,9 +44,9 @@ struct Random {
 /// Two ends far from rest: stretched by tens of per cent, bent and twisted by up to about a radian, turned at will.
 std::pair<Pose, Pose> random_pair(Random& random, int direction) {
   const double l0 = 2e-3;
-  Pose one{random.vector(0.1), random.vector(1), random.vector(500), turn(random.vector(3))};
+  Pose one{random.vector(0.1), random.vector(1), random.vector(500), rotation_by(random.vector(3))};
   const Vec3 along = rotate(one.q, direction == 0 ? Vec3{l0, 0, 0} : Vec3{0, l0, 0});
-  Pose two{one.x + along + random.vector(0.3 * l0), random.vector(1), random.vector(500), product(turn(random.vector(0.8)), one.q)};
+  Pose two{one.x + along + random.vector(0.3 * l0), random.vector(1), random.vector(500), product(rotation_by(random.vector(0.8)), one.q)};
   return {one, two};
 }
 
@@ -77,9 +66,9 @@ void check_gradient() {
       Pose a = two, b = two;
       a.x += dx * e, b.x -= dx * e;
       EXPECT_NEAR(-(U(one, a) - U(one, b)) / (2 * dx), bond.force[c], 1e-6 * norm(bond.force));
-      a = two, b = two, a.q = product(turn(dw * e), two.q), b.q = product(turn(-dw * e), two.q);
+      a = two, b = two, a.q = product(rotation_by(dw * e), two.q), b.q = product(rotation_by(-dw * e), two.q);
       EXPECT_NEAR(-(U(one, a) - U(one, b)) / (2 * dw), bond.torque2[c], 1e-6 * norm(bond.torque2));
-      a = one, b = one, a.q = product(turn(dw * e), one.q), b.q = product(turn(-dw * e), one.q);
+      a = one, b = one, a.q = product(rotation_by(dw * e), one.q), b.q = product(rotation_by(-dw * e), one.q);
       EXPECT_NEAR(-(U(a, two) - U(b, two)) / (2 * dw), bond.torque1[c], 1e-6 * norm(bond.torque1));
     }
   }
@@ -113,7 +102,7 @@ void check_pair_laws() {
     EXPECT_LT(norm(other.torque2 - bond.torque1), 4e-15 * moment);
 
     // Requirement: turning and shifting both ends turns forces and torques with them, at any steady rotation.
-    const Quaternion Q = turn(random.vector(2));
+    const Quaternion Q = rotation_by(random.vector(2));
     const Vec3 shift = random.vector(0.05), spin = random.vector(300);
     const auto moved = [&](const Pose& p) {
       const Vec3 x = rotate(Q, p.x) + shift;
@@ -150,12 +139,12 @@ TEST(ElasticBond, MomentsAreProportionalToTheAnglesUpToAHalfTurn) {
   const BondCoefficients law = bonds_of(cloth())->coefficients(0);
   for (double angle = 0.01; angle < 3.1; angle += 0.13) {
     Pose one{}, two{};
-    one.q = turn({0, 0, -angle / 2}), two.q = turn({0, 0, angle / 2}), two.x = {law.length, 0, 0};
+    one.q = rotation_by({0, 0, -angle / 2}), two.q = rotation_by({0, 0, angle / 2}), two.x = {law.length, 0, 0};
     BondForce bond = evaluate<0, false>(law, one, two);
     EXPECT_NEAR(bond.torque1.z / (law.bending * angle), 1, 3e-14);
     EXPECT_NEAR(bond.torque2.z / (law.bending * angle), -1, 3e-14);
     EXPECT_NEAR(std::sqrt(bond.bending_squared) / (law.bending * angle), 1, 3e-14);
-    one.q = turn({-angle / 2, 0, 0}), two.q = turn({angle / 2, 0, 0});
+    one.q = rotation_by({-angle / 2, 0, 0}), two.q = rotation_by({angle / 2, 0, 0});
     bond = evaluate<0, false>(law, one, two);
     EXPECT_NEAR(bond.torque1.x / (law.torsion * angle), 1, 3e-14);
     EXPECT_NEAR(bond.torsion_moment / (law.torsion * angle), 1, 3e-14);
@@ -186,7 +175,7 @@ TEST(ElasticBond, AgreesWithTheIncrementalLawForModerateMotions) {
       moment -= dt * (law.torsion * twist + law.bending * (w - twist));
     }
     one.x = (s * law.length) * v1, two.x += (s * law.length) * v2;
-    one.q = turn(s * w1), two.q = turn(s * w2);
+    one.q = rotation_by(s * w1), two.q = rotation_by(s * w2);
     const BondForce bond = evaluate<0, false>(law, one, two);
     // What remains of torque 2 without the lever of the shear force is the moment of the bond.
     const Vec3 bond_moment = 0.5 * (bond.torque2 - bond.torque1);
