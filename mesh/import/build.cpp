@@ -91,7 +91,8 @@ void warn_of_empty(const MeshParts& parts, const std::string& patch) {
   for (const PeriodicPair& pair : parts.periodic)
     if (patch == pair.first || patch == pair.second) return;
   if (rank_of(parts.comm) == 0)
-    log::warning(parts.source + ": surface \"" + patch + "\" lies inside the volume; it is no boundary and water passes through it");
+    log::warning(parts.source + ": surface \"" + patch +
+                 "\" has no face on the boundary of the volume (it is empty or lies inside); water passes through it");
 }
 
 /// Patches that keep faces somewhere, by name.

@@ -101,6 +101,15 @@ RotorState rotor_state(const RotatingZone& zone, double time) {
   return {{zone.origin(), zone.axis(), zone.speed(time)}, zone.angle(time), zone.slides()};
 }
 
+/// Area of all patches but walls; of a closed domain that of a cut, by its volume. m2. Collective.
+double cross_section(const FlowSolver& water) {
+  double openings = 0;
+  for (int p = 0; p < static_cast<int>(water.flow.mesh.patches.size()); ++p)
+    if (!water.boundary().is_wall(p)) openings += patch_area(water.flow, p);
+  if (openings > 0) return openings;
+  return std::pow(sum(MPI_COMM_WORLD, std::span(water.flow.mesh.cell_volume).first(water.flow.mesh.n_cells)), 2. / 3);
+}
+
 }  // namespace
 
 Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun)
@@ -110,8 +119,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
   if (simulation.water) {
     walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
-    for (int p = 0; p < static_cast<int>(simulation.mesh->patches.size()); ++p)
-      if (!simulation.water->boundary().is_wall(p)) openings_ += patch_area(simulation.water->flow, p);
+    cross_section_ = cross_section(*simulation.water);
   }
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   together(MPI_COMM_WORLD, [&] {
@@ -328,7 +336,7 @@ void Outputs::summarise_checks(Summary& s) const {
   if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
     s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps()};
     constexpr double least_share = 0.01;  // at shut-off nothing passes but round-off
-    const double scale = std::max(largest_through_, least_share * water->watch().speed() * openings_);
+    const double scale = std::max(largest_through_, least_share * water->watch().speed() * cross_section_);
     if (scale > 0) s.conservation.mass_imbalance = largest_imbalance_ / scale;
     if (const RotatingZone* zone = water->flow.rotating_zone) {
       s.mesh.facets = zone->mesh().n_facets_global();

@@ -110,7 +110,7 @@ class Outputs {
   double begun_;                                    // MPI_Wtime()
   Effort effort_before_;                            // up to the checkpoint that was resumed
   std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
-  double openings_ = 0;                             // area of all patches but walls, m2
+  double cross_section_ = 0;                        // of the water, for the scale of a flow rate, m2
 
   // over the whole run, kept by checkpoints: relative, m3/s, relative, m3/s
   double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0, largest_through_ = 0;

@@ -23,7 +23,7 @@ const std::vector<Check>& all_checks() {
        DivergenceBounds::unsolved_steps, water, "use a shorter [time] step, or look for thin cells (snag mesh --info)"},
       {"conservation.mass_imbalance_rel",
        "Mass imbalance of the cells (root of the sum of squares), over the flow through the domain, at least 1 % of what the speed of the "
-       "case would drive through its openings",
+       "case would drive through its openings (a closed domain: through a cut)",
        1e-4, water, "give [flow] pressure_tolerance a smaller value"},
       {"conservation.momentum_exchange_rel", "Momentum lost between water and rags, over what was exchanged", 1e-10, rags,
        "report this as an error of the program"},

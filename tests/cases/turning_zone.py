@@ -17,15 +17,11 @@ SURFACES = {"interface_rotor": 1, "interface_stator": 2, "inlet": 3, "outlet": 4
 INNER, RADIUS, OUTER, HEIGHT, TOP = 0.03, 0.05, 0.08, 0.04, 0.06  # m
 
 
-class Rings:
-    """Hexahedra of a turning ring with four blades, where cells are left out, a ring around it and a lid above; a gmsh file."""
+class RingMesh:
+    """Hexahedra of rings about z; a gmsh file. Zone 1 turns."""
 
     def __init__(self):
         self.nodes, self.elements = [], []
-        gaps = lambda i, j, k: j == 1 and i % 4 == 0 and k < 3  # blades
-        self.add(1, (INNER, RADIUS, 0, HEIGHT, 0), (16, 3, 4), dict(r0="impeller_walls", r1="interface_rotor", z0="impeller_walls", z1="interface_rotor"), gaps)
-        self.add(2, (RADIUS, OUTER, 0, HEIGHT, 0.1), (19, 3, 4), dict(r0="interface_stator", r1="walls", z0="outlet", z1="walls"))
-        self.add(2, (INNER, RADIUS, HEIGHT, TOP, 0.1), (19, 3, 2), dict(r0="walls", r1="walls", z0="interface_stator", z1="inlet"))
 
     def add(self, zone, size, cells, patch, gap=lambda i, j, k: False):
         (r0, r1, z0, z1, start), (n, n_r, n_z), first = size, cells, len(self.nodes) + 1
@@ -52,12 +48,24 @@ class Rings:
                         self.elements.append((3, SURFACES[patch[rim] if at_rim else "impeller_walls"], [c[m] for m in corners]))
 
     def write(self, file):
-        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(SURFACES) + 2)]
-        lines += [f'2 {tag} "{name}"' for name, tag in SURFACES.items()] + ['3 1 "rotor"', '3 2 "stator"', "$EndPhysicalNames"]
+        surfaces = {name: tag for name, tag in SURFACES.items() if any(kind == 3 and of == tag for kind, of, _ in self.elements)}
+        lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(surfaces) + 2)]
+        lines += [f'2 {tag} "{name}"' for name, tag in surfaces.items()] + ['3 1 "rotor"', '3 2 "stator"', "$EndPhysicalNames"]
         lines += ["$Nodes", str(len(self.nodes))] + [f"{i + 1} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(self.nodes)] + ["$EndNodes"]
         lines += ["$Elements", str(len(self.elements))]
         lines += [f"{i + 1} {kind} 2 {tag} {tag} " + " ".join(map(str, nodes)) for i, (kind, tag, nodes) in enumerate(self.elements)]
         file.write_text("\n".join([*lines, "$EndElements", ""]))
+
+
+class Rings(RingMesh):
+    """A turning ring with four blades, where cells are left out, a ring around it and a lid above."""
+
+    def __init__(self):
+        super().__init__()
+        gaps = lambda i, j, k: j == 1 and i % 4 == 0 and k < 3  # blades
+        self.add(1, (INNER, RADIUS, 0, HEIGHT, 0), (16, 3, 4), dict(r0="impeller_walls", r1="interface_rotor", z0="impeller_walls", z1="interface_rotor"), gaps)
+        self.add(2, (RADIUS, OUTER, 0, HEIGHT, 0.1), (19, 3, 4), dict(r0="interface_stator", r1="walls", z0="outlet", z1="walls"))
+        self.add(2, (INNER, RADIUS, HEIGHT, TOP, 0.1), (19, 3, 2), dict(r0="walls", r1="walls", z0="interface_stator", z1="inlet"))
 
 
 class TurningZone(harness.CaseTest):
