@@ -63,7 +63,7 @@ void RagSystem::save(CheckpointWriter& writer) const {
   for (std::size_t r = 0; r < rags_.size(); ++r)
     if (presence_[r] == Presence::removed) removed.push_back(static_cast<std::int64_t>(r));
   writer.shared("rags/removed", std::span<const std::int64_t>(removed));
-  writer.shared("rags/time", std::span<const double>(&time_, 1));
+  writer.shared("rags/time", std::vector<double>{time_, pressed_limit_});
 }
 
 void RagSystem::load(CheckpointReader& reader) {
@@ -115,7 +115,8 @@ void RagSystem::load(CheckpointReader& reader) {
                                   std::to_string(rags_.size()) + "; resume with the case that wrote it");
   for (std::size_t r = 0; r < rags_.size(); ++r) broken_[r] = rank_of(comm_) == 0 ? counters[r] : 0;
   n_sub_steps_ = counters.back();
-  time_ = reader.shared("rags/time").at(0);
+  const std::vector<double> times = reader.shared("rags/time");
+  time_ = times.at(0), pressed_limit_ = times.at(1);
   set_pointers();
   find_ghosts();
   halo_->exchange();

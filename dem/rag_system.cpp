@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/words.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/particles/tile_particles.hpp"
@@ -14,6 +15,8 @@
 namespace snag {
 
 namespace {
+
+constexpr int pressed_interval = 16;  // sub-steps: contacts change little in so few of them, and ranks have to agree on the limit
 
 Inertia inertia_of(const Rag& rag, const Vec3& gravity) { return {rag.mass, rag.inertia, gravity}; }
 
@@ -106,7 +109,9 @@ std::int64_t RagSystem::n_particles() const {
 
 void RagSystem::set_limit() {
   limit_ = {std::numeric_limits<double>::infinity(), "nothing"};
+  rates_.clear();
   for (const Rag& rag : rags_) {
+    rates_.push_back(bond_rates(rag, damping_rate_));
     const StepLimit of_rag = stable_bond_step(rag, damping_rate_);
     if (of_rag.step < limit_.step) limit_ = of_rag;
   }
@@ -119,20 +124,34 @@ void RagSystem::set_limit() {
 }
 
 double RagSystem::stable_step() const { return settings_.step ? *settings_.step : settings_.safety * limit_.step; }
+double RagSystem::pressed_step() const { return settings_.step ? *settings_.step : settings_.safety * pressed_limit_; }
 
 /// Drift-kick-drift (dem/particles/integrator.hpp); the half drifts between two sub-steps are one.
 void RagSystem::advance(double dt, TileForce* force) {
-  const int n = std::max(1, static_cast<int>(std::ceil(dt / stable_step() * (1 - 1e-12))));
-  const double step = dt / n;
+  const auto n_of = [&](double time) {
+    return std::max(1, static_cast<int>(std::ceil(time / std::min(stable_step(), pressed_step()) * (1 - 1e-12))));
+  };
+  int n_left = n_of(dt);
+  double step = dt / n_left, left = dt;
   if (contacts_) contacts_->set_time(time_ + step / 2);
   for (Tile& tile : tiles_) drift(tile, step / 2);
   const Box* moved = nullptr;  // not known of the half drift and of what was done to the rags in between
-  for (int k = 0; k < n; ++k) {
+  int& k = n_last_sub_steps_;
+  for (k = 0; n_left > 0; ++k) {
     exchange_ghosts(moved);
-    evaluate_and_move(step, k + 1 < n ? step : step / 2, force, moved);
+    halo_->fill_rings();
+    evaluate_contacts(step, moved, k % pressed_interval == 0);
+    --n_left, left -= step;
+    double next = step;
+    if (n_left > 0 && (step > pressed_step() || 2 * step < std::min(stable_step(), pressed_step()))) {
+      n_left = n_of(left), next = left / n_left;
+      contacts_->set_time(time_ + dt - left + next / 2);
+    }
+    kick_and_drift_tiles(step, n_left > 0 ? step / 2 + next / 2 : step / 2, force);
     moved = &moved_;
+    step = next;
   }
-  time_ += dt, n_sub_steps_ += n, n_particle_steps_ += n * n_owned_particles_;
+  time_ += dt, n_sub_steps_ += k, n_particle_steps_ += k * n_owned_particles_;
   halo_->exchange();
   check();
 }
@@ -153,9 +172,22 @@ void RagSystem::evaluate_contacts() {
   contacts_->add_forces(owned_pointers_, ghost_pointers_, 0);
 }
 
-void RagSystem::evaluate_and_move(double step, double drift_step, TileForce* force, const Box* moved) {
-  halo_->fill_rings();
-  if (contacts_) contacts_->evaluate(owned_pointers_, ghost_pointers_, step, moved);
+void RagSystem::evaluate_contacts(double step, const Box* moved, bool with_limit) {
+  if (!contacts_) return;
+  if (!with_limit) return contacts_->evaluate(owned_pointers_, ghost_pointers_, step, moved);
+  pressed_limit_ = contacts_->evaluate_with_limit(owned_pointers_, ghost_pointers_, step, moved, rates_, limit_.step);
+  MPI_Allreduce(MPI_IN_PLACE, &pressed_limit_, 1, MPI_DOUBLE, MPI_MIN, comm_);
+  if (settings_.step && *settings_.step > pressed_limit_ && !warned_of_step_) {
+    warned_of_step_ = true;
+    if (rank_of(comm_) == 0)
+      log::warning("[dem] step of " + words(*settings_.step) + " s is above the stable step of " + words(pressed_limit_) +
+                   " s at t = " + words(time_) +
+                   " s, where particles are pressed by several contacts at once: the rags may heat up; leave the key out, "
+                   "or give a shorter step");
+  }
+}
+
+void RagSystem::kick_and_drift_tiles(double step, double drift_step, TileForce* force) {
   Box velocities;
   // Everything else a tile at a time, while it is in the cache.
   for (std::size_t i = 0; i < tiles_.size(); ++i) {

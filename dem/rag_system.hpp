@@ -94,18 +94,22 @@ class RagSystem {
   void push(int rag, const Vec3& velocity);
   double time() const { return time_; }
   std::int64_t n_sub_steps() const { return n_sub_steps_; }
+  /// Of the last advance.
+  int n_last_sub_steps() const { return n_last_sub_steps_; }
   /// Particle-steps done by this rank, for performance figures.
   std::int64_t n_particle_steps() const { return n_particle_steps_; }
   /// Of all rags, all ranks.
   std::int64_t n_particles() const;
 
-  /// Largest sub-step by bonds, contacts and damping, without safety factor, s; and what sets it.
+  /// Largest sub-step by bonds, damping, and single contacts at the impact speed, without safety factor, s; and what sets it.
   const StepLimit& step_limit() const { return limit_; }
-  /// The sub-step that advance aims at: the given one, or safety times the limit, s.
+  /// The sub-step that advance aims at where few particles touch: the given one, or safety times the limit, s.
   double stable_step() const;
+  /// The same where particles are pressed by several contacts at once, in addition to bonds and damping, as they were last seen, s.
+  double pressed_step() const;
 
-  /// Advance by dt in ceil(dt/stable_step()) equal sub-steps. Collective; throws Error(invariant) if a particle or bond was lost,
-  /// Error(diverged) if a position is no number.
+  /// Advance by dt in equal sub-steps of at most stable_step() and pressed_step(), which is renewed every few of them. Collective; throws
+  /// Error(invariant) if a particle or bond was lost, Error(diverged) if a position is no number.
   void advance(double dt, TileForce* force = nullptr);
   /// Give tiles to the ranks that `owner_of` names (default: equal blocks), with all their state and contact history. Collective.
   void migrate(const OwnerOf& owner_of = {});
@@ -126,7 +130,8 @@ class RagSystem {
  private:
   void set_limit();
   void exchange_ghosts(const Box* moved = nullptr);
-  void evaluate_and_move(double step, double drift_step, TileForce* force, const Box* moved);
+  void evaluate_contacts(double step, const Box* moved, bool with_limit);
+  void kick_and_drift_tiles(double step, double drift_step, TileForce* force);
   struct TileLists {
     std::vector<TileRows> send, receive;  // by ascending number of the tile
     bool operator==(const TileLists&) const = default;
@@ -160,8 +165,12 @@ class RagSystem {
   Vec3 gravity_;
   double damping_rate_ = 0;
   StepLimit limit_;
+  std::vector<StepRates> rates_;                                    // [n_rags] of bonds and damping
+  double pressed_limit_ = std::numeric_limits<double>::infinity();  // s, when it was seen last
   double time_ = 0;
+  bool warned_of_step_ = false;
   std::int64_t n_sub_steps_ = 0, n_particle_steps_ = 0;
+  int n_last_sub_steps_ = 0;
   std::vector<Presence> presence_;    // [n_rags]
   std::vector<std::int64_t> broken_;  // [n_rags] bonds that broke on this rank
 

@@ -65,12 +65,17 @@ void add_modes(const BondCoefficients& law, int direction, double phase, Scale s
   add(bend, -1, 0, z, difference, law.bending, law.bending_damping + friction);
 }
 
+/// a K + b C
+Matrix sum_of_modes(const std::vector<StrainMode>& modes, double damping_rate, double a, double b) {
+  Matrix m = Matrix::Zero();
+  for (const StrainMode& mode : modes) m += (a * mode.stiffness + b * mode.damping) * (mode.row * mode.row.transpose());
+  for (int i = 0; i < 3; ++i) m(i, i) += b * damping_rate;
+  return m;
+}
+
 /// dt^2/4 K + dt/2 C
 Matrix step_matrix(const std::vector<StrainMode>& modes, double damping_rate, double dt) {
-  Matrix m = Matrix::Zero();
-  for (const StrainMode& mode : modes) m += (dt * dt / 4 * mode.stiffness + dt / 2 * mode.damping) * (mode.row * mode.row.transpose());
-  for (int i = 0; i < 3; ++i) m(i, i) += dt / 2 * damping_rate;
-  return m;
+  return sum_of_modes(modes, damping_rate, dt * dt / 4, dt / 2);
 }
 
 double largest_eigenvalue(const Matrix& m) { return Eigen::SelfAdjointEigenSolver<Matrix>(m, Eigen::EigenvaluesOnly).eigenvalues()(5); }
@@ -99,29 +104,47 @@ std::string dominant(const std::vector<StrainMode>& modes, double damping_rate, 
   return name;
 }
 
-}  // namespace
-
-StepLimit stable_bond_step(const Rag& rag, double damping_rate) {
-  const auto bonds = bonds_of(rag);
-  const BondCoefficients &along = bonds->coefficients(0), &across = bonds->coefficients(1);
+/// The modes of waves with phases on a grid over 0 .. pi: f(modes).
+template <class F>
+void for_waves(const Rag& rag, const PieceBonds& bonds, const F& f) {
   const Scale scale{1 / std::sqrt(rag.mass), 1 / std::sqrt(rag.inertia)};
   const bool is_chain = rag.n_rows == 1;
-  constexpr int n_phases = 4;  // intervals of 0 .. pi
-  StepLimit limit{damping_rate > 0 ? 2 / damping_rate : std::numeric_limits<double>::infinity(), "drag on " + rag.name};
-  if (rag.n_columns == 1 && rag.n_rows == 1) return limit;
-  // Upper bound of the search: undamped stretch of the stiffer direction, doubled, or less.
-  const double stiffest = std::max(along.normal, is_chain ? 0 : across.normal);
-  if (stiffest > 0) limit.step = std::min(limit.step, 2 * std::sqrt(rag.mass / stiffest));
+  constexpr int n_phases = 4;  // intervals
   for (int p = 0; p <= n_phases; ++p) {
     for (int q = 0; q <= (is_chain ? 0 : n_phases); ++q) {
       std::vector<StrainMode> modes;
-      if (rag.n_columns > 1) add_modes(along, 0, std::numbers::pi * p / n_phases, scale, modes);
-      if (!is_chain) add_modes(across, 1, std::numbers::pi * q / n_phases, scale, modes);
-      if (largest_eigenvalue(step_matrix(modes, damping_rate, limit.step)) < 1) continue;
-      limit.step = critical_step(modes, damping_rate, limit.step);
-      limit.reason = "bonds of " + rag.name + ": " + dominant(modes, damping_rate, limit.step);
+      if (rag.n_columns > 1) add_modes(bonds.coefficients(0), 0, std::numbers::pi * p / n_phases, scale, modes);
+      if (!is_chain) add_modes(bonds.coefficients(1), 1, std::numbers::pi * q / n_phases, scale, modes);
+      f(modes);
     }
   }
+}
+
+}  // namespace
+
+StepRates bond_rates(const Rag& rag, double damping_rate) {
+  StepRates rates{0, damping_rate, 0};
+  if (rag.n_columns == 1 && rag.n_rows == 1) return rates;
+  for_waves(rag, *bonds_of(rag), [&](const std::vector<StrainMode>& modes) {
+    rates = largest(rates, {largest_eigenvalue(sum_of_modes(modes, damping_rate, 1, 0)),
+                            largest_eigenvalue(sum_of_modes(modes, damping_rate, 0, 1)), 0});
+  });
+  return rates;
+}
+
+StepLimit stable_bond_step(const Rag& rag, double damping_rate) {
+  const auto bonds = bonds_of(rag);
+  const bool is_chain = rag.n_rows == 1;
+  StepLimit limit{damping_rate > 0 ? 2 / damping_rate : std::numeric_limits<double>::infinity(), "drag on " + rag.name};
+  if (rag.n_columns == 1 && rag.n_rows == 1) return limit;
+  // Upper bound of the search: undamped stretch of the stiffer direction, doubled, or less.
+  const double stiffest = std::max(bonds->coefficients(0).normal, is_chain ? 0 : bonds->coefficients(1).normal);
+  if (stiffest > 0) limit.step = std::min(limit.step, 2 * std::sqrt(rag.mass / stiffest));
+  for_waves(rag, *bonds, [&](const std::vector<StrainMode>& modes) {
+    if (largest_eigenvalue(step_matrix(modes, damping_rate, limit.step)) < 1) return;
+    limit.step = critical_step(modes, damping_rate, limit.step);
+    limit.reason = "bonds of " + rag.name + ": " + dominant(modes, damping_rate, limit.step);
+  });
   return limit;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "dem/particles/rag.hpp"
+#include "dem/particles/step_rates.hpp"
 
 namespace snag {
 
@@ -14,5 +15,8 @@ struct StepLimit {
 /// Limit by the bonds of one piece; `damping_rate`: further damping of the translation (drag: slope/m), 1/s. Infinite for a piece without
 /// bonds and damping. For a stretched or bent cloth stiffnesses shift by some ten per cent: use it with a safety factor.
 StepLimit stable_bond_step(const Rag& rag, double damping_rate = 0);
+
+/// Rates of the bonds of one piece, to which those of contacts are added; their step is a little below stable_bond_step.
+StepRates bond_rates(const Rag& rag, double damping_rate = 0);
 
 }  // namespace snag

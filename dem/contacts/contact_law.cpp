@@ -14,9 +14,10 @@ double damping_of_restitution(double restitution) {
   return -logarithm / std::sqrt(logarithm * logarithm + std::numbers::pi * std::numbers::pi);
 }
 
-double spring_limit(double stiffness, double mass, double damping, double q) {
-  const double omega = std::sqrt(stiffness * q / mass), zeta = damping * std::sqrt(q);
-  return 2 / omega * (std::sqrt(1 + zeta * zeta) - zeta);
+double PairLaw::stable_step(double speed) const {
+  const double resolved = impact_time(speed) / impact_steps;
+  const ContactRates deepest = rates(deepest_overlap(speed), resolved);
+  return std::min({resolved, deepest.normal.step(), (turning_sphere * deepest.tangential).step()});
 }
 
 std::vector<Section> contact_law_sections() {

@@ -13,6 +13,7 @@
 #include "base/parameter.hpp"
 #include "base/registry.hpp"
 #include "base/vec3.hpp"
+#include "dem/particles/step_rates.hpp"
 
 namespace snag {
 
@@ -73,6 +74,11 @@ inline constexpr double smallest_square =
   return {F_t - F_n * n, F_n, slip};
 }
 
+/// Of a contact of two bodies, over their reduced mass m*; tangential: without the rotation, zero without friction.
+struct ContactRates {
+  StepRates normal, tangential;
+};
+
 /// The law between two given bodies.
 class PairLaw {
  public:
@@ -83,16 +89,31 @@ class PairLaw {
   /// Of an elastic impact at `speed` (m/s): how long it lasts, s, and the deepest overlap, m.
   virtual double impact_time(double speed) const = 0;
   virtual double deepest_overlap(double speed) const = 0;
+  /// Of the springs and dashpots at this overlap, m, for steps up to `step`, s.
+  virtual ContactRates rates(double overlap, double step) const = 0;
   /// Largest step at impacts of this speed, s: the impact is resolved and the damped springs are stable.
-  virtual double stable_step(double speed) const = 0;
+  double stable_step(double speed) const;
 };
 
 inline constexpr double impact_steps = 8;      // sub-steps that resolve an impact: restitution then holds to some percent
 inline constexpr double turning_sphere = 3.5;  // 1 + m r^2/I of a solid sphere, which also turns under a tangential force
 
-/// Largest stable step of a damped spring under leapfrog, velocities lagging half a step: 2/omega (sqrt(1 + zeta^2) - zeta), omega^2 =
-/// k q/m, zeta = `damping` sqrt(q); q = 1 for a normal spring, `turning_sphere` for a tangential one.
-double spring_limit(double stiffness, double mass, double damping, double q);
+// A tangential dashpot acts on the rotation of the spheres, too: it alone would set the step, for each contact that a particle has. It is
+// eased as an implicit step would, for up to eight contacts:  c_t' = c_t/(1 + N q c_t dt/(2 m*)),  N = 8, q = turning_sphere.
+// It is c_t for short steps (an error of first order, as that of the lagging velocity), and dt/2 q c_t'/m* stays below 1/N.
+inline constexpr double easing_contacts = 8;
+
+/// q N/(2 m*), 1/kg.
+inline double dashpot_easing(double mass) { return easing_contacts * turning_sphere / (2 * mass); }
+
+[[gnu::always_inline]] inline double eased(double dashpot, double easing, double step) { return dashpot / (1 + easing * dashpot * step); }
+
+/// Rates of a spring and a dashpot: K = k/m*, C = c/m*.
+inline StepRates normal_rates(double stiffness, double dashpot, double mass) { return {stiffness / mass, dashpot / mass, 0}; }
+/// The same with an eased dashpot, for steps up to `step`, s.
+inline StepRates tangential_rates(double stiffness, double dashpot, double mass, double step) {
+  return {stiffness / mass, 0, 0.5 * step * eased(dashpot, dashpot_easing(mass), step) / mass};
+}
 
 /// What a law is, for the manual.
 struct ContactCard {

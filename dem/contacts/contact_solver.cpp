@@ -52,7 +52,8 @@ struct ContactSolver::State {
   }
 
   void update_lists(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, const Box* moved);
-  void add_wall_forces(double step);
+  void evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved, bool with_held);
+  void add_wall_forces(double step, std::vector<HeldParticle>* to);
   void sort_slips();
 
   ContactSettings settings;
@@ -65,6 +66,7 @@ struct ContactSolver::State {
   PairForces forces;
   std::optional<WallContacts> walls;
   ContactMeasures measures;
+  std::vector<HeldParticle> held;  // [particles], while it is asked for
   std::vector<WallTouch> no_touches;
 
   // The touching pairs by their lower and by their higher id, made when the first tile is packed after a step.
@@ -109,23 +111,45 @@ void ContactSolver::add_forces(std::span<Tile* const> owned, std::span<const Til
 void ContactSolver::add_to_tile(std::size_t i) const { state_->particles.add_loads(i); }
 
 void ContactSolver::evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved) {
-  State& s = *state_;
-  s.update_lists(owned, ghosts, moved);
-  s.slips_sorted = false;
-  s.measures.n_contacts = 0;
-  s.particles.clear_loads();
-  if (!s.list.pairs.empty()) {
-    s.particles.gather();
-    const PairMeasures pairs = s.forces.add(s.particles, s.list, step);
-    s.measures.n_contacts = pairs.n_contacts;
-    s.measures.max_overlap_over_radius = std::max(s.measures.max_overlap_over_radius, pairs.max_overlap_over_radius);
-  }
-  if (s.walls) s.add_wall_forces(step);
-  s.time += step;
+  state_->evaluate(owned, ghosts, step, moved, false);
 }
 
-void ContactSolver::State::add_wall_forces(double step) {
-  walls->add(particles, time, step);
+double ContactSolver::evaluate_with_limit(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved,
+                                          std::span<const StepRates> of_rag, double largest) {
+  State& s = *state_;
+  s.evaluate(owned, ghosts, step, moved, true);
+  double limit = largest;
+  for (const ParticleRow& row : s.particles.rows) {
+    if (!row.owned || (!row.near && !row.at_wall)) continue;
+    for (int i = row.first; i < row.first + row.count; ++i) {
+      const HeldParticle& particle = s.held[i];
+      const StepRates& others = of_rag[row.tile->rag];
+      if ((others + particle.coarse_rates()).step() < limit) limit = std::min(limit, (others + particle.rates()).step());
+    }
+  }
+  return limit;
+}
+
+void ContactSolver::State::evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved,
+                                    bool with_held) {
+  update_lists(owned, ghosts, moved);
+  if (with_held) held.assign(particles.size(), {});
+  std::vector<HeldParticle>* const to = with_held ? &held : nullptr;
+  slips_sorted = false;
+  measures.n_contacts = 0;
+  particles.clear_loads();
+  if (!list.pairs.empty()) {
+    particles.gather();
+    const PairMeasures pairs = forces.add(particles, list, step, to);
+    measures.n_contacts = pairs.n_contacts;
+    measures.max_overlap_over_radius = std::max(measures.max_overlap_over_radius, pairs.max_overlap_over_radius);
+  }
+  if (walls) add_wall_forces(step, to);
+  time += step;
+}
+
+void ContactSolver::State::add_wall_forces(double step, std::vector<HeldParticle>* to) {
+  walls->add(particles, time, step, to);
   measures.n_wall_contacts = walls->n_contacts;
   measures.max_wall_overlap_over_radius = walls->max_overlap_over_radius;
   measures.beyond_walls.assign(rags->size(), 0);

@@ -18,6 +18,7 @@
 #include "dem/contacts/contact_settings.hpp"
 #include "dem/particles/integrator.hpp"
 #include "dem/particles/rag.hpp"
+#include "dem/particles/step_rates.hpp"
 #include "dem/particles/tile.hpp"
 
 namespace snag {
@@ -72,6 +73,10 @@ class ContactSolver {
   /// particles of the owned tile number i feel. `moved`: bounds of how far the particles of the owned tiles have moved since the last call,
   /// m, if the caller knows.
   void evaluate(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved = nullptr);
+  /// The same, and the largest stable step, s, of the owned particles under all their contacts at once, besides the rates `of_rag` [n_rags]
+  /// that they have already (bonds, drag); `largest` where that is no limit.
+  double evaluate_with_limit(std::span<Tile* const> owned, std::span<const Tile* const> ghosts, double step, const Box* moved,
+                             std::span<const StepRates> of_rag, double largest);
   void add_to_tile(std::size_t i) const;
 
   /// Other rows of the ghosts exist now: the lists are made anew at the next add_forces.

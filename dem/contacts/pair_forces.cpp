@@ -37,8 +37,8 @@ PairForces::PairForces(const std::vector<Rag>& rags, const ContactSettings& sett
 
 PairForces::~PairForces() = default;
 
-PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, double step) {
-  measures_ = {};
+PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, double step, std::vector<HeldParticle>* held) {
+  measures_ = {}, step_ = step, held_ = held;
   block_->n = 0, block_->pair = nullptr;
   for (int i = 0; i < static_cast<int>(list.pairs.size()); ++i) {
     const auto [p, q] = list.pairs[i];
@@ -51,7 +51,7 @@ PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, dou
       continue;
     }
     if (block_->n == contact_block_size || block_->pair != &kind) {
-      evaluate(particles, list, step);
+      evaluate(particles, list);
       block_->pair = &kind;
     }
     const ParticleMotion &u = particles.motion[p], &v = particles.motion[q];
@@ -64,14 +64,15 @@ PairMeasures PairForces::add(ContactParticles& particles, ContactList& list, dou
     block_->put(block_->slip, slip.x, slip.y, slip.z);
     ++block_->n;
   }
-  evaluate(particles, list, step);
+  evaluate(particles, list);
   return measures_;
 }
 
-void PairForces::evaluate(ContactParticles& particles, ContactList& list, double step) {
+void PairForces::evaluate(ContactParticles& particles, ContactList& list) {
   Block& b = *block_;
   if (b.n == 0) return;
-  b.pair->law->evaluate(b, *b.pair, step);
+  b.pair->law->evaluate(b, *b.pair, step_);
+  if (held_) add_to_held(list);
   double deepest = 0;
   const double f1 = b.pair->arm_1, f2 = b.pair->arm_2;
   int first = list.pairs[b.index[0]].p;  // pairs of one particle follow each other: its load is kept at hand
@@ -98,6 +99,16 @@ void PairForces::evaluate(ContactParticles& particles, ContactList& list, double
   particles.load[first] = on_1;
   measures_.max_overlap_over_radius = std::max(measures_.max_overlap_over_radius, deepest / b.pair->smaller_radius);
   b.n = 0;
+}
+
+void PairForces::add_to_held(const ContactList& list) const {
+  const Block& b = *block_;
+  for (int c = 0; c < b.n; ++c) {
+    const ContactRates rates = b.pair->law->rates(b.overlap[c], step_);
+    const Vec3 r = get(b.x, c), n = 1 / std::sqrt(norm_squared(r) + smallest_square) * r;
+    const auto [p, q] = list.pairs[b.index[c]];
+    (*held_)[p].add(n, rates), (*held_)[q].add(-n, rates);
+  }
 }
 
 }  // namespace snag

@@ -7,6 +7,7 @@
 #include "dem/contacts/contact_list.hpp"
 #include "dem/contacts/contact_pair.hpp"
 #include "dem/contacts/contact_particles.hpp"
+#include "dem/contacts/held_particle.hpp"
 
 namespace snag {
 
@@ -20,8 +21,9 @@ class PairForces {
   PairForces(const std::vector<Rag>& rags, const ContactSettings& settings);
   ~PairForces();
 
-  /// Adds to particles.load, moves the slip of touching pairs on by `step` (s) and clears that of pairs that part.
-  PairMeasures add(ContactParticles& particles, ContactList& list, double step);
+  /// Adds to particles.load, moves the slip of touching pairs on by `step` (s) and clears that of pairs that part. `held`: [particles], if
+  /// the contacts are to be added to it, or null.
+  PairMeasures add(ContactParticles& particles, ContactList& list, double step, std::vector<HeldParticle>* held);
 
   /// Coefficients of a contact of two rags, lower particle id first.
   const ContactPair& pair(int rag_1, int rag_2) const { return pairs_[material_[rag_1] * n_materials_ + material_[rag_2]]; }
@@ -29,13 +31,16 @@ class PairForces {
 
  private:
   struct Block;
-  void evaluate(ContactParticles& particles, ContactList& list, double step);
+  void evaluate(ContactParticles& particles, ContactList& list);
+  void add_to_held(const ContactList& list) const;
 
   int n_materials_ = 0;
   std::vector<int> material_;       // [n_rags]: rags that are alike to contacts share one
   std::vector<ContactPair> pairs_;  // [n_materials][n_materials]
   std::unique_ptr<Block> block_;
   PairMeasures measures_;
+  double step_ = 0;
+  std::vector<HeldParticle>* held_ = nullptr;
 };
 
 }  // namespace snag

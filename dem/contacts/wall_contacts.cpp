@@ -99,8 +99,8 @@ void WallContacts::sort_unpacked() {
   beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
 }
 
-void WallContacts::add(ContactParticles& particles, double time, double step) {
-  step_ = step, n_contacts = 0;
+void WallContacts::add(ContactParticles& particles, double time, double step, std::vector<HeldParticle>* held) {
+  step_ = step, held_ = held, n_contacts = 0;
   for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
   for (WallTouch& touch : touched) touch.now = 0;
   block_->n = 0, block_->pair = nullptr;
@@ -229,6 +229,10 @@ void WallContacts::evaluate(ContactParticles& particles) {
     ParticleLoad& load = particles.load[place.particle];
     load.fx += block.force[0][c], load.fy += block.force[1][c], load.fz += block.force[2][c];
     load.tx += block.torque[0][c], load.ty += block.torque[1][c], load.tz += block.torque[2][c];
+    if (held_) {
+      const double overlap = std::max(block.pair->reach - block.distance[c], 0.0);
+      (*held_)[place.particle].add(snag::get(block.normal, c), block.pair->law->rates(overlap, step_));
+    }
     const Vec3 slip = snag::get(block.slip, c);
     slips.push_back(
         {place.id, place.body, place.direction, walls_->bodies()[place.body].motion.moves() ? poses_[place.body].turned_back(slip) : slip});

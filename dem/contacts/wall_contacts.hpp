@@ -18,6 +18,7 @@
 #include "dem/contacts/contact_pair.hpp"
 #include "dem/contacts/contact_particles.hpp"
 #include "dem/contacts/contact_solver.hpp"
+#include "dem/contacts/held_particle.hpp"
 #include "dem/walls/wall_triangles.hpp"
 #include "dem/walls/walls.hpp"
 
@@ -45,7 +46,7 @@ class WallContacts {
   /// now.
   void list(ContactParticles& particles, double time);
   /// Add forces and torques to the loads; advance slips by `step` (s); count into measures.
-  void add(ContactParticles& particles, double time, double step);
+  void add(ContactParticles& particles, double time, double step, std::vector<HeldParticle>* held);
 
   /// Bring slips and ids that were appended from outside into order.
   void sort_unpacked();
@@ -101,6 +102,7 @@ class WallContacts {
   struct Block;
   std::unique_ptr<Block> block_;
   double largest_radius_ = 0, step_ = 0;
+  std::vector<HeldParticle>* held_ = nullptr;
   std::vector<TriangleSurface> surfaces_;  // [bodies]
   std::vector<WallPose> poses_;            // [bodies]
   std::vector<double> fastest_;            // [bodies] m/s, of the wall's material

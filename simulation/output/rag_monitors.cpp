@@ -42,7 +42,8 @@ std::vector<Column<ContactRecord>> contact_columns() {
           {"contacts", "1", [](const ContactRecord& r) { return number(r.n); }},
           {"wall_contacts", "1", [](const ContactRecord& r) { return number(r.n_of_walls); }},
           {"overlap_over_radius_max", "1", [](const ContactRecord& r) { return r.max_overlap_over_radius; }},
-          {"particles_beyond_walls", "1", [](const ContactRecord& r) { return number(r.n_beyond_walls); }}};
+          {"particles_beyond_walls", "1", [](const ContactRecord& r) { return number(r.n_beyond_walls); }},
+          {"sub_steps", "1", [](const ContactRecord& r) { return number(r.n_sub_steps); }}};
 }
 
 Columns passage_columns() {
@@ -131,8 +132,12 @@ void RagMonitors::measure_contacts(RagSystem& rags, double time) {
     max_wall_overlap_[rag] = std::max(max_wall_overlap_[rag], extremes[1 + rag]);
   most_beyond_walls_ = std::max(most_beyond_walls_, number(counts[2]));
   if (rank_of(rags.comm()) == 0)
-    contacts_.add(
-        {.time = time, .n = counts[0], .n_of_walls = counts[1], .n_beyond_walls = counts[2], .max_overlap_over_radius = extremes[0]});
+    contacts_.add({.time = time,
+                   .n = counts[0],
+                   .n_of_walls = counts[1],
+                   .n_beyond_walls = counts[2],
+                   .n_sub_steps = rags.n_last_sub_steps(),
+                   .max_overlap_over_radius = extremes[0]});
 }
 
 std::vector<double> RagMonitors::state() const {

@@ -26,7 +26,7 @@ struct RagRecord {
 /// Of all contacts in a step.
 struct ContactRecord {
   double time = 0;  // s
-  std::int64_t n = 0, n_of_walls = 0, n_beyond_walls = 0;
+  std::int64_t n = 0, n_of_walls = 0, n_beyond_walls = 0, n_sub_steps = 0;
   double max_overlap_over_radius = 0;
 };
 

@@ -1,6 +1,5 @@
 # timeout: 600
-# processors: 2
-# cost: 50
+# cost: 38
 """Requirement: a benchmark writes what it measured, with its limit, under stable keys; and refuses what it does not know."""
 import json
 import shutil

@@ -1,6 +1,5 @@
 # timeout: 600
-# processors: 2
-# cost: 60
+# cost: 53
 """Requirement: `snag calibrate` makes a textile passport that a case can use and a report, the same on one rank and on two; tests that no cloth gives end with exit code 2 and one clear message."""
 import math
 import re

@@ -1,6 +1,5 @@
 # timeout: 300
-# processors: 1
-# cost: 20
+# cost: 24
 """Requirement: `snag check` refuses every case that `snag run` refuses. It warns before the run of what will go wrong. It gives no warning for the shipped cases."""
 import re
 

@@ -1,6 +1,6 @@
 """snag diagnose finds what a base case lacks, the same on any number of ranks, goes on after a stop, and refuses what it cannot read."""
 # timeout: 1800
-# cost: 40
+# cost: 37
 import json
 import math
 import re

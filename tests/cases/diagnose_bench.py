@@ -1,7 +1,6 @@
 """The blind benchmark of the diagnosis at its full size: 390 spheres and 60 of another seed, 390 fibres, 120 rags at level L2; no score below what chance allows if its target holds."""
 # labels: long
 # timeout: 36000
-# processors: 2
 import harness
 from diagnose import assert_no_score_is_worse_than_chance
 

@@ -1,5 +1,5 @@
 # timeout: 600
-# cost: 30
+# cost: 23
 """Requirement: a diagnosis of cases with a mesh makes whole coupled runs, keeps each, names the cause that the data were made with, and goes on where it was stopped."""
 import json
 import shutil

@@ -1,4 +1,4 @@
-# cost: 60
+# cost: 68
 """Requirement: spheres computed by another program, with its own integrator and drag law and inputs off at each point, are diagnosed as what was put into them.
 
 The program is in this file and shares nothing with Snag but the format of the data. Equation of motion, from rest in an unsteady shear

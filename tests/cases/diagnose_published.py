@@ -1,6 +1,6 @@
 """Requirement: the diagnosis says of published experiments and exact solutions what is known to be missing in them (cases/diagnose-*/expected_verdict.toml), and nothing of those in which nothing is missing; data.csv and cases are what make_data.py writes."""
 # timeout: 900
-# cost: 45
+# cost: 48
 import json
 import shutil
 import subprocess

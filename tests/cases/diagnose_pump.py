@@ -1,3 +1,4 @@
+# cost: 13
 """Requirement: the diagnosis of the rags in a pump says, from the runs in its table alone, what these decide: neither reading of the design flow explains the data; and of observables that are counted or timed it says how many repeats would tell two hypotheses apart."""
 # timeout: 300
 import json

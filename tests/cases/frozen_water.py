@@ -1,5 +1,4 @@
 # timeout: 300
-# processors: 1
 # cost: 12
 """Requirement: water that [start] freezes stays as it was at any rate of flow and carries rags, on any number of ranks and after a resume; a diagnosis runs such cases in memory and finds the same numbers."""
 import json

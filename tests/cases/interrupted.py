@@ -1,6 +1,5 @@
 # timeout: 300
-# processors: 2
-# cost: 20
+# cost: 25
 """Requirement: a run that was interrupted and resumed gives the summary of the uninterrupted run. A damaged checkpoint and removed monitors are reported. A second run in an output folder that is in use is refused."""
 import os
 import shutil

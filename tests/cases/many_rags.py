@@ -1,6 +1,5 @@
 # timeout: 300
-# processors: 2
-# cost: 45
+# cost: 48
 """Requirement: many rags are kept apart and counted, alike on any number of ranks: 240 that fall into a box touch each other and come to rest as a
 heap; those released one after the other leave the mesh as whole objects, also after a resume."""
 import math

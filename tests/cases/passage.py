@@ -1,5 +1,4 @@
 # timeout: 600
-# processors: 2
 # cost: 20
 """Requirement: what is told of a rag that goes through a turning zone agrees with its particles, on any number of ranks and after a resume."""
 

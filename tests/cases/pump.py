@@ -1,6 +1,6 @@
 # timeout: 900
 # processors: 2
-# cost: 40
+# cost: 20
 """Requirement: a pump with a sliding rotor tells flow, head, torque and its geometry at every time; a resumed run, and
 one on other ranks, tells the same."""
 import shutil

@@ -1,5 +1,5 @@
 # timeout: 600
-# cost: 35
+# cost: 24
 """Requirement: a pump between a given pressure at its inlet, total or static, and a target of the flow at its outlet, comes to that flow."""
 import numpy
 

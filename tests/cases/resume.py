@@ -1,5 +1,4 @@
 # timeout: 600
-# processors: 2
 # cost: 20
 """Requirement: a run that was stopped or crashed and then resumed equals the uninterrupted one, to the bit on the same ranks, to solver tolerance on others."""
 import os

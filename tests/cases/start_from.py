@@ -1,5 +1,4 @@
 # timeout: 300
-# processors: 2
 # cost: 15
 """Requirement: a run that starts from another one begins with its water, on any number of ranks and, where asked, on another mesh; what cannot be read is refused."""
 import numpy

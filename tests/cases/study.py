@@ -1,6 +1,5 @@
 # timeout: 600
-# processors: 2
-# cost: 20
+# cost: 22
 """Requirement: a study runs a case with all values asked for, each as it would be by itself, runs nothing twice, and tells what came out."""
 import csv
 import json

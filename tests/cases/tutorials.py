@@ -1,4 +1,5 @@
 # timeout: 600
+# cost: 13
 """Requirement: the commands of the tutorials run as they are printed, and every key and column that their runs write is documented, with its unit:
 keys in share/summary.schema.json, columns in docs/outputs.md."""
 import copy

@@ -3,6 +3,7 @@
 //   F_n = 4/3 E* sqrt(R*) d^(3/2) + 2 sqrt(5/6) |B| sqrt(S_n m*) u_n       S_n = 2 E* sqrt(R* d)
 //   F_t = -S_t xi - 2 sqrt(5/6) |B| sqrt(S_t m*) u_t                       S_t = 8 G* sqrt(R* d)
 //   |S_t xi| <= mu max(F_n, 0),  |F_t| <= mu max(F_n, 0)                   B = ln e / sqrt(ln^2 e + pi^2)
+//   (the tangential dashpot is eased for long steps: dem/contacts/contact_law.hpp)
 //
 //   F_n > 0 pushes apart; it also pulls at the end of a damped impact, as published: only so is the restitution e.
 //   d    overlap, m
@@ -17,7 +18,7 @@
 //
 //   Hertz time (of an elastic impact at speed u)      T_H = 2.9432 (m*^2/(k^2 u))^(1/5)
 //   deepest overlap of that impact                    d = (m* u^2/k)^(2/5)
-//   stability of the damped contact spring at d       normal 3/2 F_n/d, tangential S_t, zeta = sqrt(5/6) |B| sqrt(q)
+//   springs at d, for the stability of a step          normal 3/2 F_n/d, tangential S_t
 // Source of the impact: Johnson (1985) section 11.4.
 #include "dem/contacts/contact_blocks.hpp"
 
@@ -32,6 +33,7 @@ struct HertzMindlinForce {
   double tangential = 0;          // 8 G* sqrt(R*), N/m^1.5
   double normal_damping = 0;      // N s/m^1.25
   double tangential_damping = 0;  // N s/m^1.25
+  double easing = 0;              // of the tangential dashpot, 1/kg
   double friction = 0;            // mu
 
   explicit HertzMindlinForce(const ContactBodies& b) {
@@ -40,13 +42,13 @@ struct HertzMindlinForce {
     tangential = 8 * b.shear_modulus * root;
     normal_damping = damping_factor * damping * std::sqrt(2 * b.normal_modulus * root * b.mass);
     tangential_damping = damping_factor * damping * std::sqrt(tangential * b.mass);
-    friction = b.friction;
+    easing = dashpot_easing(b.mass), friction = b.friction;
   }
   [[gnu::always_inline]] ContactForce operator()(const ContactMotion& contact, double step) const {
     const double root = std::sqrt(contact.overlap), quarter = std::sqrt(root);
     const double u_n = dot(contact.velocity, contact.normal);
     const double F_n = normal * root * contact.overlap + normal_damping * quarter * u_n;
-    return with_friction(contact, F_n, tangential * root, tangential_damping * quarter, friction, step);
+    return with_friction(contact, F_n, tangential * root, eased(tangential_damping * quarter, easing, step), friction, step);
   }
 };
 
@@ -56,12 +58,10 @@ class HertzMindlinPair final : public BlockLaw<HertzMindlinForce> {
 
   double impact_time(double speed) const override { return 2.943175 * deepest_overlap(speed) / speed; }
   double deepest_overlap(double speed) const override { return std::pow(bodies_.mass * speed * speed / (0.8 * force_.normal), 0.4); }
-  double stable_step(double speed) const override {
-    const double root = std::sqrt(deepest_overlap(speed)), m = bodies_.mass;
-    const double damping = std::sqrt(5.0 / 6) * damping_of_restitution(bodies_.restitution);
-    const double normal = spring_limit(1.5 * force_.normal * root, m, damping, 1);
-    const double tangential = force_.friction > 0 ? spring_limit(force_.tangential * root, m, damping, turning_sphere) : normal;
-    return std::min({impact_time(speed) / impact_steps, normal, tangential});
+  ContactRates rates(double overlap, double step) const override {
+    const double root = std::sqrt(overlap), quarter = std::sqrt(root), m = bodies_.mass;
+    return {normal_rates(1.5 * force_.normal * root, force_.normal_damping * quarter, m),
+            force_.friction > 0 ? tangential_rates(force_.tangential * root, force_.tangential_damping * quarter, m, step) : StepRates{}};
   }
 
  private:

@@ -20,6 +20,7 @@ namespace {
 struct LinearSpringForce {
   double normal = 0, tangential = 0;                  // k_n, k_t; N/m
   double normal_damping = 0, tangential_damping = 0;  // c_n, c_t; N s/m
+  double easing = 0;                                  // of the tangential dashpot, 1/kg
   double friction = 0;                                // mu
 
   LinearSpringForce(const ContactBodies& b, double stiffness) {
@@ -27,30 +28,28 @@ struct LinearSpringForce {
     normal = stiffness * b.normal_modulus * b.radius;
     tangential = 4 * b.shear_modulus / b.normal_modulus * normal;
     normal_damping = 2 * damping * std::sqrt(normal * b.mass), tangential_damping = 2 * damping * std::sqrt(tangential * b.mass);
-    friction = b.friction;
+    easing = dashpot_easing(b.mass), friction = b.friction;
   }
   [[gnu::always_inline]] ContactForce operator()(const ContactMotion& contact, double step) const {
     const double touching = contact.overlap > 0 ? 1 : 0;
     const double F_n = normal * contact.overlap + touching * normal_damping * dot(contact.velocity, contact.normal);
-    return with_friction(contact, F_n, tangential, tangential_damping, friction, step);
+    return with_friction(contact, F_n, tangential, eased(tangential_damping, easing, step), friction, step);
   }
 };
 
 class LinearSpringPair final : public BlockLaw<LinearSpringForce> {
  public:
-  LinearSpringPair(const ContactBodies& bodies, double stiffness)
-      : BlockLaw(LinearSpringForce(bodies, stiffness)), mass_(bodies.mass), damping_(damping_of_restitution(bodies.restitution)) {}
+  LinearSpringPair(const ContactBodies& bodies, double stiffness) : BlockLaw(LinearSpringForce(bodies, stiffness)), mass_(bodies.mass) {}
 
   double impact_time(double) const override { return std::numbers::pi * std::sqrt(mass_ / force_.normal); }
   double deepest_overlap(double speed) const override { return speed * std::sqrt(mass_ / force_.normal); }
-  double stable_step(double speed) const override {
-    const double normal = spring_limit(force_.normal, mass_, damping_, 1);
-    const double tangential = force_.friction > 0 ? spring_limit(force_.tangential, mass_, damping_, turning_sphere) : normal;
-    return std::min({impact_time(speed) / impact_steps, normal, tangential});
+  ContactRates rates(double, double step) const override {
+    return {normal_rates(force_.normal, force_.normal_damping, mass_),
+            force_.friction > 0 ? tangential_rates(force_.tangential, force_.tangential_damping, mass_, step) : StepRates{}};
   }
 
  private:
-  double mass_, damping_;
+  double mass_;
 };
 
 struct LinearSpring final : ContactLaw {
