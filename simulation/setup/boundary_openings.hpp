@@ -1,5 +1,5 @@
 #pragma once
-// The openings of a mesh: its patches on which pressure is given.
+// The openings of a mesh: its patches on which pressure is given, or that are a way out.
 #include <vector>
 
 #include "mesh/mesh.hpp"

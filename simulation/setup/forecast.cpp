@@ -138,7 +138,7 @@ Width opening_width(const Simulation& simulation) {
   const Mesh& mesh = *simulation.mesh;
   Width widest;
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
-    if (simulation.water->boundary().is_wall(p) || simulation.water->boundary().fixes(p) == Fixes::symmetry) continue;
+    if (!simulation.water->boundary().is_open(p)) continue;
     const double width = std::sqrt(4 * patch_area(simulation.water->flow, p) / std::numbers::pi);
     if (width > widest.length) widest = {width, "patch " + mesh.patches[p].name};
   }

@@ -53,7 +53,7 @@ std::vector<PatchBoundary> read_boundaries(const Table& root) {
     for (const std::string& patch : heading.patches) {
       auto boundary = boundaries().make(heading.kind, table.where());
       table.read(boundary->section().parameters);
-      if (heading.turbulence.given() && (boundary->is_wall() || boundary->fixes() == Fixes::symmetry))
+      if (heading.turbulence.given() && !boundary->is_open())
         throw Error(ExitCode::usage, table.where() + ": turbulence of fluid that enters is given for kind \"" + heading.kind +
                                          "\", where none enters; remove the keys turbulence_...");
       conditions.push_back({patch, table.where(), std::move(boundary), heading.turbulence});

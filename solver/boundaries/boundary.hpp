@@ -36,6 +36,8 @@ class Boundary {
   virtual Fixes fixes() const = 0;
   /// True for solid walls, where wall functions act.
   virtual bool is_wall() const { return false; }
+  /// True where water passes: not at walls and planes of symmetry.
+  bool is_open() const { return !is_wall() && fixes() != Fixes::symmetry; }
   /// True where the pressure is as given, false where its level follows from the flow.
   virtual bool level_is_given() const { return fixes() == Fixes::pressure; }
   /// True where what the water carries has left for good once it is beyond the patch.
@@ -83,6 +85,7 @@ class BoundarySet {
   void restore(const BoundaryValues& values) { values_ = values; }
   Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
+  bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
   bool is_way_out(int patch) const { return conditions_[patch].boundary->is_way_out(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }

@@ -37,7 +37,7 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
       gradient_(mesh.n_all_cells()) {
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const int p = static_cast<int>(patch);
-    open_.push_back(boundary.fixes(p) != Fixes::symmetry && !boundary.is_wall(p));
+    open_.push_back(boundary.is_open(p));
     fixes_velocity_.push_back(boundary.fixes(p) == Fixes::velocity);
   }
 }

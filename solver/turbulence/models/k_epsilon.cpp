@@ -154,7 +154,7 @@ void KEpsilon::fill_initial(const Flow& flow, const BoundarySet& boundary) {
   if (!initial_k_) {
     std::vector<double> weight, weighted_k, weighted_epsilon;
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-      if (boundary.is_wall(static_cast<int>(p)) || boundary.fixes(static_cast<int>(p)) == Fixes::symmetry) continue;
+      if (!boundary.is_open(static_cast<int>(p))) continue;
       for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
         if (flow.flux[f] >= 0) continue;
         weight.push_back(-flow.flux[f]);
@@ -242,7 +242,7 @@ void KEpsilon::guess(Flow& flow, const TimeScheme& time, int outer) {
 void KEpsilon::set_entering(const Flow& flow, const BoundarySet& boundary) {
   const Mesh& mesh = flow.mesh;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    if (boundary.is_wall(static_cast<int>(p)) || boundary.fixes(static_cast<int>(p)) == Fixes::symmetry) continue;
+    if (!boundary.is_open(static_cast<int>(p))) continue;
     const InletTurbulence& inlet = boundary.turbulence(static_cast<int>(p));
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
       const TurbulenceValues values = inlet.at(std::abs(flow.flux[f]) / norm(mesh.face_vector[f]), law_.C_mu);
