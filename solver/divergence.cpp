@@ -13,6 +13,8 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "solver/convection/convection.hpp"
+#include "solver/convection/limiter.hpp"
 #include "solver/flow_solver.hpp"
 
 namespace snag {
@@ -247,7 +249,8 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
     causes.push_back("the mesh is poor at this cell: refine or optimise it there (quality above " + rounded(poor_quality) +
                      ", non-orthogonality below " + rounded(oblique_faces) + " degrees, skewness below " + rounded(skew_faces) + ")");
   if (flow.drag[found.cell] > 0) causes.push_back("a rag is in this cell: a wider [coupling] kernel_width softens its force on the water");
-  if (settings_.convection == "central" || (settings_.convection == "linear_upwind" && settings_.limiter == "none"))
+  const auto scheme = convection_schemes().make(settings_.convection, "[flow] convection");
+  if (!scheme->is_bounded() || (scheme->is_limited() && !limiters().make(settings_.limiter, "[flow] limiter")->bounds()))
     causes.push_back("[flow] convection = \"" + settings_.convection + "\" with limiter = \"" + settings_.limiter +
                      "\" is not bounded: use linear_upwind with limiter = \"venkatakrishnan\"");
   const double courant = 0.5 * dt * speed_ * area_[found.cell] / mesh_.cell_volume[found.cell];

@@ -2,6 +2,8 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "solver/convection/convection.hpp"
+#include "solver/convection/limiter.hpp"
 
 namespace snag {
 
@@ -17,10 +19,8 @@ Section FlowSettings::section() {
        "Viscosity; water at 20 C (1.003e-3) if neither this nor kinematic_viscosity is given."},
       {"kinematic_viscosity", &kinematic_viscosity, "m2/s", 0, infinity, Basis::literature,
        "Viscosity over density, instead of dynamic_viscosity."},
-      setting("convection", &convection, "Convection scheme; linear_upwind is second order and robust, upwind first order.",
-              {"linear_upwind", "upwind", "central", "limited_linear"}),
-      setting("limiter", &limiter, "Limiter of the gradients that linear_upwind extrapolates with.",
-              {"venkatakrishnan", "barth_jespersen", "none"}),
+      setting("convection", &convection, convection_meaning(), convection_schemes().names()),
+      setting("limiter", &limiter, limiter_meaning(), limiters().names()),
       {"outer_correctors", &outer_correctors, "1", 1, 50, Basis::assumed,
        "Repetitions of momentum and pressure in a step; 1 extrapolates the convecting flux in time, more make large steps robust."},
       {"n_non_orthogonal", &n_non_orthogonal, "1", 0, 20, Basis::assumed,

@@ -34,15 +34,7 @@ std::vector<Side> velocity_sides(const Mesh& mesh, const BoundarySet& boundary) 
 }
 
 MomentumSettings momentum_settings(const FlowSettings& settings) {
-  MomentumSettings chosen{.tolerance = settings.momentum_tolerance};
-  chosen.convection = settings.convection == "upwind"           ? Convection::upwind
-                      : settings.convection == "central"        ? Convection::central
-                      : settings.convection == "limited_linear" ? Convection::limited_linear
-                                                                : Convection::linear_upwind;
-  chosen.limiter = settings.limiter == "none"              ? Limiter::none
-                   : settings.limiter == "barth_jespersen" ? Limiter::barth_jespersen
-                                                           : Limiter::venkatakrishnan;
-  return chosen;
+  return {.convection = settings.convection, .limiter = settings.limiter, .tolerance = settings.momentum_tolerance};
 }
 
 ContinuitySettings continuity_settings(const FlowSettings& settings) {

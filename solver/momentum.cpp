@@ -1,9 +1,7 @@
 // Assembly and solution of the momentum equation, one row a cell, common to the three components but for the diagonal at symmetry planes.
 //
-//   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess
-//     linear_upwind    u_f^high = u_C + psi G_C (x_f - x_C)                psi: limiter of each component
-//     central          u_f^high = w u_P + (1 - w) u_N + G_f s
-//     limited_linear   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C), each component for itself (solver/fields/face.hpp)
+//   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess, by a scheme
+//                                                          (solver/convection/schemes/)
 //   diffusion    mu (c (u_N - u_P) + G_f T [+ G_f^T S where mu varies])     first part implicit
 //
 // Where mu varies, the faces of a corner cell (mesh/skewness.hpp) have the implicit part alone. Least squares take the gradient of such a
@@ -29,6 +27,8 @@
 
 #include "mesh/skewness.hpp"
 #include "parallel/sum.hpp"
+#include "solver/convection/convection.hpp"
+#include "solver/convection/limiter.hpp"
 #include "solver/fields/face.hpp"
 #include "solver/fields/rotating_zone.hpp"
 
@@ -40,34 +40,9 @@ namespace {
 // reattachment wanders where s is 1 and fluxes are extrapolated, and rests where s is 0.8.
 constexpr double shear_full = 0.5, shear_none = 1;
 
-inline Vec3 scaled(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-
 /// Share e of the extrapolation in time, from Courant number and diffusion number of a cell.
 inline double extrapolation_share(double courant, double diffusion) {
   return std::min(std::clamp(1.25 - 0.5 * courant, 0.5, 1.0), std::clamp(1.25 - 0.5 * diffusion, 0.0, 1.0));
-}
-
-/// u_f^high - u_C of one face with flux F from P to N.
-template <Convection scheme>
-inline Vec3 high_order_part(const Mesh& mesh, int f, double F, std::span<const Vec3> u, std::span<const Mat3> G,
-                            std::span<const Vec3> psi) {
-  const int P = mesh.owner[f], N = mesh.neighbour[f];
-  if constexpr (scheme == Convection::upwind) {
-    return {};
-  } else if constexpr (scheme == Convection::linear_upwind) {
-    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P];
-    return F > 0 ? scaled(psi[P], G[P] * way) : scaled(psi[N], G[N] * (way - mesh.delta[f]));
-  } else if constexpr (scheme == Convection::central) {
-    const double w = mesh.weight[f];
-    const Vec3 u_f = blend(w, u[P], u[N]) + blend(w, G[P], G[N]) * skewness(mesh, f);
-    return u_f - u[F > 0 ? P : N];
-  } else {
-    const int C = F > 0 ? P : N, D = F > 0 ? N : P;
-    const Vec3 change = u[D] - u[C], slope = (F > 0 ? 1.0 : -1.0) * (G[C] * mesh.delta[f]);
-    const double weight = F > 0 ? 1 - mesh.weight[f] : mesh.weight[f];
-    return {limited_linear(change.x, slope.x, weight), limited_linear(change.y, slope.y, weight),
-            limited_linear(change.z, slope.z, weight)};
-  }
 }
 
 }  // namespace
@@ -81,6 +56,8 @@ TimeScheme bdf(double dt, double dt_old) {
 Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings)
     : mesh_(mesh),
       settings_(settings),
+      scheme_(convection_schemes().make(settings.convection, "[flow] convection")),
+      limiter_(limiters().make(settings.limiter, "[flow] limiter")),
       matrix_(mesh),
       diagonal_(mesh.n_all_cells()),
       right_side_(mesh.n_all_cells()),
@@ -175,28 +152,22 @@ void Momentum::guess_from_last(const Flow& flow) {
 }
 
 void Momentum::limit(const Flow& flow) {
-  if (settings_.convection != Convection::linear_upwind) return;
+  if (!scheme_->is_limited()) return;
   double speed2 = 0;
   for (int c = 0; c < mesh_.n_cells; ++c) speed2 = std::max(speed2, norm_squared(flow.velocity[c]));
-  limit_gradient(mesh_, settings_.limiter, flow.velocity, gradient_, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
+  limiter_->limit(mesh_, flow.velocity, gradient_, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
   start_rows(flow, time);
-  switch (settings_.convection) {
-    case Convection::upwind:
-      add_interior<Convection::upwind>(flow);
-      break;
-    case Convection::linear_upwind:
-      add_interior<Convection::linear_upwind>(flow);
-      break;
-    case Convection::central:
-      add_interior<Convection::central>(flow);
-      break;
-    case Convection::limited_linear:
-      add_interior<Convection::limited_linear>(flow);
-      break;
-  }
+  scheme_->add_interior({.flow = flow,
+                         .flux = flux_,
+                         .gradient = gradient_,
+                         .psi = psi_,
+                         .in_corner = in_corner_,
+                         .matrix = matrix_,
+                         .diagonal = diagonal_,
+                         .right_side = right_side_});
   add_boundary(flow, boundary);
   const auto report = gauss_seidel<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
   record_boundary(flow, boundary);
@@ -227,31 +198,6 @@ void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
   for (int c = 0; c < mesh_.n_cells; ++c)
     if (mesh_.cell_zone[c] == flow.rotating_zone->zone())
       right_side_[c] -= flow.density * mesh_.cell_volume[c] * cross(omega, flow.velocity[c]);
-}
-
-template <Convection scheme>
-void Momentum::add_interior(const Flow& flow) {
-  const double rho = flow.density;
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double F = rho * flux_[f], mu = flow.face_viscosity[f], c = conductance(S, d), D = mu * c;
-    const double out = std::max(F, 0.0), in = std::max(-F, 0.0);
-    matrix_.value[matrix_.place_of_owner[f]] = -in - D;
-    matrix_.value[matrix_.place_of_neighbour[f]] = -out - D;
-    const double from_owner = out + D, from_neighbour = in + D;
-    diagonal_[P] += {from_owner, from_owner, from_owner};
-    diagonal_[N] += {from_neighbour, from_neighbour, from_neighbour};
-
-    Vec3 explicit_part = -F * high_order_part<scheme>(mesh_, f, F, flow.velocity, gradient_, psi_);
-    const Mat3 G_f = blend(mesh_.weight[f], gradient_[P], gradient_[N]);
-    if (!flow.variable_viscosity)
-      explicit_part += mu * (G_f * (S - c * d));
-    else if (!in_corner_[P] && !in_corner_[N])
-      explicit_part += mu * (G_f * (S - c * d) + transposed_product(G_f, S));
-    right_side_[P] += explicit_part;
-    right_side_[N] -= explicit_part;
-  }
 }
 
 /// Coefficients of boundary face f with its cell P:

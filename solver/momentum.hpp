@@ -5,26 +5,30 @@
 //
 // In a turning frame - rho omega x u is added, with the guess of u.
 // a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
+#include <memory>
+#include <string>
+
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
 #include "solver/flux_history.hpp"
 #include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
-#include "solver/operators/limiter.hpp"
 
 namespace snag {
 
-enum class Convection { upwind, linear_upwind, central, limited_linear };
+class ConvectionScheme;
+class Limiter;
 
 struct MomentumSettings {
-  Convection convection = Convection::linear_upwind;
-  Limiter limiter = Limiter::venkatakrishnan;
+  std::string convection;  // name of a scheme (solver/convection/convection.hpp)
+  std::string limiter;     // name of a limiter (solver/convection/limiter.hpp)
   double tolerance = 1e-8;
   int max_sweeps = 400;
 };
 
 class Momentum {
  public:
+  /// Throws Error(usage) for an unknown scheme or limiter.
   Momentum(const Mesh& mesh, const MomentumSettings& settings);
 
   /// Again after the facets of the mesh have changed. Local.
@@ -55,13 +59,13 @@ class Momentum {
   double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
   void start_rows(const Flow& flow, const TimeScheme& time);
-  template <Convection scheme>
-  void add_interior(const Flow& flow);
   void add_boundary(Flow& flow, const BoundarySet& boundary);
   void record_boundary(Flow& flow, const BoundarySet& boundary) const;
 
   const Mesh& mesh_;
   MomentumSettings settings_;
+  std::shared_ptr<const ConvectionScheme> scheme_;
+  std::shared_ptr<const Limiter> limiter_;
   CellMatrix matrix_;
   std::vector<Vec3> diagonal_, right_side_;  // [n_all_cells], the ghosts' parts are not used
   std::vector<double> flux_;                 // F, relative to the mesh, [n_faces], m3/s

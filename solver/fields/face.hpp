@@ -31,6 +31,8 @@ inline double conductance(const Vec3& S, const Vec3& d) { return norm_squared(S)
 /// Way from a boundary cell's centre to the face centre, without its part along the normal n: where a zero normal gradient leads to.
 inline Vec3 along_face(const Vec3& d, const Vec3& n) { return d - dot(d, n) * n; }
 
+/// a with each component times that of b.
+inline Vec3 scaled(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline Vec3 blend(double w, const Vec3& a, const Vec3& b) { return w * a + (1 - w) * b; }
 inline Mat3 blend(double w, const Mat3& a, const Mat3& b) { return {blend(w, a[0], b[0]), blend(w, a[1], b[1]), blend(w, a[2], b[2])}; }
 inline Vec3 transposed_product(const Mat3& m, const Vec3& v) { return v.x * m[0] + v.y * m[1] + v.z * m[2]; }

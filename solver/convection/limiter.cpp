@@ -1,0 +1,21 @@
+#include "solver/convection/limiter.hpp"
+
+namespace snag {
+
+Registry<Limiter>& limiters() {
+  static Registry<Limiter> all("limiter");
+  return all;
+}
+
+std::string limiter_meaning() {
+  std::string meaning =
+      "Limiter of the gradients that linear_upwind extrapolates with: the least psi of all faces of a cell, y the largest change to a "
+      "neighbour over the change to the face.";
+  for (const std::string& name : limiters().names()) {
+    const LimiterCard card = limiters().make(name, "manual")->card();
+    meaning += " " + name + ": " + card.equation + (card.source.empty() ? "" : " (" + card.source + ")") + ".";
+  }
+  return meaning;
+}
+
+}  // namespace snag

@@ -1,0 +1,35 @@
+#pragma once
+// Limiters of the velocity gradient: one limiter, one file in solver/convection/limiters/, chosen by [flow] limiter = "..." for the
+// convection schemes that take one. Which limiter it is, is decided once for all cells, never once a face
+// (solver/convection/cell_limiter.hpp).
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/registry.hpp"
+#include "mesh/mesh.hpp"
+
+namespace snag {
+
+/// What a limiter is, for the manual.
+struct LimiterCard {
+  std::string equation, source;
+};
+
+class Limiter {
+ public:
+  virtual ~Limiter() = default;
+  virtual LimiterCard card() const = 0;
+  /// True if the values at the face centres stay between those of the cell and its neighbours.
+  virtual bool bounds() const { return true; }
+  /// Factor in [0, 1] of each row of the gradient G of u, `psi` [n_all_cells], ghosts filled. `reference_speed`, m/s: a limiter may leave
+  /// alone variations far below it on the scale of a cell. Collective.
+  virtual void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
+                     std::vector<Vec3>& psi) const = 0;
+};
+
+Registry<Limiter>& limiters();
+/// Meaning of the key `limiter`, with what each limiter is.
+std::string limiter_meaning();
+
+}  // namespace snag

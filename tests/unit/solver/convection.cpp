@@ -1,0 +1,210 @@
+// Every convection scheme and every limiter of the registries is held to the same rules; a new file of their folders is tested without a
+// line here.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesh/import/structured.hpp"
+#include "solver/convection/convection.hpp"
+#include "solver/convection/limiter.hpp"
+#include "tests/sources.hpp"
+
+using namespace snag;
+
+namespace {
+
+template <class Models, class Work>
+void for_each(const Models& models, const Work& work) {
+  ASSERT_FALSE(models.names().empty());
+  for (const std::string& name : models.names()) {
+    SCOPED_TRACE(name);
+    work(*models.make(name, "test"));
+  }
+}
+
+Mesh box() { return structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {4, 3, 3}); }
+
+/// A guess of the velocity with its gradient and the factors of a limiter.
+struct Guess {
+  explicit Guess(const Mesh& mesh) : u(mesh.n_all_cells()), G(mesh.n_all_cells()), psi(mesh.n_all_cells(), Vec3{1, 1, 1}) {}
+  std::vector<Vec3> u;
+  std::vector<Mat3> G;
+  std::vector<Vec3> psi;
+};
+
+const Mat3 slope{Vec3{1, 2, -3}, Vec3{0.5, -1, 2}, Vec3{-2, 0, 1}};
+
+Guess linear(const Mesh& mesh) {
+  Guess guess(mesh);
+  for (int c = 0; c < mesh.n_all_cells(); ++c) guess.u[c] = Vec3{1, 2, 3} + slope * mesh.cell_centre[c], guess.G[c] = slope;
+  return guess;
+}
+
+/// Noise, with gradients that have nothing to do with it.
+Guess rough(const Mesh& mesh) {
+  Guess guess(mesh);
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto vector = [&] { return Vec3{any(engine), any(engine), any(engine)}; };
+  for (int c = 0; c < mesh.n_all_cells(); ++c) guess.u[c] = vector(), guess.G[c] = {9 * vector(), 9 * vector(), 9 * vector()};
+  return guess;
+}
+
+/// Value that a scheme gives to face f where `flux` m3/s flow from the owner to the neighbour, and nothing elsewhere: from the balance of
+/// the row of the owner, without viscosity and at a density of 1.
+Vec3 value_at_face(const ConvectionScheme& scheme, const Mesh& mesh, const Guess& guess, int f, double flux) {
+  Flow flow(mesh);
+  flow.density = 1;
+  std::fill(flow.face_viscosity.begin(), flow.face_viscosity.end(), 0.0);
+  CellMatrix matrix(mesh);
+  const auto n = static_cast<std::size_t>(mesh.n_all_cells());
+  std::vector<Vec3> diagonal(n), right_side(n);
+  std::vector<double> fluxes(static_cast<std::size_t>(mesh.n_faces));
+  fluxes[f] = flux;
+  const std::vector<std::uint8_t> in_corner(n);
+  flow.velocity = guess.u;
+  scheme.add_interior({.flow = flow,
+                       .flux = fluxes,
+                       .gradient = guess.G,
+                       .psi = guess.psi,
+                       .in_corner = in_corner,
+                       .matrix = matrix,
+                       .diagonal = diagonal,
+                       .right_side = right_side});
+  const int P = mesh.owner[f], N = mesh.neighbour[f];
+  const Vec3 out = diagonal[P].x * guess.u[P] + matrix.value[matrix.place_of_owner[f]] * guess.u[N] - right_side[P];
+  const Vec3 in = diagonal[N].x * guess.u[N] + matrix.value[matrix.place_of_neighbour[f]] * guess.u[P] - right_side[N];
+  EXPECT_LT(norm(out + in), 1e-13) << "what leaves one cell enters the other";
+  return out / flux;
+}
+
+double lowest(double a, double b) { return std::min(a, b); }
+double highest(double a, double b) { return std::max(a, b); }
+
+}  // namespace
+
+// Requirement: no scheme and no limiter is dropped by the linker: the registries hold what their folders hold.
+TEST(ConvectionSchemes, RegistryHoldsTheFolder) { EXPECT_EQ(convection_schemes().names().size(), n_sources("solver/convection/schemes")); }
+TEST(Limiters, RegistryHoldsTheFolder) { EXPECT_EQ(limiters().names().size(), n_sources("solver/convection/limiters")); }
+
+// Requirement: the manual says of each scheme and limiter what it is and where it comes from.
+TEST(ConvectionSchemes, Cards) {
+  for_each(convection_schemes(), [](const ConvectionScheme& scheme) {
+    EXPECT_FALSE(scheme.card().equation.empty() || scheme.card().source.empty());
+    EXPECT_NE(convection_meaning().find(scheme.card().equation), std::string::npos);
+  });
+  for_each(limiters(), [](const Limiter& limiter) {
+    EXPECT_FALSE(limiter.card().equation.empty() || (limiter.bounds() && limiter.card().source.empty()));
+    EXPECT_NE(limiter_meaning().find(limiter.card().equation), std::string::npos);
+  });
+}
+
+// Requirement: a scheme keeps a uniform velocity, and gives that of a linear field exactly if it is of second order, for both directions of
+// the flow.
+TEST(ConvectionSchemes, UniformAndLinear) {
+  const Mesh mesh = box();
+  Guess uniform(mesh);
+  std::fill(uniform.u.begin(), uniform.u.end(), Vec3{1, -2, 3});
+  const Guess guess = linear(mesh);
+  for_each(convection_schemes(), [&](const ConvectionScheme& scheme) {
+    double largest = 0;
+    for (int f = 0; f < mesh.first_facet; ++f)
+      for (const double flux : {0.3, -0.7}) {
+        EXPECT_LT(norm(value_at_face(scheme, mesh, uniform, f, flux) - uniform.u[0]), 1e-14);
+        const Vec3 exact = Vec3{1, 2, 3} + slope * mesh.face_centre[f];
+        largest = std::max(largest, norm(value_at_face(scheme, mesh, guess, f, flux) - exact));
+      }
+    if (scheme.card().order > 1)
+      EXPECT_LT(largest, 1e-13);
+    else
+      EXPECT_GT(largest, 0.1);
+  });
+}
+
+// Requirement: a bounded scheme gives a face no value beyond those of its two cells; one that takes a limiter none beyond those of the
+// upwind cell and its neighbours.
+TEST(ConvectionSchemes, Bounded) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {}, {1, 1, 1}, {4, 3, 3});
+  Guess guess = rough(mesh);
+  for_each(convection_schemes(), [&](const ConvectionScheme& scheme) {
+    if (!scheme.is_bounded()) return;
+    if (scheme.is_limited()) limiters().make("barth_jespersen", "test")->limit(mesh, guess.u, guess.G, 0, guess.psi);
+    for (int f = 0; f < mesh.first_facet; ++f)
+      for (const double flux : {0.3, -0.7}) {
+        const Vec3 value = value_at_face(scheme, mesh, guess, f, flux);
+        const int C = flux > 0 ? mesh.owner[f] : mesh.neighbour[f];
+        for (int i = 0; i < 3; ++i) {
+          double low = lowest(guess.u[mesh.owner[f]][i], guess.u[mesh.neighbour[f]][i]),
+                 high = highest(guess.u[mesh.owner[f]][i], guess.u[mesh.neighbour[f]][i]);
+          for (int k = mesh.cell_face_start[C]; scheme.is_limited() && k < mesh.cell_face_start[C + 1]; ++k) {
+            const int other = mesh.cell_face[k];
+            if (other >= mesh.n_interior) continue;
+            const Vec3& u = guess.u[mesh.owner[other] == C ? mesh.neighbour[other] : mesh.owner[other]];
+            low = lowest(low, u[i]), high = highest(high, u[i]);
+          }
+          EXPECT_GE(value[i], low - 1e-13);
+          EXPECT_LE(value[i], high + 1e-13);
+        }
+      }
+  });
+}
+
+// Requirement: a limiter leaves a constant velocity alone; its factors lie in [0, 1]; and one that bounds lets no face of a cell lie beyond
+// the values of the cell and its neighbours, where nothing is small against the reference speed.
+TEST(Limiters, Bounds) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {}, {1, 1, 1}, {4, 3, 3});
+  const Guess guess = rough(mesh);
+  for_each(limiters(), [&](const Limiter& limiter) {
+    std::vector<Vec3> psi(guess.u.size(), Vec3{-1, -1, -1});
+    limiter.limit(mesh, guess.u, std::vector<Mat3>(guess.u.size()), 1, psi);
+    for (const Vec3& factor : psi) EXPECT_EQ(norm(factor - Vec3{1, 1, 1}), 0);
+    limiter.limit(mesh, guess.u, guess.G, 0, psi);
+    double beyond = 0;
+    for (int c = 0; c < mesh.n_cells; ++c) {
+      Vec3 low = guess.u[c], high = guess.u[c];
+      for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
+        const int f = mesh.cell_face[k];
+        if (f >= mesh.n_interior) continue;
+        const Vec3& u = guess.u[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]];
+        for (int i = 0; i < 3; ++i) low[i] = lowest(low[i], u[i]), high[i] = highest(high[i], u[i]);
+      }
+      for (int i = 0; i < 3; ++i) EXPECT_TRUE(psi[c][i] >= 0 && psi[c][i] <= 1) << psi[c][i];
+      for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
+        const int f = mesh.cell_face[k];
+        if (f >= mesh.n_interior) continue;
+        const Vec3 change = guess.G[c] * (mesh.face_centre[f] - mesh.cell_centre[c]);
+        for (int i = 0; i < 3; ++i) {
+          const double value = guess.u[c][i] + psi[c][i] * change[i];
+          beyond = std::max({beyond, value - high[i], low[i] - value});
+        }
+      }
+    }
+    if (limiter.bounds())
+      EXPECT_LT(beyond, 1e-13);
+    else
+      EXPECT_GT(beyond, 0.1);
+  });
+}
+
+// Requirement: the factor is the published function of y, the largest change to a neighbour over the change to the face.
+TEST(Limiters, PublishedFactors) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {}, {3, 1, 1}, {3, 1, 1});
+  Guess guess(mesh);
+  for (int c = 0; c < mesh.n_cells; ++c) guess.u[c] = {mesh.cell_centre[c].x, 0, 0};
+  const int middle = [&] {
+    for (int c = 0; c < mesh.n_cells; ++c)
+      if (std::abs(mesh.cell_centre[c].x - 1.5) < 1e-12) return c;
+    return -1;
+  }();
+  const auto factor = [&](const char* name, double y) {
+    guess.G[middle] = {Vec3{2 / y, 0, 0}, {}, {}};  // the change to a neighbour is 1 m/s, that to the face 1/y
+    limiters().make(name, "test")->limit(mesh, guess.u, guess.G, 0, guess.psi);
+    return guess.psi[middle].x;
+  };
+  for (const double y : {0.25, 0.75, 1.25, 1.5, 4.0}) {
+    SCOPED_TRACE(y);
+    EXPECT_EQ(factor("none", y), 1);
+    EXPECT_NEAR(factor("barth_jespersen", y), std::min(1.0, y), 1e-14);
+    EXPECT_NEAR(factor("venkatakrishnan", y), std::min(1.0, (y * y + 2 * y) / (y * y + y + 2)), 1e-14);
+  }
+}
