@@ -186,7 +186,8 @@ TEST(Limiters, Bounds) {
   });
 }
 
-// Requirement: the factor is the published function of y, the largest change to a neighbour over the change to the face.
+// Requirement: the factor is the published function of y, the largest change to a neighbour over the change to the face; that of Michalak
+// and Ollivier-Gooch has the four values and slopes that define its cubic.
 TEST(Limiters, PublishedFactors) {
   const Mesh mesh = structured_box(MPI_COMM_SELF, {}, {3, 1, 1}, {3, 1, 1});
   Guess guess(mesh);
@@ -207,4 +208,9 @@ TEST(Limiters, PublishedFactors) {
     EXPECT_NEAR(factor("barth_jespersen", y), std::min(1.0, y), 1e-14);
     EXPECT_NEAR(factor("venkatakrishnan", y), std::min(1.0, (y * y + 2 * y) / (y * y + y + 2)), 1e-14);
   }
+  EXPECT_NEAR(factor("michalak_ollivier_gooch", 0.75), 0.6875, 1e-14);
+  EXPECT_NEAR(factor("michalak_ollivier_gooch", 1.2), 0.944, 1e-14);
+  EXPECT_NEAR(factor("michalak_ollivier_gooch", 1e-3), 1e-3, 1e-9);     // slope 1 at y = 0
+  EXPECT_NEAR(factor("michalak_ollivier_gooch", 1.5 - 1e-4), 1, 1e-7);  // slope 0 at y = 3/2
+  EXPECT_EQ(factor("michalak_ollivier_gooch", 1.5), 1);
 }

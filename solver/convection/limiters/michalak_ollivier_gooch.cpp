@@ -1,0 +1,26 @@
+// Limiter of Michalak and Ollivier-Gooch:   psi = y - 4/27 y^3 up to y = 3/2, 1 above,   y = b/a    a, b:
+// solver/convection/cell_limiter.hpp
+//
+// The cubic with psi = 0, dpsi/dy = 1 at y = 0 and psi = 1, dpsi/dy = 0 at y = 3/2: smooth where that of Barth and Jespersen has a kink,
+// and exactly 1 where neighbours leave half as much again as the face needs. It leaves out the threshold of the source, which switches the
+// limiter off in smooth regions: smooth extrema are limited. Source: Michalak and Ollivier-Gooch (2009), J. Comput. Phys. 228, 8693.
+#include "solver/convection/cell_limiter.hpp"
+
+namespace snag {
+namespace {
+
+struct MichalakOllivierGooch final : CellLimiter<MichalakOllivierGooch> {
+  static constexpr const char* name = "michalak_ollivier_gooch";
+
+  LimiterCard card() const override {
+    return {"psi = y - 4/27 y^3 up to y = 3/2, then 1; smooth, without a threshold", "Michalak and Ollivier-Gooch 2009"};
+  }
+  static double factor(double a, double b, double) {
+    const double y = b / a;
+    return y < 1.5 ? y - 4.0 / 27 * y * y * y : 1;
+  }
+};
+const bool registered = limiters().add<MichalakOllivierGooch>();
+
+}  // namespace
+}  // namespace snag
