@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "mesh/import/import.hpp"
+#include "mesh/import/mesh_reader.hpp"
 #include "mesh/quality.hpp"
 #include "parallel/session.hpp"
 #include "simulation/setup/mesh_generator.hpp"
@@ -15,7 +16,7 @@ namespace snag {
 namespace {
 
 ExitCode judge(const std::string& file, double scale) {
-  const Mesh mesh = import_gmsh(file, MPI_COMM_WORLD, {.scale = scale});
+  const Mesh mesh = import_mesh(file, MPI_COMM_WORLD, {.scale = scale});
   const MeshQuality found = quality(mesh);
   const std::string table = quality_table(mesh, found);
   if (rank_of(MPI_COMM_WORLD) == 0) std::cout << table << std::flush;
@@ -34,7 +35,8 @@ Action add_mesh(CLI::App& app) {
       app.add_subcommand("mesh",
                          "Make a mesh: snag mesh pump|pipe|channel|box|tank [PARAMS.toml] --out MESH.msh (snag mesh pump --help lists "
                          "the parameters); or judge one: snag mesh --info MESH.msh, exit code 3 on a bad mesh");
-  command->add_option("--info", options->judged, "Mesh to judge: cells, patches, zones, quality, what is wrong with it");
+  command->add_option("--info", options->judged,
+                      "Mesh to judge, " + readable_mesh_formats() + ": cells, patches, zones, quality, what is wrong with it");
   command->add_option("--scale", options->scale, "Metres in one unit of length of the file judged");
   command->prefix_command();
   return [command, options] {

@@ -4,12 +4,10 @@
 
 #include "base/atomic_file.hpp"
 #include "base/quotation.hpp"
-#include "mesh/import/mesh_format.hpp"
 
 namespace snag {
 
 GmshReader::GmshReader(const std::filesystem::path& file) : name_(file.string()) {
-  require_gmsh_format(file);
   auto text = file_text(file);
   if (!text) throw Error(ExitCode::io, name_ + ": the mesh file cannot be read; check its permissions");
   text_ = std::move(*text);

@@ -14,7 +14,7 @@ namespace snag {
 /// Walks through the bytes of a file; every read past the end, or of something that is no number, is an Error(io) with its place.
 class GmshReader {
  public:
-  /// Throws Error(io) for what is no file, Error(mesh) for a file of another format.
+  /// Throws Error(io) if the file cannot be read.
   explicit GmshReader(const std::filesystem::path& file);
 
   /// Goes behind the line "$name"; false if there is none.

@@ -1,4 +1,4 @@
-// gmsh file -> cells on rank 0 -> DMPlex -> PTScotch -> one layer of ghosts across faces -> MeshParts -> Mesh. The DMPlex lives only here
+// mesh file -> cells on rank 0 -> DMPlex -> PTScotch -> one layer of ghosts across faces -> MeshParts -> Mesh. The DMPlex lives only here
 // and in mesh/import/plex.hpp.
 #include "mesh/import/import.hpp"
 
@@ -9,7 +9,8 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
-#include "mesh/import/gmsh_file.hpp"
+#include "mesh/import/connectivity.hpp"
+#include "mesh/import/mesh_reader.hpp"
 #include "mesh/import/partition.hpp"
 #include "mesh/import/parts.hpp"
 #include "mesh/import/plex.hpp"
@@ -257,7 +258,8 @@ MeshParts read(const std::filesystem::path& file, MPI_Comm comm, const ImportOpt
   MeshParts whole;
   together(comm, [&] {
     if (rank_of(comm) != 0) return;
-    whole = read_gmsh(file, options.scale);
+    whole = mesh_reader_of(file)->read(file, options.scale);
+    require_fitting_cells(whole);
     if (options.partition) require_partition(*options.partition, whole.n_owned, size_of(comm), file.string());
   });
   whole.zones = shared_words(comm, whole.zones), whole.patches = shared_words(comm, whole.patches);
@@ -266,7 +268,7 @@ MeshParts read(const std::filesystem::path& file, MPI_Comm comm, const ImportOpt
 
 }  // namespace
 
-Mesh import_gmsh(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options) {
+Mesh import_mesh(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options) {
   MeshParts parts;
   parts.comm = comm;
   parts.source = file.string();

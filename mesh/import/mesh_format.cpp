@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/quotation.hpp"
+#include "mesh/import/mesh_reader.hpp"
 
 namespace snag {
 namespace {
@@ -91,8 +92,7 @@ std::optional<Format> format_of_name(const std::filesystem::path& file) {
                                                                          {".geo_unrolled", geo},
                                                                          {".brep", step},
                                                                          {".foam", openfoam}}};
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = ending_of(file);
   for (const auto& [known, format] : endings)
     if (ending == known) return format;
   return {};
@@ -100,7 +100,7 @@ std::optional<Format> format_of_name(const std::filesystem::path& file) {
 
 [[noreturn]] void throw_format(const std::string& name, const Format& format) {
   throw Error(ExitCode::mesh,
-              name + ": is a file of the format " + format.name + ", a gmsh mesh (.msh 2.2 or 4.1) is needed; " + format.remedy);
+              name + ": is a file of the format " + format.name + ", Snag reads " + readable_mesh_formats() + "; " + format.remedy);
 }
 
 void require_file(const std::filesystem::path& file) {
@@ -108,33 +108,43 @@ void require_file(const std::filesystem::path& file) {
   std::error_code failure;
   const fs::file_status status = fs::status(file, failure);
   if (status.type() == fs::file_type::not_found)
-    throw Error(ExitCode::io, file.string() + ": the mesh file does not exist; check the path, it must be a gmsh .msh file");
+    throw Error(ExitCode::io, file.string() + ": the mesh file does not exist; check the path");
   if (fs::is_directory(status) && (fs::exists(file / "faces", failure) || fs::exists(file / "polyMesh", failure)))
     throw_format(file.string(), openfoam);
   if (!fs::is_regular_file(status))
     throw Error(ExitCode::io, file.string() + ": is a " + (fs::is_directory(status) ? "folder" : "device or pipe") +
-                                  ", not a file; name the gmsh .msh file itself");
+                                  ", not a file; name the mesh file itself");
   if (fs::file_size(file, failure) == 0 || failure)
     throw Error(ExitCode::io, file.string() + ": the mesh file is empty or cannot be opened; check it and its permissions");
 }
 
 }  // namespace
 
-void require_gmsh_format(const std::filesystem::path& file) {
+std::string beginning_of_mesh(const std::filesystem::path& file) {
   require_file(file);
   std::ifstream stream(file, std::ios::binary);
   std::string head(4096, '\0');
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   if (!stream && !stream.eof()) throw Error(ExitCode::io, file.string() + ": the mesh file cannot be opened; check its permissions");
   head.resize(static_cast<std::size_t>(stream.gcount()));
-  const std::size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
-  if (head[first] == '$' && !head.substr(first).starts_with("$NOD")) return;
+  return head;
+}
+
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+void refuse_mesh_format(const std::filesystem::path& file, std::string_view beginning) {
   std::error_code ignored;
-  auto format = format_of_content(head, std::filesystem::file_size(file, ignored));
+  auto format = format_of_content(beginning, std::filesystem::file_size(file, ignored));
   if (!format) format = format_of_name(file);
   if (format) throw_format(file.string(), *format);
-  throw Error(ExitCode::mesh, file.string() + ": begins with \"" + shortened(head.substr(first, 40)) +
-                                  "\", a gmsh mesh begins with $MeshFormat; save the mesh from gmsh as .msh 2.2 or 4.1");
+  const std::string_view word = beginning.substr(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+  throw Error(ExitCode::mesh, file.string() + ": begins with \"" + shortened(word.substr(0, 40)) +
+                                  "\" and is of no format that Snag reads: " + readable_mesh_formats() +
+                                  "; open the mesh with gmsh and save it as .msh 2.2 or 4.1");
 }
 
 }  // namespace snag

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "mesh/import/mesh_reader.hpp"
 
 namespace snag {
 
@@ -15,9 +16,8 @@ Section CaseSettings::section() {
 
 Section MeshSettings::section() {
   return {"mesh",
-          "The mesh of the water: gmsh .msh (2.2 or 4.1, ascii or binary) with named physical volumes and surfaces. Without it there is no "
-          "water.",
-          {file_setting("file", &file, "Mesh file, relative to the case file."),
+          "The mesh of the water: a file with named volumes and surfaces. Without it there is no water.",
+          {file_setting("file", &file, "Mesh file, relative to the case file: " + readable_mesh_formats() + "."),
            {"scale", &scale, "1", 1e-9, 1e9, Basis::assumed, "Metres in one unit of length of the file (0.001 for millimetres)."},
            setting("geometry", &geometry, "Instead of a file: the mesh is made for this run, as by `snag mesh`.",
                    {"", "pump", "pipe", "channel", "box", "tank"}),

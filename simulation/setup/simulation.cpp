@@ -100,7 +100,7 @@ void Simulation::read_mesh(const CaseFile& file) {
     TemporaryMesh made;
     if (!mesh_settings_.geometry.empty()) made.file = made_mesh(comm_, mesh_settings_, file);
     const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
-    StoredMesh fresh{.mesh = std::make_shared<Mesh>(import_gmsh(path, comm_, options)), .quality = {}};
+    StoredMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}};
     fresh.quality = quality(*fresh.mesh);
     if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());
     mesh = fresh.mesh, mesh_quality = fresh.quality;

@@ -20,7 +20,7 @@ std::string sample_file(test::Format format) {
 }
 
 void read(const std::filesystem::path& file) {
-  const Mesh mesh = import_gmsh(file, MPI_COMM_SELF);
+  const Mesh mesh = import_mesh(file, MPI_COMM_SELF);
   quality(mesh);
 }
 

@@ -224,7 +224,7 @@ TEST(KernelOrder, SecondOrderAwayFromWalls) {
 TEST(Kernel, FollowsATurningZone) {
   const test::Shells shells;
   const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
-  Mesh mesh = import_gmsh(file.path(), world);
+  Mesh mesh = import_mesh(file.path(), world);
   TurningMesh turning(mesh, shells.description());
   const auto shape = kernel_shapes().make("cell", "test");
   Kernel kernel(*shape, 1, mesh);

@@ -21,13 +21,13 @@ std::filesystem::path pump(const std::string& name) {
 
 Mesh imported(const test::Sample& sample, Format format, const ImportOptions& options = {}) {
   const test::TemporaryFile file(sample, format);
-  return import_gmsh(file.path(), MPI_COMM_WORLD, options);
+  return import_mesh(file.path(), MPI_COMM_WORLD, options);
 }
 
 /// The message of the error that an import ends with, the same code on every rank.
 std::string failure(const std::filesystem::path& file, ExitCode code, const ImportOptions& options = {}) {
   try {
-    import_gmsh(file, MPI_COMM_WORLD, options);
+    import_mesh(file, MPI_COMM_WORLD, options);
   } catch (const Error& error) {
     EXPECT_EQ(error.code, code) << error.what();
     return error.what();
@@ -103,7 +103,7 @@ TEST(Import, ScalesTheFile) {
 
 // The coarse pump: published counts and volumes, closed zones, and the same arrays on any number of ranks and from both formats.
 TEST(Import, CoarsePumpIsTheSameOnAnyNumberOfRanks) {
-  const Mesh mesh = import_gmsh(pump("pump_coarse.msh"), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(pump("pump_coarse.msh"), MPI_COMM_WORLD);
   test::expect_sound(mesh);
   EXPECT_EQ(mesh.n_cells_global, 30454);
   EXPECT_EQ(mesh.zones, (std::vector<std::string>{"rotor", "stator"}));
@@ -129,9 +129,9 @@ TEST(Import, CoarsePumpIsTheSameOnAnyNumberOfRanks) {
   }
   for (const auto& faces : outward) EXPECT_LT(norm(sum(mesh.comm, faces)), 1e-15);
 
-  const auto spread = test::fingerprint(mesh), other = test::fingerprint(import_gmsh(pump("pump_coarse_v41.msh"), MPI_COMM_WORLD));
+  const auto spread = test::fingerprint(mesh), other = test::fingerprint(import_mesh(pump("pump_coarse_v41.msh"), MPI_COMM_WORLD));
   std::vector<double> alone(spread.size());
-  if (rank_of(MPI_COMM_WORLD) == 0) alone = test::fingerprint(import_gmsh(pump("pump_coarse.msh"), MPI_COMM_SELF));
+  if (rank_of(MPI_COMM_WORLD) == 0) alone = test::fingerprint(import_mesh(pump("pump_coarse.msh"), MPI_COMM_SELF));
   MPI_Bcast(alone.data(), static_cast<int>(alone.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
   for (std::size_t i = 0; i < spread.size(); ++i) {
     EXPECT_NEAR(spread[i], alone[i], 1e-13 * std::abs(alone[i]));
@@ -241,7 +241,7 @@ TEST(Import, RefusesImpossibleGroups) {
 TEST(Import, PassesOverLongComments) {
   const test::TemporaryFile file(test::mixed_units(2), Format::ascii22);
   replace_in(file.path(), "$PhysicalNames", "$Comments\n" + std::string(5000, 'c') + "\n$EndComments\n$PhysicalNames");
-  EXPECT_NEAR(test::volume(import_gmsh(file.path(), MPI_COMM_WORLD)), 4, 1e-13);
+  EXPECT_NEAR(test::volume(import_mesh(file.path(), MPI_COMM_WORLD)), 4, 1e-13);
 }
 
 // Cells that do not fit together: exit code 3 and the place on every rank.

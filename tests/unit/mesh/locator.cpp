@@ -48,16 +48,16 @@ void expect_own_centres(const Mesh& mesh) {
 // Every cell of every shape is found from its own centre, with any hint; also in the pump.
 TEST(Locator, FindsEachCellFromItsCentre) {
   const test::TemporaryFile mixed(test::mixed_units(5), test::Format::ascii22), warped(test::warped_cube(5, 0.2), test::Format::binary41);
-  expect_own_centres(import_gmsh(mixed.path(), MPI_COMM_WORLD));
-  expect_own_centres(import_gmsh(warped.path(), MPI_COMM_WORLD));
+  expect_own_centres(import_mesh(mixed.path(), MPI_COMM_WORLD));
+  expect_own_centres(import_mesh(warped.path(), MPI_COMM_WORLD));
   const char* root = std::getenv("SNAG_SOURCE_DIR");
-  expect_own_centres(import_gmsh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD));
+  expect_own_centres(import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD));
 }
 
 // A point inside belongs to exactly one cell of one rank, although the faces are warped; and the answer does not depend on the hint.
 TEST(Locator, PointsOfWarpedCellsHaveOneCell) {
   const test::TemporaryFile file(test::warped_cube(6, 0.25), test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   const CellLocator locator(mesh);
   std::vector<double> found(static_cast<std::size_t>(mesh.n_cells), 0);
   const int n_points = 20000;
@@ -97,7 +97,7 @@ TEST(Locator, SharedPointsBelongToTheLowestNumber) {
 // Points outside have no cell, beyond the box and in the hollow of a mesh that is not convex.
 TEST(Locator, PointsOutsideHaveNoCell) {
   const test::TemporaryFile file(test::mixed_units(3), test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   const CellLocator spread(mesh);
   for (const Vec3 point : {Vec3{0.5, 1, 1.9}, {1.9, 1, 0.5}, {0.5, 1.5, 2.001}, {-1e-12, 1, 0.5}, {std::nan(""), 1, 1}, {1e9, 0, 0}})
     EXPECT_EQ(spread.find(point, 0), -1);
@@ -123,7 +123,7 @@ TEST(Locator, FindsPointsInPeriodicBoxes) {
 // Cells within a radius and the nearest cell are those of a search through all cells; among equals the lowest number is nearest.
 TEST(Locator, NeighbourhoodsAgreeWithASearchThroughAllCells) {
   const test::TemporaryFile file(test::warped_cube(7, 0.2), test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   const CellLocator locator(mesh);
   for (const Vec3& point : random_points(200, {-0.2, -0.2, -0.2}, {1.2, 1.2, 1.2})) {
     std::vector<int> cells, expected;
@@ -147,7 +147,7 @@ TEST(Locator, NeighbourhoodsAgreeWithASearchThroughAllCells) {
 TEST(Locator, FollowsATurningZone) {
   const test::Shells shells{.origin = {0.1, 0, 0}, .axis = {1, 2, 3}};
   const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
-  Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   TurningMesh turning(mesh, shells.description(), 0.3);
   const CellLocator made_before(mesh);
   const Vec3 n = unit(shells.axis), e1 = unit(cross({1, 0, 0}, n)), e2 = cross(n, e1);
@@ -190,7 +190,7 @@ TEST(Locator, FollowsATurningZone) {
 // In the pump centres that turn with the rotor keep their cell.
 TEST(Locator, PointsTurnWithTheRotorOfThePump) {
   const char* root = std::getenv("SNAG_SOURCE_DIR");
-  Mesh mesh = import_gmsh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
+  Mesh mesh = import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
   TurningMesh turning(mesh, {});
   const CellLocator locator(mesh);
   const std::vector<Vec3> at_rest = mesh.cell_centre;

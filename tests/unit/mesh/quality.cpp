@@ -15,7 +15,7 @@ using namespace snag;
 
 Mesh imported(const test::Sample& sample) {
   const test::TemporaryFile file(sample, test::Format::ascii22);
-  return import_gmsh(file.path(), MPI_COMM_WORLD);
+  return import_mesh(file.path(), MPI_COMM_WORLD);
 }
 
 /// One tetrahedron with all its faces named.
@@ -104,7 +104,7 @@ TEST(Quality, ReportsInvertedAndFlatCells) {
 // The pump is usable: three regions (rotor, inlet pipe, casing), quality as its maker measured it; the table names zones and patches.
 TEST(Quality, OfTheCoarsePump) {
   const char* root = std::getenv("SNAG_SOURCE_DIR");
-  const Mesh mesh = import_gmsh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
   const MeshQuality q = quality(mesh);
   EXPECT_TRUE(q.failures.empty());
   EXPECT_EQ(q.n_regions, 3);

@@ -20,7 +20,7 @@ Mesh imported(const Shells& shells) {
   const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
   ImportOptions options;
   if (shells.is_periodic) options.periodic = {{"bottom", "top", {0, 0, shells.height}}};
-  return import_gmsh(file.path(), MPI_COMM_WORLD, options);
+  return import_mesh(file.path(), MPI_COMM_WORLD, options);
 }
 
 double exact_area(const Shells& s) {
@@ -155,7 +155,7 @@ TEST(Sliding, VolumesFillTheZones) {
 TEST(Sliding, FacetsAreTheSameOnAnyNumberOfRanks) {
   const Shells shells;
   const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD), whole = import_gmsh(file.path(), MPI_COMM_SELF);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD), whole = import_mesh(file.path(), MPI_COMM_SELF);
   const SlidingInterface interface(mesh, shells.description()), reference(whole, shells.description());
   const int rank = rank_of(MPI_COMM_WORLD);
   std::map<std::int64_t, int> mine;
@@ -211,7 +211,7 @@ TEST(Sliding, DrawsWhereZonesDoNotMeet) {
   for (int n = shells.rotor[0] * (shells.rotor[1] + 1) * (shells.rotor[2] + 1); n < static_cast<int>(sample.node.size()); ++n)
     sample.node[static_cast<std::size_t>(n)].z += 0.004;
   const test::TemporaryFile file(sample, test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   SlidingDescription description = shells.description();
   description.gap_picture = file.path().string() + ".gap.vtp";
   const SlidingInterface interface(mesh, description);
@@ -253,7 +253,7 @@ TEST(Sliding, TellsTheAnglesOfAFold) {
   const Vec3 a = sample.node[node(4, 2)], b = sample.node[node(5, 2)];
   sample.node[node(3, 2)] = shells.radius / norm(Vec3{a.x + b.x, a.y + b.y, 0}) * Vec3{a.x + b.x, a.y + b.y, 0} + Vec3{0, 0, a.z};
   const test::TemporaryFile file(sample, test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   const SlidingInterface interface(mesh, shells.description());
   for (const double angle : {0.0, 0.3}) {
     const std::string message = failure([&] { interface.facets(angle); });

@@ -25,7 +25,7 @@ Mesh imported(const Shells& shells, MPI_Comm comm = MPI_COMM_WORLD) {
   const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
   ImportOptions options;
   if (shells.is_periodic) options.periodic = {{"bottom", "top", {0, 0, shells.height}}};
-  return import_gmsh(file.path(), comm, options);
+  return import_mesh(file.path(), comm, options);
 }
 
 std::span<const int> row(const std::vector<int>& start, const std::vector<int>& entries, int i) {
@@ -258,7 +258,7 @@ TEST(TurningMesh, AnAngleHasOneMesh) {
 TEST(TurningMesh, FacetsAreThoseOfOneRank) {
   const Shells shells{.rotor = {24, 2, 4}, .stator = {31, 3, 5}, .tetrahedra = false};
   const test::TemporaryFile file(test::sample_of(shells), test::Format::ascii22);
-  Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD), whole = import_gmsh(file.path(), MPI_COMM_SELF);
+  Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD), whole = import_mesh(file.path(), MPI_COMM_SELF);
   TurningMesh turning(mesh, shells.description()), reference(whole, shells.description());
   const auto rotor_side = [](const Mesh& m, int f) { return std::pair(m.cell_id[m.owner[f]], m.cell_id[m.neighbour[f]]); };
   for (int step = 0; step < 40; ++step) {

@@ -19,7 +19,7 @@ constexpr double full_speed = 20, ramp = 0.4;  // rad/s, s
 /// Two rings, all of whose walls are one patch.
 Mesh shells(const test::Shells& shape) {
   const test::TemporaryFile file(test::sample_of(shape), test::Format::ascii22);
-  return import_gmsh(file.path(), MPI_COMM_WORLD, {});
+  return import_mesh(file.path(), MPI_COMM_WORLD, {});
 }
 
 struct Expected {

@@ -14,7 +14,7 @@ using namespace snag;
 
 Mesh pump() {
   const char* root = std::getenv("SNAG_SOURCE_DIR");
-  return import_gmsh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
+  return import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
 }
 
 /// Largest error of the Gauss gradient, 1/V sum_f phi(x_f) S, of the linear field phi = g.x + 3 with |g| = 1.
@@ -35,14 +35,14 @@ double gauss_error(const Mesh& mesh) {
 TEST(Geometry, GaussGradientOfALinearFieldIsExactOnPlaneFaces) {
   EXPECT_LT(gauss_error(pump()), 1e-10);
   const test::TemporaryFile file(test::mixed_units(6), test::Format::ascii22);
-  EXPECT_LT(gauss_error(import_gmsh(file.path(), MPI_COMM_WORLD)), 1e-14);
+  EXPECT_LT(gauss_error(import_mesh(file.path(), MPI_COMM_WORLD)), 1e-14);
 }
 
 // Cells with warped faces still close, tile the cube and have its first moment: volumes, centres and face vectors are those of one and the
 // same polyhedron.
 TEST(Geometry, WarpedCellsTileTheCube) {
   const test::TemporaryFile file(test::warped_cube(8, 0.3), test::Format::ascii22);
-  const Mesh mesh = import_gmsh(file.path(), MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(file.path(), MPI_COMM_WORLD);
   EXPECT_LT(test::closure(mesh), 1e-15);
   EXPECT_NEAR(test::volume(mesh), 1, 1e-14);
   std::vector<Vec3> moment;

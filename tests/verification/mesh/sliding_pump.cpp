@@ -14,7 +14,7 @@ using namespace snag;
 // the turning of the rotor changes no volume.
 TEST(SlidingPump, IsExactAtAnyAngle) {
   const char* root = std::getenv("SNAG_SOURCE_DIR");
-  Mesh mesh = import_gmsh(std::filesystem::path(root ? root : ".") / "cases/meshes/pump_coarse.msh", MPI_COMM_WORLD);
+  Mesh mesh = import_mesh(std::filesystem::path(root ? root : ".") / "cases/meshes/pump_coarse.msh", MPI_COMM_WORLD);
   const SlidingInterface interface(mesh, {});
   interface.curve(mesh);
   constexpr double exact = 2 * std::numbers::pi * 0.1045 * 0.08 + std::numbers::pi * 0.05 * 0.05;  // 0.0603814 m2

@@ -28,7 +28,7 @@ inline Mesh ring_mesh(const Shells& shells) {
   ImportOptions options;
   const Vec3 period = shells.height * unit(shells.axis);
   if (shells.is_periodic) options.periodic = {{"rotor_bottom", "rotor_top", period}, {"stator_bottom", "stator_top", period}};
-  return import_gmsh(file.path(), MPI_COMM_WORLD, options);
+  return import_mesh(file.path(), MPI_COMM_WORLD, options);
 }
 
 /// The zone "rotor", turning with `speed` in rad/s.

@@ -1,3 +1,5 @@
+// gmsh files: MSH 2.2 and 4.1, ASCII and binary, with linear cells and named physical groups.
+//
 // One rank reads the file and would leave the others waiting if PETSc failed on what it holds: so everything is checked here, and PETSc
 // gets cells that fit together. Sections of a gmsh file (https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format):
 //
@@ -12,8 +14,6 @@
 //                   the first tag is the physical one
 //   $Elements 4.1   blocks count min max, then blocks: dimension entity type n, n times (tag nodes...);
 //                   in binary sizes have 8 bytes, and block heads are ints
-#include "mesh/import/gmsh_file.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,8 +22,8 @@
 #include "base/error.hpp"
 #include "base/quotation.hpp"
 #include "base/words.hpp"
-#include "mesh/import/connectivity.hpp"
 #include "mesh/import/gmsh_reader.hpp"
+#include "mesh/import/mesh_reader.hpp"
 #include "mesh/import/node_numbers.hpp"
 #include "mesh/shapes.hpp"
 
@@ -294,12 +294,17 @@ void GmshFile::leave_out_unused_nodes() {
   parts_.n_owned = static_cast<int>(parts_.shape.size());
 }
 
+struct Gmsh final : MeshReader {
+  static constexpr const char* name = "gmsh";
+
+  MeshFormat format() const override { return {.title = "gmsh MSH 2.2 or 4.1", .endings = {".msh"}}; }
+  bool recognises(std::string_view beginning) const override {
+    const std::string_view word = beginning.substr(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size()));
+    return word.starts_with("$") && !word.starts_with("$NOD");  // that is gmsh 1.0
+  }
+  MeshParts read(const std::filesystem::path& file, double scale) const override { return GmshFile(file, scale).read(); }
+};
+const bool registered = mesh_readers().add<Gmsh>();
+
 }  // namespace
-
-MeshParts read_gmsh(const std::filesystem::path& file, double scale) {
-  MeshParts parts = GmshFile(file, scale).read();
-  require_fitting_cells(parts);
-  return parts;
-}
-
 }  // namespace snag
