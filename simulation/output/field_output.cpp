@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "base/words.hpp"
 #include "mesh/skewness.hpp"
 #include "mesh/wall_surface.hpp"
 #include "parallel/rows.hpp"
@@ -41,12 +40,10 @@ VtkPiece grid_of(const Mesh& mesh) {
 
 }  // namespace
 
-FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool single_precision, bool resume, double from_time)
-    : folder_(std::move(folder)),
-      mesh_(mesh),
-      single_precision_(single_precision),
-      piece_(grid_of(mesh)),
-      collection_(folder_ / "water.pvd", resume, from_time) {
+FieldOutput::FieldOutput(const FieldWriter& writer, SeriesPlace place, const Mesh& mesh, bool single_precision)
+    : mesh_(mesh), single_precision_(single_precision), piece_(grid_of(mesh)) {
+  place.name = "water", place.kind = VtkKind::unstructured_grid;
+  series_ = writer.series_of_pieces(place, mesh.comm);
   const std::vector<int> skew = skew_cells(mesh_), corner = corner_cells(mesh_);
   if (sum(mesh_.comm, static_cast<std::int64_t>(skew.size() + corner.size())) == 0) return;
   skew_ = {"skew [1]", 1, std::vector<double>(static_cast<std::size_t>(mesh_.n_cells)), true};
@@ -55,7 +52,7 @@ FieldOutput::FieldOutput(std::filesystem::path folder, const Mesh& mesh, bool si
 }
 
 void FieldOutput::write(const Flow& flow) {
-  const int n = mesh_.n_cells, rank = rank_of(mesh_.comm), size = size_of(mesh_.comm);
+  const int n = mesh_.n_cells, rank = rank_of(mesh_.comm);
   const auto owned = [&](const std::string& name, const auto& values) {
     return vtk_array(name, std::span(values).first(static_cast<std::size_t>(n)), single_precision_);
   };
@@ -77,37 +74,28 @@ void FieldOutput::write(const Flow& flow) {
   }
   if (skew_) piece_.cell_arrays.push_back(*skew_);
   piece_.field_arrays = {{"TimeValue", 1, {flow.time}, false}};
-  const std::string stem = numbered("water", flow.time_step);
-  std::vector<std::string> pieces;
-  for (int r = 0; r < size; ++r) pieces.push_back(stem + "_" + std::to_string(r) + ".vtu");
-  together(mesh_.comm, [&] {
-    write_vtk(folder_ / pieces[rank], VtkKind::unstructured_grid, piece_);
-    if (rank != 0) return;
-    write_parallel_vtk(folder_ / (stem + ".pvtu"), VtkKind::unstructured_grid, piece_, pieces);
-    collection_.add(flow.time, stem + ".pvtu");
-  });
+  series_->add(flow.time, flow.time_step, piece_);
 }
 
-WallOutput::WallOutput(std::filesystem::path folder, const Flow& flow, bool resume, double from_time) : folder_(std::move(folder)) {
-  if (flow.rotating_zone) collection_.emplace(folder_ / "walls.pvd", resume, from_time);
+WallOutput::WallOutput(std::shared_ptr<const FieldWriter> writer, SeriesPlace place, const Flow& flow)
+    : writer_(std::move(writer)), place_(std::move(place)) {
+  place_.name = "walls", place_.kind = VtkKind::polygons;
+  if (flow.rotating_zone) series_ = writer_->series(place_);
 }
 
 void WallOutput::initial(const Flow& flow) {
-  if (collection_) return write(flow);
+  if (series_) return write(flow);
   const VtkPiece walls = walls_of(flow);
   together(flow.mesh.comm, [&] {
-    if (rank_of(flow.mesh.comm) == 0) write_vtk(folder_ / "walls.vtp", VtkKind::polygons, walls);
+    if (rank_of(flow.mesh.comm) == 0) writer_->write(place_.folder, place_.name, place_.kind, walls);
   });
 }
 
 void WallOutput::write(const Flow& flow) {
-  if (!collection_) return;
+  if (!series_) return;
   const VtkPiece walls = walls_of(flow);
-  const std::string file = numbered("walls", flow.time_step) + ".vtp";
   together(flow.mesh.comm, [&] {
-    if (rank_of(flow.mesh.comm) != 0) return;
-    write_vtk(folder_ / file, VtkKind::polygons, walls);
-    collection_->add(flow.time, file);
+    if (rank_of(flow.mesh.comm) == 0) series_->add(flow.time, flow.time_step, walls);
   });
 }
 
@@ -136,7 +124,7 @@ VtkPiece WallOutput::walls_of(const Flow& flow) const {
     part.values.push_back(triangle.part);
   }
   piece.cell_arrays.push_back(std::move(part));
-  if (collection_) {
+  if (series_) {
     std::vector<double> turning;
     for (int f = mesh.n_interior; f < mesh.n_faces; ++f) turning.push_back(mesh.cell_zone[mesh.owner[f]] == flow.rotating_zone->zone());
     piece.cell_arrays.push_back(of_faces("turning [1]", turning));

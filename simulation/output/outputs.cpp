@@ -137,10 +137,11 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     if (simulation.rags) open(silhouettes_, "silhouettes.csv", silhouette_columns());
     if (simulation.coupled) open(coupling_, "coupling.csv", CoupledSolver::columns());
   });
+  const std::shared_ptr<const FieldWriter> writer = field_writers().make(simulation.output_settings.format, "[output] format");
+  const auto in = [&](const char* name) { return SeriesPlace{.folder = folder_ / name, .name = {}, .resume = resume, .from_time = from}; };
   if (simulation.water) {
-    fields_ =
-        std::make_unique<FieldOutput>(folder_ / "fields", *simulation.mesh, simulation.output_settings.single_precision, resume, from);
-    walls_ = std::make_unique<WallOutput>(folder_ / "walls", simulation.water->flow, resume, from);
+    fields_ = std::make_unique<FieldOutput>(*writer, in("fields"), *simulation.mesh, simulation.output_settings.single_precision);
+    walls_ = std::make_unique<WallOutput>(writer, in("walls"), simulation.water->flow);
   }
   if (simulation.pump) {
     const Flow& flow = simulation.water->flow;
@@ -150,7 +151,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     rag_monitors_ =
         std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
     elongation_at_start_.resize(simulation.rags->rags().size());
-    rag_output_ = std::make_unique<RagOutput>(folder_ / "rags", resume, from);
+    rag_output_ = std::make_unique<RagOutput>(*writer, in("rags"));
     forces_ = rag_forces(*simulation.rags, nullptr, 0);
   }
 }

@@ -1,6 +1,5 @@
 #include "simulation/output/rag_output.hpp"
 
-#include "base/words.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -23,10 +22,12 @@ std::vector<VtkArray> point_arrays(const RagSheet& sheet, const std::vector<Rag>
 
 }  // namespace
 
-RagOutput::RagOutput(std::filesystem::path folder, bool resume, double from_time)
-    : folder_(std::move(folder)),
-      sheets_(folder_ / "rags.pvd", resume, from_time),
-      particles_(folder_ / "particles.pvd", resume, from_time) {}
+RagOutput::RagOutput(const FieldWriter& writer, SeriesPlace place) {
+  place.name = "rags", place.kind = VtkKind::polygons;
+  sheets_ = writer.series(place);
+  place.name = "particles", place.kind = VtkKind::vertices;
+  particles_ = writer.series(place);
+}
 
 void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time) {
   const RagSheet sheet = gather_sheet(rags, {&forces.fluid, &forces.contact});
@@ -45,11 +46,8 @@ void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64
       dots.connectivity.push_back(static_cast<std::int64_t>(i));
       dots.offsets.push_back(static_cast<std::int64_t>(i) + 1);
     }
-    const std::string rags_file = numbered("rags", time_step) + ".vtp", particles_file = numbered("particles", time_step) + ".vtp";
-    write_vtk(folder_ / rags_file, VtkKind::polygons, piece);
-    write_vtk(folder_ / particles_file, VtkKind::vertices, dots);
-    sheets_.add(time, rags_file);
-    particles_.add(time, particles_file);
+    sheets_->add(time, time_step, piece);
+    particles_->add(time, time_step, dots);
 
     silhouettes_.clear();
     for (std::size_t rag = 0; rag < rags.rags().size(); ++rag) {

@@ -1,20 +1,20 @@
 #pragma once
-// Rags for ParaView: rags/rags.pvd over sheets (triangles with bond tension), rags/particles.pvd over all particles; and what a camera
-// would see.
-#include <filesystem>
+// Rags in the format of a FieldWriter: rags/rags, sheets (triangles with bond tension), and rags/particles, all particles; and what a
+// camera would see.
+#include <memory>
 #include <vector>
 
-#include "base/vtk_file.hpp"
 #include "dem/rag_measures.hpp"
 #include "observe/silhouette.hpp"
 #include "simulation/output/rag_forces.hpp"
+#include "simulation/writers/field_writer.hpp"
 
 namespace snag {
 
 class RagOutput {
  public:
-  /// Keeps the entries of a resumed run up to from_time. Rank 0 writes.
-  RagOutput(std::filesystem::path folder, bool resume, double from_time);
+  /// place: its folder and what is kept of a resumed run. Rank 0 writes.
+  RagOutput(const FieldWriter& writer, SeriesPlace place);
   /// Collective; throws Error(io).
   void write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time);
   /// Silhouettes of the rags as they were last written, seen against z (x to the right, y up); on rank 0.
@@ -24,8 +24,7 @@ class RagOutput {
   void restore(const std::vector<double>& state);
 
  private:
-  std::filesystem::path folder_;
-  VtkCollection sheets_, particles_;
+  std::unique_ptr<FieldSeries> sheets_, particles_;
   std::vector<Silhouette> silhouettes_;
 };
 

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "mesh/import/mesh_reader.hpp"
+#include "simulation/writers/field_writer.hpp"
 
 namespace snag {
 
@@ -58,11 +59,12 @@ std::int64_t TimeSettings::n_steps() const {
 
 Section OutputSettings::section() {
   return {"output",
-          "Files for ParaView; monitors are written every step.",
+          "Files with fields and rags; monitors are written every step.",
           {{"fields_interval", &fields_interval, "s", 0, 1e9, Basis::assumed,
             "Time between fields of the water; not given: 20 of them over the run."},
            {"rags_interval", &rags_interval, "s", 0, 1e9, Basis::assumed,
             "Time between pictures of the rags; not given: 100 of them over the run."},
+           setting("format", &format, field_format_meaning(), field_writers().names()),
            setting("report", &report, "Write report.html at the end."),
            setting("single_precision", &single_precision, "Fields as 32-bit numbers; false: 64-bit.")}};
 }

@@ -45,6 +45,7 @@ struct OutputSettings {
   std::optional<double> fields_interval, rags_interval;  // s
   bool report = true;
   bool single_precision = true;
+  std::string format = "vtk";  // of the files with fields and rags
   Section section();
 };
 
