@@ -1,15 +1,13 @@
 #include "base/case_file.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <map>
-#include <set>
-
 #include <toml++/toml.h>
+#include <algorithm>
 
 #include "base/atomic_file.hpp"
+#include "base/case_node.hpp"
+#include "base/case_override.hpp"
 #include "base/error.hpp"
+#include "base/key_names.hpp"
 #include "base/parameter_reading.hpp"
 #include "base/parameter_text.hpp"
 #include "base/quotation.hpp"
@@ -19,62 +17,23 @@
 
 namespace snag {
 
-// The tree of a case file: tables by name, other values as TOML holds them. Reading marks what was used and keeps what was made of it.
-struct CaseNode {
-  std::string name;  // "rag", "" for the root
-  std::string file;  // for messages
-  int line = 0;
-  bool present = false;
-  bool presence_asked = false;  // the program asks whether this table is given
-  std::map<std::string, std::vector<std::unique_ptr<CaseNode>>> tables;
-  struct Value {
-    std::shared_ptr<toml::node> node;
-    int line;  // of the file; TOML's own copies forget it
-  };
-  std::map<std::string, Value> values;
-  std::set<std::string> used;      // keys of `values` that were read
-  std::vector<std::string> known;  // keys that reading asked for
-  struct Resolved {
-    std::string key, value;  // as TOML; a file with its whole path
-    std::string identity;    // what the fingerprint takes for the value: of a file its content, wherever it lies; empty for a default
-    std::string fixed;       // the same, empty where a resumed run may have another value
-  };
-  std::vector<Resolved> resolved;        // in the order of reading
-  std::vector<std::string> table_order;  // of reading
-  std::set<std::string> repeated;        // tables that are written as [[name]]
-
-  void note_read(const std::string& table) {
-    if (std::find(table_order.begin(), table_order.end(), table) == table_order.end()) table_order.push_back(table);
-  }
-  std::string where() const { return file + (line > 0 ? ":" + std::to_string(line) : "") + (name.empty() ? "" : ": [" + name + "]"); }
-};
-
 namespace {
-
-constexpr int line_of_override = 0;
-
-std::string place_of(const std::string& file, int line) {
-  return line == line_of_override ? (file == "--set" ? file : file + ", --set") : file + ":" + std::to_string(line);
-}
 
 std::filesystem::path beside(const std::filesystem::path& case_file, const std::string& relative) {
   const std::filesystem::path given(relative);
   return given.is_absolute() ? given : case_file.parent_path() / given;
 }
 
-CaseNode::Resolved resolved_entry(const std::string& key, const Parameter& parameter, const std::string& at_default,
-                                  const std::string& case_file) {
-  const std::string text = toml_text(parameter.target);
+CaseNode::Resolved resolved_entry(const Parameter& parameter, const std::string& at_default, const std::string& case_file) {
+  const std::string key = resolved_key(parameter), first_key = first_resolved_key(parameter);
+  const std::string text = toml_text(parameter.target), first = first_value(parameter, text);
   const auto* file = std::get_if<std::string*>(&parameter.target);
-  if (!parameter.is_file || !file || (*file)->empty()) return {key, text, text == at_default ? "" : text, parameter.may_move ? "" : text};
+  if (!parameter.is_file || !file || (*file)->empty())
+    return {key, text, first_key, text == at_default ? "" : first, parameter.may_differ_on_resume ? "" : first};
   const auto path = std::filesystem::absolute(beside(case_file, **file)).lexically_normal();
   const auto content = file_text(path);
   const std::string identity = content ? snag::sha256(*content) : text;
-  return {key, toml_text(path.string()), identity, identity};
-}
-
-bool is_table_array(const toml::array& array) {
-  return !array.empty() && std::all_of(array.begin(), array.end(), [](const toml::node& n) { return n.is_table(); });
+  return {key, toml_text(path.string()), first_key, identity, identity};
 }
 
 void fill(CaseNode& node, const toml::table& table) {
@@ -85,7 +44,7 @@ void fill(CaseNode& node, const toml::table& table) {
     const toml::node& value = entry.second;
     const auto child = [&](const toml::table& sub) {
       auto made = std::make_unique<CaseNode>();
-      made->name = node.name.empty() ? key : node.name + "." + key;
+      made->name = made->first_name = node.name.empty() ? key : node.name + "." + key;
       made->file = node.file;
       fill(*made, sub);
       node.tables[key].push_back(std::move(made));
@@ -102,75 +61,6 @@ void fill(CaseNode& node, const toml::table& table) {
     }
   }
 }
-
-// Override "a.b.0.key=value": the value is TOML, or a bare word taken as text.
-void apply_override(toml::table& root, const std::string& text) {
-  const auto equals = text.find('=');
-  const auto fail = [&](const std::string& why) {
-    return Error(ExitCode::usage, "--set " + shortened(text) + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
-  };
-  if (equals == std::string::npos || equals == 0) throw fail(equals == 0 ? "names no key" : "has no \"=\"");
-  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
-  toml::table parsed;
-  try {
-    parsed = toml::parse("v = " + value);
-  } catch (const toml::parse_error&) {
-    std::string quoted;
-    for (const char c : value) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-    try {
-      parsed = toml::parse("v = \"" + quoted + "\"");
-    } catch (const toml::parse_error&) {
-      throw fail("has a value that is no TOML");
-    }
-  }
-  const std::vector<std::string> steps = split(path, '.');
-  toml::node* at = &root;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const std::string& step = steps[i];
-    const bool last = i + 1 == steps.size();
-    if (auto* array = at->as_array()) {
-      std::size_t index = 0;
-      const auto [end, code] = std::from_chars(step.data(), step.data() + step.size(), index);
-      if (code != std::errc() || end != step.data() + step.size() || index >= array->size())
-        throw fail("\"" + shortened(step) + "\" is no index of the " + std::to_string(array->size()) + " tables there");
-      at = array->get(index);
-      if (last) throw fail("names a table, not a key");
-      continue;
-    }
-    auto* table = at->as_table();
-    if (!table) throw fail("\"" + steps[i - 1] + "\" is a value, not a table");
-    if (last) {
-      const toml::node* before = table->get(step);
-      if (before && (before->is_table() || (before->is_array() && is_table_array(*before->as_array()))))
-        throw fail("names a section, not a key");
-      table->insert_or_assign(step, *parsed.get("v"));
-    } else {
-      if (!table->contains(step)) table->insert(step, toml::table{});
-      at = table->get(step);
-      // [[rag]] with a single element may be addressed without its index.
-      if (auto* array = at->as_array();
-          array && array->size() == 1 && (steps[i + 1].empty() || !std::isdigit(static_cast<unsigned char>(steps[i + 1][0]))))
-        at = array->get(0);
-    }
-  }
-}
-
-// Unit that a key of the file carries for this parameter: "" for the bare key, nothing if the key is another one.
-std::optional<std::string> unit_in_key(const std::string& key, const Parameter& parameter) {
-  if (key == parameter.key) return "";
-  if (parameter.unit.empty() || !key.starts_with(parameter.key + "_")) return {};
-  const std::string suffix = key.substr(parameter.key.size() + 1);
-  // "m_s" is m/s but "Pa_s" is Pa s: the dimension decides.
-  std::string product = suffix;
-  std::replace(product.begin(), product.end(), '_', ' ');
-  for (const std::string& unit : {unit_of_suffix(suffix), product}) {
-    const auto parsed = parse_unit(unit);
-    if (parsed && parsed->exponents == parse_unit(parameter.unit)->exponents) return unit;
-  }
-  return {};
-}
-
-std::string known_spelling(const Parameter& parameter) { return parameter.unit.empty() ? parameter.key : key_with_unit(parameter); }
 
 void reject_unread_in(const CaseNode& node) {
   for (const auto& [key, value] : node.values) {
@@ -207,12 +97,14 @@ void reject_unread_in(const CaseNode& node) {
 }
 
 void write_resolved(const CaseNode& node, bool repeated, std::string CaseNode::Resolved::*shown, std::string& out) {
+  const bool of_today = shown == &CaseNode::Resolved::value;  // a hash takes the first names
+  const std::string& name = of_today ? node.name : node.first_name;
   const bool any =
       std::any_of(node.resolved.begin(), node.resolved.end(), [&](const CaseNode::Resolved& entry) { return !(entry.*shown).empty(); });
   if (!node.name.empty() && (any || repeated || (node.present && node.presence_asked)))
-    out += (repeated ? "\n[[" + node.name + "]]\n" : "\n[" + node.name + "]\n");
+    out += (repeated ? "\n[[" + name + "]]\n" : "\n[" + name + "]\n");
   for (const CaseNode::Resolved& entry : node.resolved)
-    if (!(entry.*shown).empty()) out += entry.key + " = " + entry.*shown + "\n";
+    if (!(entry.*shown).empty()) out += (of_today ? entry.key : entry.first_key) + " = " + entry.*shown + "\n";
   for (const std::string& key : node.table_order) {
     const auto found = node.tables.find(key);
     if (found == node.tables.end()) continue;
@@ -248,11 +140,24 @@ Table Table::table(const std::string& name) const {
   if (list.size() > 1) throw Error(ExitCode::usage, list[1]->where() + " stands more than once; write one [" + list[1]->name + "]");
   if (list.empty()) {
     list.push_back(std::make_unique<CaseNode>());
+    const auto former = node_->former_tables.find(name);
+    const std::string& first = former == node_->former_tables.end() ? name : former->second;
     list.front()->name = node_->name.empty() ? name : node_->name + "." + name;
+    list.front()->first_name = node_->first_name.empty() ? first : node_->first_name + "." + first;
     list.front()->file = node_->file;
   }
   node_->note_read(name);
   return {root_, list.front().get()};
+}
+
+bool Table::has(const Section& section) const {
+  adopt_former_table(*root_, *node_, section);
+  return has(section.name);
+}
+
+Table Table::table(const Section& section) const {
+  adopt_former_table(*root_, *node_, section);
+  return table(section.name);
 }
 
 std::vector<Table> Table::tables(const std::string& name) const {
@@ -268,32 +173,41 @@ std::vector<Table> Table::tables(const std::string& name) const {
 void Table::read(const std::vector<Parameter>& parameters) const {
   for (const Parameter& parameter : parameters) {
     // A table may be read more than once (a condition for several patches): what was made of it counts once.
-    const bool again = std::find(node_->known.begin(), node_->known.end(), known_spelling(parameter)) != node_->known.end();
-    if (!again) node_->known.push_back(known_spelling(parameter));
-    // An override replaces the value of the file, whatever the unit in the key of either.
+    const bool again = std::find(node_->known.begin(), node_->known.end(), resolved_key(parameter)) != node_->known.end();
+    if (!again) {
+      node_->known.push_back(resolved_key(parameter));
+      if (!parameter.former.key.empty() || !parameter.former.values.empty())
+        node_->renamed_keys.push_back({parameter.key, parameter.unit, parameter.former});
+    }
+    // An override replaces the value of the file, whatever the unit in the key of either, by the present name or by the former one.
     const bool overridden = std::any_of(node_->values.begin(), node_->values.end(), [&](const auto& entry) {
-      return entry.second.line == line_of_override && unit_in_key(entry.first, parameter);
+      return entry.second.line == line_of_override && match(entry.first, parameter);
     });
     const std::string at_default = parameter.required ? "" : toml_text(parameter.target);
     std::string found_key;
     for (const auto& [key, value] : node_->values) {
-      const auto unit = unit_in_key(key, parameter);
-      if (!unit) continue;
+      const auto found = match(key, parameter);
+      if (!found) continue;
       if (overridden && value.line != line_of_override) {
         node_->used.insert(key);
         continue;
       }
-      const std::string where = place_of(node_->file, value.line) + ": [" + node_->name + "] " + key;
-      if (!found_key.empty())
-        throw Error(ExitCode::usage, where + " is given twice, as " + found_key + " and " + key + "; keep one of them");
+      const std::string where = place_of(node_->file, value.line) + ": [" + node_->name + "] ";
+      if (!found_key.empty()) {
+        const std::string former = found->is_former ? key : found_key;
+        const bool renamed = former.starts_with(parameter.former.key) && !parameter.former.key.empty();
+        throw Error(ExitCode::usage, where + key + " is given twice, as " + found_key + " and " + key + "; keep one of them" +
+                                         (renamed ? " (" + former + " is the old name)" : ""));
+      }
       found_key = key;
       node_->used.insert(key);
-      read_parameter(parameter, *unit, *value.node, where);
+      const auto present = present_value(*root_, parameter, *found, key, *value.node, where);
+      read_parameter(parameter, found->unit, present ? *present : *value.node, where + key);
     }
     if (found_key.empty() && parameter.required)
-      throw Error(ExitCode::usage, node_->where() + ": missing key \"" + known_spelling(parameter) + "\": " + parameter.meaning);
+      throw Error(ExitCode::usage, node_->where() + ": missing key \"" + resolved_key(parameter) + "\": " + parameter.meaning);
     if (again) continue;
-    auto entry = resolved_entry(known_spelling(parameter), parameter, at_default, node_->file);
+    auto entry = resolved_entry(parameter, at_default, node_->file);
     if (!entry.value.empty()) node_->resolved.push_back(std::move(entry));
   }
 }
@@ -304,7 +218,7 @@ std::vector<std::pair<std::string, double>> Table::numbers() const {
     const auto number = value.node->value<double>();
     if (!number) throw Error(ExitCode::usage, node_->where() + " " + key + " must be a number");
     node_->used.insert(key);
-    node_->resolved.push_back({toml_text(key), toml_text(*number), toml_text(*number), toml_text(*number)});
+    node_->resolved.push_back({toml_text(key), toml_text(*number), toml_text(key), toml_text(*number), toml_text(*number)});
     all.emplace_back(key, *number);
   }
   return all;
@@ -363,6 +277,14 @@ std::string CaseFile::resume_sha256() const {
   write_resolved(*root_, false, &CaseNode::Resolved::fixed, text);
   return snag::sha256(text);
 }
+
+std::string CaseFile::with_present_names(const std::string& override_text) const {
+  return translated(*root_, override_text, Names::present);
+}
+
+std::string CaseFile::with_first_names(const std::string& override_text) const { return translated(*root_, override_text, Names::first); }
+
+const std::vector<std::string>& CaseFile::former_names() const { return root_->notes; }
 
 std::filesystem::path CaseFile::path(const std::string& relative) const { return beside(file_, relative); }
 

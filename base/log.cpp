@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/terminal.hpp"
@@ -76,6 +77,11 @@ void info(const std::string& message) {
 void warning(const std::string& message) {
   write(terminal, spdlog::level::warn, "warning: " + message);
   write(log_file, spdlog::level::warn, message);
+}
+
+void warning_once(const std::string& message) {
+  static std::set<std::string> written;
+  if (logger().should_log(spdlog::level::warn) && written.insert(message).second) warning(message);
 }
 
 // Errors go to stderr, so that they are seen where stdout is redirected; to the file as well.

@@ -11,6 +11,8 @@ void start(int rank, bool quiet = false);
 void open(const std::filesystem::path& file, bool append);
 void info(const std::string& message);
 void warning(const std::string& message);
+/// A warning that is written once, however often it comes; not at all while a Silence lives.
+void warning_once(const std::string& message);
 void error(const std::string& message);
 void flush();
 

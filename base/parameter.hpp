@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,11 +15,19 @@ namespace snag {
 enum class Basis { measured, literature, calibrated, assumed };
 const char* name(Basis basis);
 
-/// What a parameter is read into; the value found there at declaration is the default (an empty optional: "chosen by Snag").
+/// What a parameter is read into; the value found there at declaration is the default (an empty optional: the program chooses).
 using ParameterTarget = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, Mat3*, std::vector<double>*,
                                      std::vector<Vec3>*, std::vector<std::string>*>;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What a key was called in an earlier version. The former name is still read, with a warning; the resolved case has the present one. The
+/// hash of a case takes the former one, so that a new name changes no hash.
+struct FormerName {
+  std::string key = {};                                          // without unit; empty: only values were renamed
+  std::string unit = {};                                         // SI unit at that time, where it was another; empty: the same
+  std::vector<std::pair<std::string, std::string>> values = {};  // former and present value, as TOML: {"\"given\"", "\"custom\""}
+};
 
 /// One key of the case file. Numbers are held in SI; `key` is written in a case file either with a unit in the value
 /// (density = "998 kg/m3") or with the unit in the key (density_kg_m3 = 998); a dimensionless number takes the bare key.
@@ -32,8 +41,9 @@ struct Parameter {
   std::string meaning = {};
   std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any
   bool required = false;
-  bool is_file = false;   // a text that is a path, relative to the folder of the case file
-  bool may_move = false;  // how far a run goes, not what it computes: a resumed run may have another value
+  bool is_file = false;               // a text that is a path, relative to the folder of the case file
+  bool may_differ_on_resume = false;  // it says how far a run goes, not what the run computes
+  FormerName former = {};
 };
 
 /// The same for a text, a list of texts or a switch.
@@ -48,15 +58,22 @@ inline Parameter file_setting(std::string key, std::string* target, std::string 
   return parameter;
 }
 
+/// The same parameter with what it was called before.
+inline Parameter renamed(Parameter parameter, FormerName former) {
+  parameter.former = std::move(former);
+  return parameter;
+}
+
 /// A table of the case file: [name], or [[name]] where it repeats.
 struct Section {
   std::string name;
   std::string meaning;
   std::vector<Parameter> parameters;
   bool repeated = false;
+  std::string former_name = {};  // in an earlier version; not of a table that repeats
 };
 
-/// The key as it is written to case.resolved.toml, unit included: density_kg_m3, speed_rad_s, drag_factor.
+/// The key as it is written to case.resolved.toml, unit included: density_kg_m3, rotation_speed_rad_s, drag_factor.
 std::string key_with_unit(const Parameter& parameter);
 
 }  // namespace snag

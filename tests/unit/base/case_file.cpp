@@ -208,3 +208,155 @@ TEST(CaseFile, ResolvedNamesFilesFromAnyFolder) {
   EXPECT_NE(read(folder / "case.toml"), first);
   fs::remove_all(folder);
 }
+
+namespace {
+
+struct Renamed {
+  int n_correctors = 1;
+  double rotation_speed = 0, factor = 1;
+  std::string model = "mass", bonds = "published";
+  Section section() {
+    return {"rag_passage",
+            "A table that had another name.",
+            {renamed({"n_correctors", &n_correctors, "1", 1, 50, Basis::assumed, "Count."}, {.key = "correctors"}),
+             renamed({"rotation_speed", &rotation_speed, "rad/s", -infinity, infinity, Basis::assumed, "Speed."},
+                     {.key = "speed", .unit = "1/s"}),
+             renamed(setting("model", &model, "Model.", {"mass", "jensen_2018"}),
+                     {.key = "as_published", .values = {{"false", "\"mass\""}, {"true", "\"jensen_2018\""}}}),
+             renamed(setting("bonds", &bonds, "Bonds.", {"published", "custom"}), {.values = {{"\"given\"", "\"custom\""}}}),
+             {"factor", &factor, "1", 0, 10, Basis::assumed, "Factor."}},
+            false,
+            "passage"};
+  }
+};
+
+/// As an earlier version read it: the hash of today is held against this one.
+struct Earlier {
+  int correctors = 1;
+  double speed = 0, factor = 1;
+  bool as_published = false;
+  std::string bonds = "published";
+  std::vector<Parameter> parameters() {
+    return {{"correctors", &correctors, "1", 1, 50, Basis::assumed, "Count."},
+            {"speed", &speed, "1/s", -infinity, infinity, Basis::assumed, "Speed."},
+            setting("as_published", &as_published, "Model."),
+            setting("bonds", &bonds, "Bonds.", {"published", "given"}),
+            {"factor", &factor, "1", 0, 10, Basis::assumed, "Factor."}};
+  }
+};
+
+CaseFile read_renamed(Renamed& s, const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const auto file = CaseFile::parse(text, "case.toml", overrides);
+  if (const Section section = s.section(); file.root().has(section)) file.root().table(section).read(section.parameters);
+  file.reject_unread();
+  return file;
+}
+
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    Renamed settings;
+    read_renamed(settings, text, overrides);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    return error.what();
+  }
+  return "";
+}
+
+const std::string with_former_names = "[passage]\ncorrectors = 2\nspeed_rpm = 60\nas_published = true\nbonds = \"given\"\n";
+const std::string with_present_names =
+    "[rag_passage]\nn_correctors = 2\nrotation_speed_rpm = 60\nmodel = \"jensen_2018\"\nbonds = \"custom\"\n";
+
+}  // namespace
+
+// Former names of tables, keys and values are read with one warning each, which names file, line, old and new name; the resolved case has
+// the present names.
+TEST(CaseFile, ReadsFormerNames) {
+  Renamed s;
+  const auto file = read_renamed(s, with_former_names);
+  EXPECT_EQ(s.n_correctors, 2);
+  EXPECT_NEAR(s.rotation_speed, 6.283185307, 1e-9);
+  EXPECT_EQ(s.model, "jensen_2018");
+  EXPECT_EQ(s.bonds, "custom");
+  const std::string end = "; the old name is read until 1.0";
+  EXPECT_EQ(file.former_names(),
+            (std::vector<std::string>{"case.toml:1: [passage] is now called [rag_passage]" + end,
+                                      "case.toml:2: [rag_passage] correctors is now called n_correctors" + end,
+                                      "case.toml:3: [rag_passage] speed_rpm is now called rotation_speed_rpm" + end,
+                                      "case.toml:4: [rag_passage] as_published = true is now called model = \"jensen_2018\"" + end,
+                                      "case.toml:5: [rag_passage] bonds = \"given\" is now called bonds = \"custom\"" + end}));
+  const std::string resolved = file.resolved();
+  for (const char* part :
+       {"[rag_passage]", "n_correctors = 2", "rotation_speed_rad_s = 6.28", "model = \"jensen_2018\"", "bonds = \"custom\""})
+    EXPECT_TRUE(contains(resolved, part)) << resolved;
+  for (const char* part : {"[passage]", "\ncorrectors", "\nspeed", "as_published", "given"})
+    EXPECT_FALSE(contains(resolved, part)) << resolved;
+  Renamed again;
+  const auto reread = read_renamed(again, resolved);
+  EXPECT_EQ(reread.resolved(), resolved);
+  EXPECT_TRUE(reread.former_names().empty());
+}
+
+// A new name changes neither the hash of a case nor that of a resumed run: with the former names, with the present ones, and as an earlier
+// version computed it.
+TEST(CaseFile, NewNamesLeaveTheHashAsItIs) {
+  for (const auto& [former, present] :
+       {std::pair{with_former_names, with_present_names}, {std::string("[passage]\n"), std::string("[rag_passage]\n")}}) {
+    const auto earlier = CaseFile::parse(former);
+    Earlier e;
+    ASSERT_TRUE(earlier.root().has("passage"));
+    earlier.root().table("passage").read(e.parameters());
+    Renamed s, t;
+    const auto old_names = read_renamed(s, former), new_names = read_renamed(t, present);
+    EXPECT_EQ(old_names.sha256(), earlier.sha256());
+    EXPECT_EQ(new_names.sha256(), earlier.sha256());
+    EXPECT_EQ(old_names.resume_sha256(), earlier.resume_sha256());
+    EXPECT_EQ(new_names.resume_sha256(), earlier.resume_sha256());
+    Renamed u;
+    EXPECT_NE(read_renamed(u, present + "factor = 2\n").sha256(), earlier.sha256());
+  }
+}
+
+// The former and the present name of one thing contradict each other.
+TEST(CaseFile, RefusesFormerAndPresentName) {
+  EXPECT_TRUE(contains(refusal("[rag_passage]\ncorrectors = 2\nn_correctors = 2\n"), "given twice, as correctors and n_correctors"));
+  EXPECT_TRUE(contains(refusal("[rag_passage]\nas_published = true\nmodel = \"mass\"\n"), "given twice"));
+  EXPECT_TRUE(contains(refusal("[rag_passage]\nfactor = 2\n[passage]\nfactor = 2\n"),
+                       "case.toml:3: [passage] is the former name of [rag_passage]"));
+  EXPECT_TRUE(contains(refusal("[rag_passage]\n", {"rag_passage.correctors=2", "rag_passage.n_correctors=3"}), "given twice"));
+  EXPECT_TRUE(contains(refusal("[rag_passage]\nas_published = 3\n"), "must be one of false, true; it is now called model"));
+  EXPECT_TRUE(contains(refusal("[rag_passage]\nmodel = true\n"), "must be a text in quotes"));
+}
+
+// An override replaces the value of the file, whichever name either has.
+TEST(CaseFile, OverridesOfFormerNames) {
+  Renamed s, t, u;
+  read_renamed(s, with_present_names, {"passage.correctors=3", "rag_passage.as_published=false"});
+  EXPECT_EQ(s.n_correctors, 3);
+  EXPECT_EQ(s.model, "mass");
+  EXPECT_EQ(s.bonds, "custom");
+  const auto file = read_renamed(t, with_former_names, {"rag_passage.n_correctors=3", "passage.bonds=given"});
+  EXPECT_EQ(t.n_correctors, 3);
+  EXPECT_EQ(t.bonds, "custom");
+  EXPECT_NEAR(t.rotation_speed, 6.283185307, 1e-9);
+  EXPECT_TRUE(contains(read_renamed(u, "", {"passage.correctors=3"}).former_names().at(1), "case.toml, --set: [rag_passage] correctors"));
+  EXPECT_EQ(u.n_correctors, 3);
+}
+
+// Overrides of tables of runs have the first names, those of a run the present ones.
+TEST(CaseFile, TranslatesOverrides) {
+  Renamed s;
+  const auto file = read_renamed(s, with_present_names);
+  for (const auto& [first, present] : {std::pair<std::string, std::string>{"passage.correctors=3", "rag_passage.n_correctors=3"},
+                                       {"passage.speed_per_s=3", "rag_passage.rotation_speed_rad_s=3"},
+                                       {"passage.speed_rpm=60", "rag_passage.rotation_speed_rpm=60"},
+                                       {"passage.as_published=true", "rag_passage.model=\"jensen_2018\""},
+                                       {"passage.factor=2", "rag_passage.factor=2"},
+                                       {"passage.speed_per_s", "rag_passage.rotation_speed_rad_s"},
+                                       {"rag.0.seed=2", "rag.0.seed=2"}}) {
+    EXPECT_EQ(file.with_first_names(present), first);
+    EXPECT_EQ(file.with_present_names(first), present);
+    EXPECT_EQ(file.with_first_names(first), first);
+    EXPECT_EQ(file.with_present_names(present), present);
+  }
+}
