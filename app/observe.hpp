@@ -22,9 +22,9 @@ struct ObserveOptions {
 
 /// Of each subject, in DIR if it is the only one, else in DIR[/GROUP]/NAME: observations.csv (a row a blob), statistics.json (means and
 /// deviations of the blobs that lie wholly in their picture), coverage.png, extent.png, outlines/*.png, for a run pictures/*.png;
-/// volute.csv (of a run with [passage]) and volute_seen.csv (of pictures by a camera with [volute]). The same of each group; of all
-/// together also volute.html, and of groups groups.csv and anova.csv. A subject that is a CSV file is a table of repeats: groups.csv and
-/// anova.csv only. On one rank. Throws Error(usage, io).
+/// volute.csv (of a run with [rag_passage]) and volute_seen.csv (of pictures by a camera with [pump_in_picture]). The same of each group;
+/// of all together also volute.html, and of groups groups.csv and anova.csv. A subject that is a CSV file is a table of repeats: groups.csv
+/// and anova.csv only. On one rank. Throws Error(usage, io).
 void observe(const ObserveOptions& options);
 
 }  // namespace snag

@@ -21,9 +21,9 @@ constexpr const char* examples =
     "  Writes observations.csv, statistics.json, coverage.png (where cloth lies in the picture) and extent.png (how far it reaches about\n"
     "  its centroid: contours at 10, 30, 50, 70, 90 % of the rags).\n"
     "Where rags stay in the volute:\n"
-    "  snag observe results/rag_*                            runs with [passage] tell it themselves: no camera needed\n"
+    "  snag observe results/rag_*                            runs with [rag_passage] tell it themselves: no camera needed\n"
     "  Writes volute.html, and volute.csv: share of time, distance from the shaft and events in bins of 20 degrees from the tongue. A\n"
-    "  camera with [volute] sees the same in pictures: volute_seen.csv.\n"
+    "  camera with [pump_in_picture] sees the same in pictures: volute_seen.csv.\n"
     "Whether operating points differ:\n"
     "  snag observe --camera CAMERA.toml --group 55 part_load/* --group 90 near_best/*\n"
     "  snag observe repeats.csv                              a table with the columns group,rag,area [m2], ...\n"
@@ -68,7 +68,7 @@ Action add_observe(CLI::App& app) {
       command->add_option("--group", options->groups, "NAME SUBJECT ...: repeats at one operating point; give it for each of them");
   groups->excludes(subjects);
   groups->inject_separator();  // an empty word between two of them
-  command->add_option("--camera", options->observe.camera_file, "Camera file (.toml) with [camera], [cloth] and perhaps [volute]");
+  command->add_option("--camera", options->observe.camera_file, "Camera file (.toml) with [camera], [cloth] and perhaps [pump_in_picture]");
   command->add_option("--out", options->observe.out, "Output folder (default results/observe-NAME)");
   command->add_option("--seed", options->observe.seed, "Of the virtual camera's noise (default 1)");
   return [options, groups] {

@@ -30,7 +30,7 @@ const ObservableRecord& record_of(const std::string& name) {
                 "observable \"" + name + "\": a case without a mesh has no such number; there are: " + joined(observable_ids()));
   if (record->needs == Needs::pump)
     throw Error(ExitCode::usage, "observable \"" + name +
-                                     "\": is defined by [passage], the flanges and the tongue of a pump, which a run "
+                                     "\": is defined by [rag_passage], the flanges and the tongue of a pump, which a run "
                                      "in memory has not; leave it out");
   return *record;
 }
@@ -92,7 +92,7 @@ std::vector<Question> slots_of(const std::vector<Asked>& asked, bool has_window)
       throw Error(ExitCode::usage,
                   "observable \"" + asked[i].observable + "\" is asked " +
                       (timed ? "at a time, but is a number of the whole run; leave t_s empty"
-                             : "without a time, but changes in time; give t_s, or a window of the camera in [observe] of the case"));
+                             : "without a time, but changes in time; give t_s, or a window of the camera in [virtual_camera] of the case"));
     slots.push_back({timed ? asked[i].time : infinity, &w, i});
   }
   std::stable_sort(slots.begin(), slots.end(), [](const Question& a, const Question& b) { return a.time < b.time; });

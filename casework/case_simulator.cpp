@@ -12,6 +12,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/quotation.hpp"
 #include "base/sha256.hpp"
 #include "base/version.hpp"
@@ -68,6 +69,19 @@ void check_observable(const PointCase& base, const std::filesystem::path& file, 
     throw Error(ExitCode::usage, file.string() + ": observable \"" + id + "\": " + reason + "; add it, or leave the observable out");
 }
 
+/// Throws Error(usage) for an uncertain input that the case does not have, or that is given by its former and by its present name.
+void check_inputs(const PointCase& base, const OperatingPoint& point) {
+  std::map<std::string, std::string> given;  // by present name
+  for (const auto& [key, u] : point.input_u) {
+    const std::string name = base.input_name(key, point.where);
+    base.check_nuisance(name);
+    const auto [before, is_first] = given.emplace(name, key);
+    if (!is_first)
+      throw Error(ExitCode::usage,
+                  point.where + " input_u has " + before->second + " and " + key + ", which are one input; keep one of them");
+  }
+}
+
 /// Of the executable file: runs of another program are not these, committed or not.
 std::string program_fingerprint(MPI_Comm comm) {
   static std::string known;
@@ -121,7 +135,8 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
     if (base.is_whole_run() && folder_.empty())
       throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
-    for (const auto& [key, u] : experiment.points[p].input_u) base.check_nuisance(key);
+    for (const std::string& note : base.former_names()) log::warning_once(note);
+    check_inputs(base, experiment.points[p]);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
     std::vector<Asked> asked;
     const std::string of_case = base.sha256() + program_;
@@ -152,7 +167,10 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
 void CaseSimulator::find_nuisances(const Experiment& experiment) {
   std::vector<const PointCase*> bases;
   std::vector<std::vector<std::pair<std::string, double>>> input_u;
-  for (std::size_t p = 0; p < points_.size(); ++p) bases.push_back(&points_[p].base), input_u.push_back(experiment.points[p].input_u);
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    bases.push_back(&points_[p].base), input_u.push_back(experiment.points[p].input_u);
+    for (auto& [key, u] : input_u.back()) key = points_[p].base.input_name(key, experiment.points[p].where);
+  }
   nuisances_ = input_nuisances(bases, input_u);
   std::vector<int> all(points_.size());
   for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
@@ -169,7 +187,10 @@ CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
   CaseChange change = point.base.change(request.effects, of_case, request.seed, request.forms);
   std::sort(change.overrides.begin(), change.overrides.end());
   std::string settings = text_of({{"step", request.step_factor}});
-  for (const std::string& value : change.overrides) settings += value + ";";
+  std::vector<std::string> names;
+  for (const std::string& value : change.overrides) names.push_back(point.base.for_run_table(value));
+  std::sort(names.begin(), names.end());
+  for (const std::string& value : names) settings += value + ";";
   if (request.restart) settings += text_of(*request.restart);
   return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change)};
 }

@@ -1,8 +1,8 @@
 #pragma once
 // The passage of a run in memory: what the tracker of passages is shown of it.
 //
-//   exit plane   [observe] exit_point, exit_normal: the centre of mass of all pieces is seen as one point, which is wholly in from the
-//   start
+//   exit plane   [virtual_camera] exit_point, exit_normal: the centre of mass of all pieces is seen as one point, which is wholly in from
+//   the start
 //                and out beyond the plane. The time of the exit is linear in its distance from the plane within the step, so that
 //                derivatives by differences of runs are smooth
 //   without it   the openings of the mesh, if there are any, see the particles of the first piece, as in a run in a folder

@@ -17,7 +17,7 @@ std::vector<Nuisance> input_nuisances(const std::vector<const PointCase*>& bases
       std::string same = key + "|" + words(u) + "|" + bases[p]->value_of(key);
       const bool set_point =
           key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos;
-      if (set_point || key == "drag_form_of_point") same += "|" + std::to_string(p);
+      if (set_point || key == drag_law_uncertainty_per_point) same += "|" + std::to_string(p);
       shared[same].push_back(static_cast<int>(p));
       record[same] = {key, u};
     }
@@ -26,7 +26,7 @@ std::vector<Nuisance> input_nuisances(const std::vector<const PointCase*>& bases
     const auto& [key, u] = record[same];
     // The same thing again is not quite the same: a fluid has the temperature of its day, one particle of a kind is not the other. Half of
     // the variance is each point's own, which costs no runs: both deviations move the same number by the same step.
-    if (points.size() > 1 && !key.starts_with("drag_form")) {
+    if (points.size() > 1 && !key.starts_with(drag_law_uncertainty)) {
       const double half = u / std::numbers::sqrt2;
       nuisances.push_back({key, half, points});
       for (const int p : points) nuisances.push_back({key, half, {p}});
@@ -34,7 +34,7 @@ std::vector<Nuisance> input_nuisances(const std::vector<const PointCase*>& bases
     }
     nuisances.push_back({key, u, points});
     // A law that is off by u is off by another u where Re is e times ten: its error is smooth over a decade.
-    if (key == "drag_form") nuisances.push_back({"drag_form.slope", u / std::numbers::ln10, points});
+    if (key == drag_law_uncertainty) nuisances.push_back({key + ".slope", u / std::numbers::ln10, points});
   }
   return nuisances;
 }

@@ -23,7 +23,9 @@ struct PointCase::Tree {
 namespace {
 
 constexpr const char* flow_field = "flow.amplitude";
-constexpr const char *drag_form = "drag_form", *drag_form_of_point = "drag_form_of_point", *drag_slope = "drag_form.slope";
+constexpr const char* drag_slope = "drag_law_uncertainty.slope";
+const std::map<std::string, std::string> former_inputs{{"drag_form", drag_law_uncertainty},
+                                                       {"drag_form_of_point", drag_law_uncertainty_per_point}};
 
 bool is_zero(const toml::node* node) {
   if (!node) return true;
@@ -92,11 +94,13 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
     : file_(file), tree_(std::make_unique<Tree>()) {
   const CaseFile read = CaseFile::read(file, overrides);
   StartSettings start;
-  read.root().table("start").read(start.section().parameters);
-  const log::Silence silence;
+  const Section start_section = start.section();
+  read.root().table(start_section).read(start_section.parameters);
   const bool whole_run = read.root().has("mesh") && !start.frozen;
+  const log::Silence silence;
   const Simulation run(read, whole_run ? MPI_COMM_WORLD : MPI_COMM_SELF, {}, store);
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
+  case_file_ = read;
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
   facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
@@ -111,22 +115,40 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   right_ = view.right, up_ = view.up;
 }
 
+std::string PointCase::input_name(const std::string& key, const std::string& where) const {
+  const auto former = former_inputs.find(key);
+  const std::string present = former != former_inputs.end() ? former->second : case_file_.with_present_names(key);
+  if (present != key) log::warning_once(former_name_note(where + " input_u ", key, present));
+  return present;
+}
+
+void PointCase::set_alternative(const std::string& effect, const std::vector<std::string>& overrides) {
+  std::vector<std::string>& values = alternatives_[effect];
+  values.clear();
+  for (const std::string& text : overrides) {
+    values.push_back(case_file_.with_present_names(text));
+    if (values.back() != text) log::warning_once(former_name_note("[[alternative]] " + effect + ": ", text, values.back()));
+  }
+}
+
 void PointCase::check_nuisance(const std::string& key) const {
-  if (key == drag_form || key == drag_form_of_point || (key == flow_field && (facts_.prescribed || facts_.flows))) return;
+  if (key == drag_law_uncertainty || key == drag_law_uncertainty_per_point || (key == flow_field && (facts_.prescribed || facts_.flows)))
+    return;
   if (!places_of(tree_->root, key).empty()) return;
-  throw Error(ExitCode::usage, file_.string() + ": input_u names \"" + key +
-                                   "\", which is no number of this case; give a key of the case with its unit such as "
-                                   "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
-                                   "whole flow field (of computed water: its set-points), \"drag_form\" or \"drag_form_of_point\"");
+  throw Error(ExitCode::usage,
+              file_.string() + ": input_u names \"" + key +
+                  "\", which is no number of this case; give a key of the case with its unit such as "
+                  "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
+                  "whole flow field (of computed water: its set-points), \"drag_law_uncertainty\" or \"drag_law_uncertainty_per_point\"");
 }
 
 std::string PointCase::reason_against(const ObservableRecord& observable) const {
   switch (observable.needs) {
     case Needs::pump:
-      return has_passage_ ? "" : "it is defined by [passage], the flanges and the tongue of a pump, which the case lacks";
+      return has_passage_ ? "" : "it is defined by [rag_passage], the flanges and the tongue of a pump, which the case lacks";
     case Needs::planes:
-      if (is_whole_run()) return has_passage_ ? "" : "it is defined by the flanges in [passage], which the case lacks";
-      return has_exit_ ? "" : "it is defined by the exit plane in [observe], which the case lacks";
+      if (is_whole_run()) return has_passage_ ? "" : "it is defined by the flanges in [rag_passage], which the case lacks";
+      return has_exit_ ? "" : "it is defined by the exit plane in [virtual_camera], which the case lacks";
     case Needs::nothing:
       break;
   }
@@ -186,7 +208,7 @@ class PointCase::Edit final : public RunEdit {
   }
   void add_deviation(const std::string& name, double deviation) {
     if (name == flow_field) return scale_flow(1 + deviation);
-    if (name != drag_form && name != drag_form_of_point) return scale(name, 1 + deviation);
+    if (name != drag_law_uncertainty && name != drag_law_uncertainty_per_point) return scale(name, 1 + deviation);
     for (const std::string& key : point_.drag_factors_) scale(key, 1 + deviation);
   }
   /// To the exponent of Re in the drag; theta: what the candidate of that name does.

@@ -14,6 +14,10 @@
 
 namespace snag {
 
+/// Uncertain inputs that are no keys of a case: the factor on all drag, the same at all points or one for each point.
+inline constexpr const char* drag_law_uncertainty = "drag_law_uncertainty";
+inline constexpr const char* drag_law_uncertainty_per_point = "drag_law_uncertainty_per_point";
+
 /// One run of a point: values of keys that differ from the base case, and what the camera makes of it.
 struct CaseChange {
   std::vector<std::string> overrides{};  // "section.key=value"
@@ -47,7 +51,14 @@ class PointCase {
   CaseChange change(const std::map<std::string, double>& effects, const std::map<std::string, double>& nuisances, std::uint64_t seed,
                     const std::map<std::string, int>& forms = {}) const;
   /// From now on the effect of that name is these values of the case.
-  void set_alternative(const std::string& effect, const std::vector<std::string>& overrides) { alternatives_[effect] = overrides; }
+  void set_alternative(const std::string& effect, const std::vector<std::string>& overrides);
+  /// The name that an uncertain input has today: of a key of the case that was renamed, or of the drag law. A former one gets a warning
+  /// that begins with `where`.
+  std::string input_name(const std::string& key, const std::string& where) const;
+  /// A line for each former name in the case file; building the case is silent.
+  const std::vector<std::string>& former_names() const { return case_file_.former_names(); }
+  /// An override as tables of runs have it, by the first names of its keys.
+  std::string for_run_table(const std::string& override_text) const { return case_file_.with_first_names(override_text); }
   /// The override that changes the number of steps by 1/factor.
   std::string with_step_factor(double factor) const;
   /// Time at which a run ends, s.
@@ -57,9 +68,9 @@ class PointCase {
   std::vector<std::string> from_elsewhere(std::vector<std::string> overrides) const;
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
-  /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field), "drag_form" (all
-  /// drag, alike at all points), "drag_form_of_point" (all drag, at each point on its own: Reynolds numbers far apart), or a number of the
-  /// case by its resolved key, such as "particle.density_kg_m3".
+  /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field),
+  /// drag_law_uncertainty (all drag, alike at all points), drag_law_uncertainty_per_point (all drag, at each point on its own: Reynolds
+  /// numbers far apart), or a number of the case by its resolved key, such as "particle.density_kg_m3".
   void check_nuisance(const std::string& key) const;
   /// Value of a number of the case, as TOML, "" if there is none; two points with equal values share its deviation.
   std::string value_of(const std::string& key) const;
@@ -72,12 +83,13 @@ class PointCase {
   bool names_file(const std::string& table, const std::string& key) const;
 
   std::filesystem::path file_;
+  CaseFile case_file_;
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
   BaseCase facts_;
   bool crumpled_ = false;  // a piece starts crumpled, by its seed
   bool restarts_ = false;
-  bool has_passage_ = false, has_exit_ = false;                   // [passage]; an exit plane in [observe]
+  bool has_passage_ = false, has_exit_ = false;                   // [rag_passage]; an exit plane in [virtual_camera]
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
   Vec3 right_, up_;                                               // of the camera

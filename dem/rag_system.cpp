@@ -41,7 +41,7 @@ RagSystem::RagSystem(MPI_Comm comm, const DemSettings& settings, std::vector<Rag
   owner_.assign(n_tiles, -1);
   presence_.assign(rags_.size(), Presence::waiting);
   for (std::size_t r = 0; r < pieces_.size(); ++r)
-    if (pieces_[r].insert_time <= 0 && !pieces_[r].with_water) add_tiles(static_cast<int>(r));
+    if (pieces_[r].insert_time <= 0 && !pieces_[r].match_flow_velocity) add_tiles(static_cast<int>(r));
   set_limit();
   set_pointers();
   find_ghosts();

@@ -61,10 +61,11 @@ Camera read_camera(const std::filesystem::path& path) {
   const CaseFile file = CaseFile::read(path);
   Camera camera;
   for (const Section& section : camera.sections()) file.root().table(section.name).read(section.parameters);
-  if (file.root().has("volute")) {
-    camera.volute.emplace();
-    file.root().table("volute").read(camera.volute->section().parameters);
-    check_volute_view(*camera.volute, file.root().table("volute").where());
+  VoluteView volute;
+  if (const Section section = volute.section(); file.root().has(section)) {
+    file.root().table(section).read(section.parameters);
+    check_volute_view(volute, file.root().table(section).where());
+    camera.volute = volute;
   }
   file.reject_unread();
   check_camera(camera, file.root().table("camera").where());

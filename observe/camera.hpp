@@ -42,7 +42,7 @@ struct Camera {
   std::vector<Section> sections();
 };
 
-/// Reads [camera], [cloth] and [volute] of a camera file. Throws Error(usage, io).
+/// Reads [camera], [cloth] and [pump_in_picture] of a camera file. Throws Error(usage, io).
 Camera read_camera(const std::filesystem::path& file);
 /// Makes the directions unit vectors at right angles; throws Error(usage) naming `where` on what cannot be a camera.
 void check_camera(Camera& camera, const std::string& where);

@@ -13,7 +13,7 @@ Section VoluteView::section() {
     return parameter;
   };
   return {
-      "volute",
+      "pump_in_picture",
       "Where the pump is in the picture of a camera that looks along its shaft: with it the stay of rags over the angle of the volute is "
       "counted in pictures. Points are column and row in pixels from the upper left corner. The casing fills the picture up to the "
       "outlet; there is one rag at a time, the largest blob.",
@@ -26,7 +26,9 @@ Section VoluteView::section() {
        required("tongue_reach", &tongue_reach, "m", 0, "Cloth that is seen nearer than this to the tongue touches it."),
        required("impeller_radius", &impeller_radius, "m", 1e-6, "Outer radius of the impeller."),
        setting("seen_from", &seen_from, "Side on which the camera stands.", {"inlet", "motor"}),
-       setting("impeller_turns", &impeller_turns, "As it is seen in the picture.", {"counter_clockwise", "clockwise"})}};
+       setting("impeller_turns", &impeller_turns, "As it is seen in the picture.", {"counter_clockwise", "clockwise"})},
+      false,
+      "volute"};
 }
 
 void check_volute_view(const VoluteView& view, const std::string& where) {

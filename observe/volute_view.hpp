@@ -7,7 +7,7 @@
 
 namespace snag {
 
-/// The table [volute] of a camera file. Points are column and row in pixels from the upper left corner.
+/// The table [pump_in_picture] of a camera file. Points are column and row in pixels from the upper left corner.
 struct VoluteView {
   std::vector<double> axis, tongue, outlet;                         // column, row
   std::vector<double> outlet_direction;                             // to the right, up

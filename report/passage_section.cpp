@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "observe/outcome.hpp"
+#include "observe/passage/passage_geometry.hpp"
 #include "report/html.hpp"
 #include "report/line_plot.hpp"
 
@@ -113,10 +114,11 @@ Radii radii_of(const std::string& case_text) {
   Radii radii;
   try {
     const Table root = CaseFile::parse(case_text).root();
-    if (!root.table("passage").present()) return radii;
+    const Table passage = root.table(PassageSettings().section());
+    if (!passage.present()) return radii;
     Vec3 origin, axis{0, 0, 1}, tongue;
     root.table("rotating_zone").read({{"origin", &origin, "m"}, {"axis", &axis}});
-    root.table("passage").read({{"impeller_radius", &radii.impeller, "m"}, {"tongue", &tongue, "m"}});
+    passage.read({{"impeller_radius", &radii.impeller, "m"}, {"tongue", &tongue, "m"}});
     axis = unit(axis);
     const Vec3 away = tongue - origin;
     radii.tongue = norm(away - dot(away, axis) * axis);

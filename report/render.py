@@ -491,7 +491,7 @@ class Rotor:
         self.middle = self.origin + 0.5 * (along.min() + along.max()) * self.axis
         self.box = bounds_of(skin.GetBounds())
         self.towards = int(np.argmax(np.abs(self.axis)))
-        self.sense = float(np.sign(table.get("speed_rad_s", 1))) if table.get("motion") != "frame" else 0.0
+        self.sense = float(np.sign(table.get("rotation_speed_rad_s", table.get("speed_rad_s", 1)))) if table.get("motion") != "frame" else 0.0
         shaft = monitor(folder / "monitors/pump.csv")
         self.times, self.revolutions = (column(shaft, "time"), column(shaft, "revolutions")) if shaft else (np.zeros(0), np.zeros(0))
 
@@ -544,7 +544,7 @@ class Run:
         case = tomllib.loads(case.read_text()) if case.exists() else {}
         self.rotor = Rotor(folder, case, [last, walls])
         self.rag_path = monitor(folder / "monitors/rags.csv")
-        self.passage = case.get("passage", {})
+        self.passage = case.get("rag_passage", case.get("passage", {}))  # the second: runs of version 0.1
         self.pump = PumpView(self.rotor, self.passage, self.domain) if self.rotor.axis is not None else None
         self.tables = {}
         self.events = events_of(folder / "summary.json")

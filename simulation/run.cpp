@@ -205,7 +205,7 @@ std::string last_checkpoint(const std::filesystem::path& folder) {
   const int slot = newest(slots);
   if (slot < 0) return "; no checkpoint was written before";
   return "; the last checkpoint is that of t = " + words(slots[static_cast<std::size_t>(slot)].stamp.time) + " s, " +
-         slots[static_cast<std::size_t>(slot)].file.string() + ": a case with other settings takes its water by [start] from = \"" +
+         slots[static_cast<std::size_t>(slot)].file.string() + ": a case with other settings takes its water by [initial_flow] from = \"" +
          folder.string() + "\"";
 }
 

@@ -1,7 +1,7 @@
 // Pressure correction; the equations stand in the header.
 //
-// Non-orthogonal part of (S.grad p')_f: m_f T.[grad p']_f from the solution before, repeated n_non_orthogonal times. The flux is corrected
-// with the very terms of the last solve: each cell's imbalance is the residual of that linear equation, whatever the mesh.
+// Non-orthogonal part of (S.grad p')_f: m_f T.[grad p']_f from the solution before, repeated n_non_orthogonal_correctors times. The flux is
+// corrected with the very terms of the last solve: each cell's imbalance is the residual of that linear equation, whatever the mesh.
 #include "solver/continuity.hpp"
 
 #include <algorithm>
@@ -211,14 +211,14 @@ Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& fl
 ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
   const Imbalance imbalance = begin_correction(flow.flux, boundary);
   ContinuityReport report{.initial = imbalance.norm};
-  for (int k = 0; k <= settings_.n_non_orthogonal; ++k) {
+  for (int k = 0; k <= settings_.n_non_orthogonal_correctors; ++k) {
     if (k > 0) {
       squares_.gradient(weight_, correction_, given_, slope_);
       fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
       gauss_gradient(mesh_, squares_, weight_, correction_, boundary_correction_, slope_, gradient_);
     }
     add_cross_flux();
-    const double tolerance = k == settings_.n_non_orthogonal ? settings_.tolerance : settings_.tolerance_intermediate;
+    const double tolerance = k == settings_.n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
     const PoissonReport last =
         poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, imbalance.rounding) * inertia_);
     report.iterations += last.iterations, ++report.solves;

@@ -257,7 +257,7 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
   if (turn <= large_turn && courant > large_courant)
     causes.push_back("the speed of the case gives this cell a Courant number of " + rounded(courant) +
                      ": [time] step_ms = " + rounded(1e3 * dt * large_courant / courant) + " gives " + rounded(large_courant));
-  if (causes.empty() && settings_.outer_correctors < 2) causes.push_back("[flow] outer_correctors = 2 makes steps more robust");
+  if (causes.empty() && settings_.n_outer_correctors < 2) causes.push_back("[flow] n_outer_correctors = 2 makes steps more robust");
   if (causes.empty())
     causes.push_back(
         "halve [time] step; where that changes nothing, refine the mesh there, or use [flow] convection = \"upwind\", "

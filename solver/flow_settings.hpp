@@ -13,8 +13,8 @@ struct FlowSettings {
   std::optional<double> kinematic_viscosity;  // m2/s
   std::string convection = "linear_upwind";
   std::string limiter = "venkatakrishnan";
-  int outer_correctors = 1;
-  int n_non_orthogonal = 1;
+  int n_outer_correctors = 1;
+  int n_non_orthogonal_correctors = 1;
   double momentum_tolerance = 1e-8;
   double pressure_tolerance = 1e-6;
   double pressure_tolerance_intermediate = 1e-1;

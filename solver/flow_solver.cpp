@@ -1,4 +1,4 @@
-// One step t -> t + dt, second order: BDF2 in time, momentum with the old pressure, then pressure and fluxes, repeated outer_correctors
+// One step t -> t + dt, second order: BDF2 in time, momentum with the old pressure, then pressure and fluxes, repeated n_outer_correctors
 // times.
 #include "solver/flow_solver.hpp"
 
@@ -38,7 +38,7 @@ MomentumSettings momentum_settings(const FlowSettings& settings) {
 }
 
 ContinuitySettings continuity_settings(const FlowSettings& settings) {
-  return {.n_non_orthogonal = settings.n_non_orthogonal,
+  return {.n_non_orthogonal_correctors = settings.n_non_orthogonal_correctors,
           .tolerance = settings.pressure_tolerance,
           .tolerance_intermediate = settings.pressure_tolerance_intermediate,
           .multigrid = settings.multigrid};
@@ -79,7 +79,8 @@ StepReport FlowSolver::advance(double dt) {
   const double begun = seconds();
   time_ = bdf(dt, flow.time_step_size);
   begin_step(time_, report);
-  const int n_outer = flow.time_step_size > 0 ? settings_.outer_correctors : std::max(settings_.outer_correctors, first_step_correctors);
+  const int n_outer =
+      flow.time_step_size > 0 ? settings_.n_outer_correctors : std::max(settings_.n_outer_correctors, first_step_correctors);
   for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, time_, report);
   continuity_.history.end_step(flow, momentum_.gradient_guess());
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;

@@ -39,7 +39,7 @@ std::string time_text(double end, double step) { return "[time]\nend_s = " + tom
 /// A plane that is passed downwards at height z, or downstream at x.
 std::string exit_text(char axis, const std::string& at) {
   const bool downstream = axis == 'x';
-  return "[observe]\nright = [1.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nexit_point_m = [" +
+  return "[virtual_camera]\nright = [1.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nexit_point_m = [" +
          (downstream ? at + ", 0.0, 0.0" : "0.0, 0.0, " + at) + "]\nexit_normal = [" + (downstream ? "1.0, 0.0, 0.0" : "0.0, 0.0, -1.0") +
          "]\n";
 }
@@ -82,7 +82,7 @@ TwinExperiment sphere(NormalNumbers& random) {
   twin.instruments.push_back({"retention_time", "s", "lognormal", 0.03, 0, ""});
   twin.times = sample_times(end, 16);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"particle.density_kg_m3\" = 0.002", "\"flow.kinematic_viscosity_m2_s\" = 0.02",
-                 "\"drag_form\" = 0.05"};
+                 "\"drag_law_uncertainty\" = 0.05"};
   return twin;
 }
 
@@ -106,7 +106,7 @@ TwinExperiment fibre(NormalNumbers& random) {
   add_camera(twin, between(1e-4, 3e-4), 1e-6, 0.02);
   twin.times = sample_times(end, 12);
   twin.inputs = {"\"flow.amplitude\" = 0.05", "\"fibre.density_kg_m3\" = 0.005", "\"fibre.youngs_modulus_Pa\" = 0.05",
-                 "\"drag_form\" = 0.05"};
+                 "\"drag_law_uncertainty\" = 0.05"};
   twin.path = 0.02, twin.tip_acceleration = 40;
   return twin;
 }
@@ -126,7 +126,7 @@ TwinExperiment rag(NormalNumbers& random) {
   }
   add_camera(twin, between(2e-4, 5e-4), 3e-5, 0.03);
   twin.times = sample_times(end, 8);
-  twin.inputs = {"\"flow.amplitude\" = 0.05", "\"rag.mass_per_area_kg_m2\" = 0.02", "\"drag_form\" = 0.05"};
+  twin.inputs = {"\"flow.amplitude\" = 0.05", "\"rag.mass_per_area_kg_m2\" = 0.02", "\"drag_law_uncertainty\" = 0.05"};
   twin.exit_axis = "x", twin.path = 0.02, twin.tip_acceleration = 10;
   return twin;
 }

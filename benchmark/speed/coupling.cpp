@@ -34,7 +34,7 @@ end_s = 1
 step_ms = 0.4
 [[rag]]
 radius_mm = 1
-as_published = true
+density_model = "jensen_2018"
 pose = "flat"
 centre_m = [0.08, 0.13, 0.17]
 lengthwise = [0, 0, 1]

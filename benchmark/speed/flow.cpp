@@ -42,12 +42,12 @@ const char* const compared =
 
 std::string case_text(const std::filesystem::path& mesh, const std::string& motion, double step, double ramp) {
   std::string text = "[case]\nname = \"bench-flow\"\n[mesh]\nfile = \"" + mesh.string() + "\"\n";
-  text += "[rotating_zone]\nzone = \"rotor\"\nspeed_rpm = " + words(speed_rpm) + "\nramp_s = " + words(ramp) + "\nmotion = \"" + motion +
-          "\"\n";
+  text += "[rotating_zone]\nzone = \"rotor\"\nrotation_speed_rpm = " + words(speed_rpm) + "\nramp_s = " + words(ramp) + "\nmotion = \"" +
+          motion + "\"\n";
   text += "[time]\nend_s = 1\nstep_s = " + words(step) + "\n";
   text += "[flow]\nkinematic_viscosity_m2_s = " + words(kinematic_viscosity) + R"(
-outer_correctors = 2
-n_non_orthogonal = 1
+n_outer_correctors = 2
+n_non_orthogonal_correctors = 1
 momentum_tolerance = 3e-6
 pressure_tolerance = 1e-3
 [turbulence]

@@ -60,7 +60,7 @@ density_kg_m3 = {RHO}
 youngs_modulus_Pa = {4 * r**4 * NU * RHO * shear:.4g}  # several times that at which shear bends it
 shear_modulus_Pa = 1e3
 lengthwise = [{math.sin(phi):.7g}, {math.cos(phi):.7g}, 0.0]
-[observe]
+[virtual_camera]
 right = [1.0, 0.0, 0.0]
 up = [0.0, 1.0, 0.0]
 [coupling]

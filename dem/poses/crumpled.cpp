@@ -100,7 +100,7 @@ void for_places(const RagPiece& piece, const F& f) {
 /// The flat sheet at rest about the origin, or so high above it that it just does not touch the hopper; bonds hold whatever happens here.
 RagPiece flat_piece(const RagPiece& given) {
   RagPiece piece = given;
-  piece.insert_time = 0, piece.with_water = false;
+  piece.insert_time = 0, piece.match_flow_velocity = false;
   piece.centre = piece.velocity = piece.spin = {};
   piece.poses.clear();
   piece.rag.breakage = false;

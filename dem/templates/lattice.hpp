@@ -39,14 +39,14 @@ struct ReleasePlan {
 };
 
 struct RagPiece {
-  Rag rag;                  // n_columns, n_rows set; first_particle, n_particles, n_bonds are set by the RagSystem
-  double mask_radius = 0;   // > 0: only places within this distance of the lattice's centre exist (disc), m
-  Vec3 centre;              // of the lattice, m
-  Quaternion orientation;   // of the lattice frame
-  Vec3 velocity, spin;      // of the whole piece, about its centre; m/s, rad/s
-  double insert_time = 0;   // before it the piece is not in the run, s
-  bool with_water = false;  // begins with the mean velocity of the water at its particles, added to `velocity`
-  PosePlan plan;            // how `poses` are made (dem/poses/)
+  Rag rag;                           // n_columns, n_rows set; first_particle, n_particles, n_bonds are set by the RagSystem
+  double mask_radius = 0;            // > 0: only places within this distance of the lattice's centre exist (disc), m
+  Vec3 centre;                       // of the lattice, m
+  Quaternion orientation;            // of the lattice frame
+  Vec3 velocity, spin;               // of the whole piece, about its centre; m/s, rad/s
+  double insert_time = 0;            // before it the piece is not in the run, s
+  bool match_flow_velocity = false;  // begins with the mean velocity of the water at its particles, added to `velocity`
+  PosePlan plan;                     // how `poses` are made (dem/poses/)
   ReleasePlan release;
   std::vector<ParticlePose> poses;  // [n_rows * n_columns] places about `centre`, instead of the flat lattice, if not empty
 

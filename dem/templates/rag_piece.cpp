@@ -76,7 +76,7 @@ void set_mass(const RagSettings& s, Rag& rag) {
     case Shape::rag:
     case Shape::disc:
       rag.hydrodynamic_volume = s.thickness * d * d;
-      rag.mass = s.as_published ? 538 * (1e-3 / rag.radius) * sphere : s.mass_per_area * d * d;
+      rag.mass = s.has_published_density() ? 538 * (1e-3 / rag.radius) * sphere : s.mass_per_area * d * d;
       break;
   }
   rag.inertia = 0.4 * rag.mass * rag.radius * rag.radius;
@@ -115,18 +115,18 @@ void set_bonds(const RagSettings& s, const std::string& where, const std::filesy
   if (s.shape == Shape::particle) return;
   rag.bond_law = s.law ? s.law : bond_laws().make(s.bond_law, where + " bond_law");
   if (!s.passport.empty()) {
-    if (s.properties == "given")
+    if (s.properties == "custom")
       throw Error(ExitCode::usage,
-                  where + ": passport = \"" + s.passport + "\" and properties = \"given\" both set the bonds; keep one of them");
+                  where + ": passport = \"" + s.passport + "\" and properties = \"custom\" both set the bonds; keep one of them");
     set_bonds_of(read_passport(folder / s.passport), where, rag);
   } else if (s.properties == "beam") {
     rag.bond = {beam_bond(s, rag), {}};
-  } else if (s.properties == "given") {
+  } else if (s.properties == "custom") {
     rag.bond = {s.along, s.across};
     const bool needs_across = s.shape != Shape::fibre;
     if (s.along.normal_stiffness <= 0 || (needs_across && s.across.normal_stiffness <= 0))
       throw Error(ExitCode::usage, where +
-                                       ": properties = \"given\" without a positive normal stiffness; give normal_stiffness_lengthwise" +
+                                       ": properties = \"custom\" without a positive normal stiffness; give normal_stiffness_lengthwise" +
                                        std::string(needs_across ? " and normal_stiffness_crosswise" : ""));
   } else {
     set_bonds_of(published_passport(), where, rag);
@@ -165,7 +165,7 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   set_mass(s, piece.rag);
   set_bonds(s, where, folder, piece.rag);
   piece.centre = s.position, piece.velocity = s.velocity, piece.spin = s.spin;
-  piece.insert_time = s.insert_time, piece.with_water = s.with_water;
+  piece.insert_time = s.insert_time, piece.match_flow_velocity = s.match_flow_velocity;
   // A chain needs one direction only: any other that is not parallel completes the frame.
   const Vec3 aside = std::abs(s.lengthwise.x) < 0.9 * norm(s.lengthwise) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   try {

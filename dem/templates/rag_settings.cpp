@@ -58,9 +58,11 @@ void add_mass(RagSettings& s, Records& r) {
                      "Of the cloth; times (2 r_p)^2 the volume in which a particle feels buoyancy, added mass and pressure gradient."));
   r.push_back(number("mass_per_area", &s.mass_per_area, "kg/m2", 1e-4, Basis::measured,
                      "Of the soaked cloth: 0.060 kg/m2 of polyester and water in the rest of the thickness."));
-  r.push_back(
-      setting("as_published", &s.as_published,
-              "Density of the spheres 538 (1 mm/r_p) kg/m3 instead of mass_per_area, as in the coupled simulations of Jensen (2018)."));
+  r.push_back(renamed(setting("density_model", &s.density_model,
+                              "mass_per_area: the mass of the particles follows from that key. jensen_2018: the density of the spheres is "
+                              "538 (1 mm/r_p) kg/m3, as in the coupled simulations of Jensen (2018).",
+                              {"mass_per_area", "jensen_2018"}),
+                      {.key = "as_published", .values = {{"false", "\"mass_per_area\""}, {"true", "\"jensen_2018\""}}}));
 }
 
 void add_plan(PosePlan& p, Records& r) {
@@ -102,7 +104,9 @@ void add_pose(RagSettings& s, Records& r) {
       number("spin", &s.spin, "rad/s", -infinity, Basis::assumed, "Angular velocity of the whole piece about its centre at the start."));
   r.push_back(number("insert_time", &s.insert_time, "s", 0, Basis::assumed,
                      "When it is put into the run, into water that has developed by then; walls that turn are where they are then."));
-  r.push_back(setting("with_water", &s.with_water, "The mean velocity of the water at its particles is added to `velocity`."));
+  r.push_back(renamed(setting("match_flow_velocity", &s.match_flow_velocity,
+                              "The mean velocity of the water at the particles is added to `velocity` when the piece is put in."),
+                      {.key = "with_water"}));
   for (const Parameter& parameter : s.copies.parameters()) r.push_back(parameter);
   if (point) return;
   r.push_back(number("lengthwise", &s.lengthwise, "1", -infinity, Basis::assumed, "Direction of the rows, any length."));
@@ -120,7 +124,7 @@ void add_bond_direction(const std::string& direction, BondProperties& p, Records
   const auto add = [&](const char* key, double* target, const char* unit, const char* meaning) {
     r.push_back(number((key + direction).c_str(), target, unit, 0, Basis::calibrated, meaning));
   };
-  add("normal_stiffness_", &p.normal_stiffness, "N/m3", "S_n of `properties = \"given\"`, per unit area of the bond.");
+  add("normal_stiffness_", &p.normal_stiffness, "N/m3", "S_n: normal stiffness per unit area of the bond, for properties = \"custom\".");
   add("tangential_stiffness_", &p.tangential_stiffness, "N/m3", "S_t, shear and torsion.");
   add("bending_stiffness_", &p.bending_stiffness, "N/m3", "S_nb.");
   add("normal_strength_", &p.normal_strength, "Pa", "Tensile stress at which a bond breaks; 0: never.");
@@ -135,11 +139,14 @@ void add_bonds(RagSettings& s, Records& r) {
                    "Bonds as calibrated from tests of the cloth (`snag calibrate`), instead of `properties`: a textile passport such "
                    "as cases/textile-aro/passport.toml, interpolated in the logarithms between its radii. A fibre takes those "
                    "lengthwise."));
-  r.push_back(setting(
-      "properties", &s.properties,
-      "Of the bonds: the calibrated ones of Jensen (2018) Tables 3.3 and 3.4 (particle radius 1 to 2 mm, in between interpolated in the "
-      "logarithms), given below, or those of a round elastic beam of the fibre's diameter.",
-      s.shape == Shape::fibre ? std::vector<std::string>{"beam", "published", "given"} : std::vector<std::string>{"published", "given"}));
+  std::vector<std::string> choices{"published", "custom"};
+  if (s.shape == Shape::fibre) choices.insert(choices.begin(), "beam");
+  r.push_back(renamed(setting("properties", &s.properties,
+                              "Properties of the bonds. published: calibrated by Jensen (2018), Tables 3.3 and 3.4, for a particle radius "
+                              "of 1 to 2 mm (logarithms interpolated in between). custom: the stiffnesses and strengths below. beam: "
+                              "those of a round elastic beam of the fibre's diameter.",
+                              choices),
+                      {.values = {{"\"given\"", "\"custom\""}}}));
   if (s.shape == Shape::fibre) r.push_back(number("youngs_modulus", &s.youngs_modulus, "Pa", 1, Basis::assumed, "Of a fibre as a beam."));
   add_bond_direction("lengthwise", s.along, r);
   if (s.shape != Shape::fibre) add_bond_direction("crosswise", s.across, r);

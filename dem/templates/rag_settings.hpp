@@ -32,30 +32,31 @@ struct RagSettings {
   double radius = 1e-3;                  // r_p, m
   int n_points = 0;                      // fibre: particles; 0: from length and radius
   // mass
-  double thickness = 0.77e-3;    // m
-  double mass_per_area = 0.785;  // kg/m2
-  double density = 1380;         // fibre, particle; kg/m3
-  bool as_published = false;     // density 538 (1 mm/r_p) kg/m3 of the spheres
+  double thickness = 0.77e-3;                   // m
+  double mass_per_area = 0.785;                 // kg/m2
+  double density = 1380;                        // fibre, particle; kg/m3
+  std::string density_model = "mass_per_area";  // or "jensen_2018": spheres of 538 (1 mm/r_p) kg/m3
   // pose
   Vec3 position, velocity, spin;  // centre, m; m/s; rad/s
   Vec3 lengthwise{1, 0, 0}, crosswise{0, 1, 0};
   PosePlan plan;
   std::string pose_file;
-  double insert_time = 0;   // s
-  bool with_water = false;  // the water's mean velocity is added to `velocity`
+  double insert_time = 0;            // s
+  bool match_flow_velocity = false;  // the water's mean velocity is added to `velocity`
   RagCopies copies;
   // bonds
   std::string bond_law = default_bond_law;
   std::shared_ptr<const BondLaw> law;    // with its own parameters; none: `bond_law` with their defaults
   std::string passport;                  // file of a calibration; "": as `properties` says
-  std::string properties = "published";  // published | given | beam
+  std::string properties = "published";  // published | custom | beam
   double youngs_modulus = 1e9;           // beam, Pa
-  BondProperties along, across;          // given
+  BondProperties along, across;          // custom
   double bond_damping = 0.5, rotation_friction = 0.001, contact_radius_ratio = 2.2;
   bool breakage = false;
   std::optional<double> shear_modulus;  // Pa, of contacts
   double poisson_ratio = 0.25;
 
+  bool has_published_density() const { return density_model == "jensen_2018"; }
   /// Name of the table and its records, which refer to this object.
   Section section();
 };

@@ -20,14 +20,19 @@ std::vector<Parameter> WallSettings::parameters() {
       length("lower", &lower, "box: lowest corner; the fluid is inside."),
       length("upper", &upper, "box: highest corner."),
       setting("patches", &patches, "patches: names of patches of the mesh; those of the rotating zone turn with it."),
-      setting("fixed", &fixed, "patches: stands although its zone turns, as a ring around the axis may."),
+      renamed(setting("stationary", &stationary, "patches: they stay at rest although their zone turns, as a ring around the axis may."),
+              {.key = "fixed"}),
       file_setting("file", &file, "stl: the file, beside the case file."),
       Parameter{.key = "scale", .target = &scale, .minimum = 1e-9, .maximum = 1e9, .meaning = "stl: metres per unit of the file."},
       setting("normals_into_fluid", &normals_into_fluid,
               "stl: its normals point into the fluid, as those of a solid body that the fluid surrounds."),
       Parameter{.key = "axis", .target = &axis, .meaning = "Axis of turning, of any length."},
       length("origin", &origin, "A point of the axis at time 0."),
-      Parameter{.key = "speed", .target = &speed, .unit = "rad/s", .meaning = "Angular speed, right-handed about the axis."},
+      renamed({.key = "rotation_speed",
+               .target = &speed,
+               .unit = "rad/s",
+               .meaning = "Speed of rotation, right-handed about the axis; \"1200 rpm\" is understood."},
+              {.key = "speed"}),
       Parameter{.key = "ramp", .target = &ramp, .unit = "s", .minimum = 0, .meaning = "Time in which the angular speed grows from zero."},
       Parameter{.key = "velocity", .target = &velocity, .unit = "m/s", .meaning = "Velocity of translation."},
   };
@@ -111,10 +116,11 @@ bool turns(const Mesh& mesh, const std::string& patch, const std::string& wall) 
 void add_patches(WallSet& walls, const WallSettings& wall, const Mesh& mesh, const WallMotion& motion, const WallMotion* rotor) {
   std::vector<std::string> turning, standing;
   for (const std::string& patch : wall.patches)
-    (rotor && !wall.fixed && turns(mesh, patch, wall.name) ? turning : standing).push_back(patch);
+    (rotor && !wall.stationary && turns(mesh, patch, wall.name) ? turning : standing).push_back(patch);
   if (!turning.empty() && motion.moves())
-    throw Error(ExitCode::usage, "wall \"" + wall.name + "\": a motion of its own for patch \"" + turning.front() +
-                                     "\", which turns with the rotating zone; remove speed and velocity, or set fixed = true");
+    throw Error(ExitCode::usage,
+                "wall \"" + wall.name + "\": a motion of its own for patch \"" + turning.front() +
+                    "\", which turns with the rotating zone; remove rotation_speed and velocity, or set stationary = true");
   if (!standing.empty()) walls.add_surface(wall.name, wall_surface(mesh, standing), motion);
   if (!turning.empty()) walls.add_surface(wall.name, wall_surface(mesh, turning), *rotor);
 }
@@ -151,8 +157,8 @@ WallSet read_walls(const CaseFile& file, const Mesh* mesh, const WallMotion* rot
     };
     demand("point", "plane"), demand("normal", "plane"), demand("lower", "box"), demand("upper", "box");
     demand("patches", "patches"), demand("file", "stl");
-    if (wall.fixed && wall.kind != "patches")
-      throw Error(ExitCode::usage, table.where() + ": fixed = true for a wall of kind \"" + wall.kind +
+    if (wall.stationary && wall.kind != "patches")
+      throw Error(ExitCode::usage, table.where() + ": stationary = true for a wall of kind \"" + wall.kind +
                                        "\", only patches of a mesh turn by themselves; remove it");
     if (wall.name.empty()) wall.name = wall.kind + "_" + std::to_string(number);
     add_wall(walls, wall, file, mesh, rotor);

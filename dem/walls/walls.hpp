@@ -32,7 +32,7 @@ struct WallSettings {
   double speed = 0;  // rad/s, right-handed about axis
   double ramp = 0;   // s
   Vec3 velocity;     // m/s
-  bool fixed = false;
+  bool stationary = false;
 
   std::vector<Parameter> parameters();
 };

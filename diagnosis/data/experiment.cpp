@@ -58,6 +58,7 @@ OperatingPoint read_point(const Table& table, const CaseFile& file) {
               setting("role", &role, "train, or withheld: used for \"how far\" only.", {"train", "withheld"})});
   point.case_file = file.path(case_file);
   point.withheld = role == "withheld";
+  point.where = table.where();
   point.input_u = table.table("input_u").numbers();
   for (const auto& [key, u] : point.input_u) {
     if (!std::isfinite(u) || u < 0)
@@ -215,9 +216,11 @@ Experiment read_experiment(const std::filesystem::path& path) {
       {setting("candidates", &experiment.candidates, "\"all\" or names."), setting("pairs", &experiment.pairs, "Pairs of effects.")});
   int seed = 1;
   std::string runs;
-  root.table("budget").read({{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Most runs of the model."},
-                             {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Of random numbers."},
-                             file_setting("runs", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv.")});
+  root.table("budget").read(
+      {{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Most runs of the model."},
+       {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Of random numbers."},
+       renamed(file_setting("runs_table", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv."),
+               {.key = "runs"})});
   if (!runs.empty()) experiment.runs = file.path(runs);
   experiment.seed = static_cast<std::uint64_t>(seed);
   file.reject_unread();

@@ -34,6 +34,7 @@ struct OperatingPoint {
   bool withheld = false;                                  // used for "how far" only
   std::vector<std::string> set{};                         // values of the case that this point replaces, "section.key=value"
   std::vector<std::pair<std::string, double>> input_u{};  // relative standard uncertainty by key of the case
+  std::string where{};                                    // "DIAGNOSIS.toml:12: [point]", for messages
 };
 
 /// A box in which cells of a path are told apart from those elsewhere, by where it was measured.

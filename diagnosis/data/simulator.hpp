@@ -29,7 +29,7 @@ struct Effect {
 
 /// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.
 struct Nuisance {
-  std::string name;         // "flow.amplitude", "drag_form", "camera" (a calibration group)
+  std::string name;         // "flow.amplitude", "drag_law_uncertainty", "camera" (a calibration group)
   double u = 0;             // standard uncertainty of its relative deviation (of a calibration group: in units of bias_u)
   std::vector<int> points;  // that share one deviation; each of several nuisances may have the same name at other points
 };

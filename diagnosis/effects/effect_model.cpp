@@ -12,7 +12,7 @@ BaseCase any_of(BaseCase a, const BaseCase& b) {
 }
 
 void RunEdit::scale_varying_flow(double factor) {
-  for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s", "start.velocity_factor"}) scale(key, factor);
+  for (const char* key : {"flow.gradient_per_s", "flow.amplitude_m_s", "initial_flow.velocity_factor"}) scale(key, factor);
 }
 
 void RunEdit::scale_flow(double factor) {

@@ -37,7 +37,7 @@ Vec3 across(const Vec3& v, const Vec3& n) { return v - dot(v, n) * n; }
 
 Section PassageSettings::section() {
   return {
-      "passage",
+      "rag_passage",
       "What a rag's way through a pump is told by: where the casing begins and ends, and where the tongue is. Angles are about the axis "
       "of [rotating_zone], zero at the tongue, counter-clockwise positive seen from the inlet. Without this table a rag has left when "
       "it is beyond a patch of kind pressure_outlet.",
@@ -52,7 +52,9 @@ Section PassageSettings::section() {
        point("tongue", &tongue, "Middle of the tongue's nose."),
        length("tongue_reach", &tongue_reach,
               "Contact with a standing wall nearer than this to the line through the tongue along the axis is contact with the tongue."),
-       length("impeller_radius", &impeller_radius, "Outer radius of the impeller; what is further from the axis is in the volute.")}};
+       length("impeller_radius", &impeller_radius, "Outer radius of the impeller; what is further from the axis is in the volute.")},
+      false,
+      "passage"};
 }
 
 PassageGeometry::PassageGeometry(const PassageSettings& s, const Vec3& origin, const Vec3& axis, double speed, const std::string& where)
@@ -104,14 +106,15 @@ double PassageGeometry::angle(const Vec3& x) const {
 double PassageGeometry::radius(const Vec3& x) const { return norm(across(x - origin_, up_)); }
 
 std::optional<PassageGeometry> read_passage(const Table& root, const std::optional<Shaft>& shaft) {
-  if (!root.has("passage")) return {};
-  const Table table = root.table("passage");
   PassageSettings settings;
-  table.read(settings.section().parameters);
+  const Section section = settings.section();
+  if (!root.has(section)) return {};
+  const Table table = root.table(section);
+  table.read(section.parameters);
   if (!shaft)
     throw Error(ExitCode::usage, table.where() +
-                                     " tells a rag's way about an axis, and nothing turns here; add [rotating_zone], or remove "
-                                     "[passage]");
+                                     " needs the axis of [rotating_zone], which the case lacks; add [rotating_zone], or remove "
+                                     "[rag_passage]");
   return PassageGeometry(settings, shaft->origin, shaft->axis, shaft->speed, table.where());
 }
 

@@ -18,7 +18,7 @@
 
 namespace snag {
 
-/// The table [passage].
+/// The table [rag_passage].
 struct PassageSettings {
   Vec3 inlet_flange, inlet_normal, outlet_flange, outlet_normal;  // m; any length: into the casing, out of it
   double inlet_radius = 0, outlet_radius = 0;                     // m
@@ -68,7 +68,7 @@ class PassageGeometry {
   double tongue_reach_, impeller_radius_, speed_;
 };
 
-/// The table [passage], none if the case has none; `shaft` with its full speed. Throws Error(usage), also where the table is given and
+/// The table [rag_passage], none if the case has none; `shaft` with its full speed. Throws Error(usage), also where the table is given and
 /// nothing turns.
 std::optional<PassageGeometry> read_passage(const Table& root, const std::optional<Shaft>& shaft);
 

@@ -25,7 +25,7 @@ PassageGeometry geometry_of(const Camera& camera) {
   settings.outlet_flange = point(view.outlet), settings.outlet_normal = {view.outlet_direction[0], view.outlet_direction[1], 0};
   settings.outlet_radius = view.outlet_radius;
   settings.tongue = point(view.tongue), settings.tongue_reach = view.tongue_reach, settings.impeller_radius = view.impeller_radius;
-  return {settings, point(view.axis), {0, 0, 1}, sense, "[volute] of the camera"};
+  return {settings, point(view.axis), {0, 0, 1}, sense, "[pump_in_picture] of the camera"};
 }
 
 }  // namespace

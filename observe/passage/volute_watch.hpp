@@ -17,7 +17,7 @@ namespace snag {
 
 class VoluteWatch {
  public:
-  /// Of a camera with [volute]. Throws Error(usage) on a view that is none of a pump.
+  /// Of a camera with [pump_in_picture]. Throws Error(usage) on a view that is none of a pump.
   explicit VoluteWatch(const Camera& camera);
   /// The blobs of one picture, largest first, at `time`, s; `step`: since the last picture.
   void add(const std::vector<Blob>& blobs, double time, double step);
@@ -31,7 +31,7 @@ class VoluteWatch {
   RagSnapshot last_;
 };
 
-/// Of all rags of a run: from its summary.json, empty if it has none or was made without [passage]. Throws Error(io) on a broken one.
+/// Of all rags of a run: from its summary.json, empty if it has none or was made without [rag_passage]. Throws Error(io) on a broken one.
 VoluteHistogram volute_of_run(const std::filesystem::path& run);
 
 }  // namespace snag

@@ -1,5 +1,5 @@
 #pragma once
-// Monitors of the rags, a row a step and rag: rags.csv (the piece as a whole), passage.csv (where in the pump it is, with [passage]),
+// Monitors of the rags, a row a step and rag: rags.csv (the piece as a whole), passage.csv (where in the pump it is, with [rag_passage]),
 // rag_forces.csv (forces over its particles), and contacts.csv, a row a step. A rag that is not in the run yet has no row.
 #include <filesystem>
 #include <vector>

@@ -9,7 +9,7 @@ Section ObserveSettings::section() {
     return Parameter{.key = key, .target = target, .unit = unit, .meaning = meaning};
   };
   return {
-      "observe",
+      "virtual_camera",
       "What a diagnosis measures on a run: the camera's picture, a window in which it looks, and a plane behind which a piece has left.",
       {vector("right", &right, "1", "Direction to the right in the picture, any length."),
        vector("up", &up, "1", "Direction up in the picture; its part along `right` is taken off. The camera looks along up x right."),
@@ -18,7 +18,9 @@ Section ObserveSettings::section() {
               "Direction out of the exit plane; a piece has left once its centre is beyond. Not given: there is no exit."),
        vector("window_lower", &window_lower, "m",
               "Lower corner of the window: numbers that are asked without a time are means over the time that the centre is in it."),
-       vector("window_upper", &window_upper, "m", "Upper corner of the window. Not given: there is no window.")}};
+       vector("window_upper", &window_upper, "m", "Upper corner of the window. Not given: there is no window.")},
+      false,
+      "observe"};
 }
 
 bool ObserveSettings::in_window(const Vec3& p) const {
@@ -30,7 +32,7 @@ bool ObserveSettings::in_window(const Vec3& p) const {
 View ObserveSettings::view() const {
   const Vec3 x = unit(right), y = unit(up - dot(up, x) * x);
   if (norm(x) == 0 || norm(y) == 0)
-    throw Error(ExitCode::usage, "[observe] right and up are parallel or zero, must span the picture; give other directions");
+    throw Error(ExitCode::usage, "[virtual_camera] right and up are parallel or zero, must span the picture; give other directions");
   return {x, y};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// [observe]: where the virtual camera of a case stands, and where a piece counts as gone in a flow without openings.
+// [virtual_camera]: where the virtual camera of a case stands, and where a piece counts as gone in a flow without openings.
 #include <string>
 
 #include "base/parameter.hpp"

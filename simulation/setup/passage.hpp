@@ -2,7 +2,7 @@
 // Position and contacts of the rags in each step, which the passage tracker of each rag reads (observe/passage/passage_tracker.hpp), and
 // the particles that have left the mesh.
 //
-// With [passage] the flanges and the tongue of the pump define the passage (observe/passage/passage_geometry.hpp); without it a
+// With [rag_passage] the flanges and the tongue of the pump define the passage (observe/passage/passage_geometry.hpp); without it a
 // particle is out beyond a pressure outlet, and upstream beyond a pressure inlet.
 #include <optional>
 #include <vector>

@@ -20,20 +20,21 @@ double soaked_mass(double thickness, double density) { return fibre_mass + (thic
 /// Bonds that were calibrated for another mass or thickness.
 std::string bonds_of_another_cloth(const RagSettings& rag, const RagSettings& standard, const std::string& name) {
   if (!rag.passport.empty() || rag.properties != "published") return "";
-  const bool same_mass = rag.mass_per_area == standard.mass_per_area || rag.as_published,
+  const bool same_mass = rag.mass_per_area == standard.mass_per_area || rag.has_published_density(),
              same_thickness = rag.thickness == standard.thickness;
   if (same_mass && same_thickness) return "";
   std::string text = name + " has mass_per_area = " + words(rag.mass_per_area) + " kg/m2 and thickness = " + words(1e3 * rag.thickness) +
                      " mm, but the bonds of the wet dust cloth of Jensen (2018), which has " + words(standard.mass_per_area) +
                      " kg/m2 and " + words(1e3 * standard.thickness) + " mm";
-  if (same_mass != same_thickness && !rag.as_published)
+  if (same_mass != same_thickness && !rag.has_published_density())
     text += std::string("; its ") + (same_mass ? "mass" : "thickness") + " is the default one, too";
-  return text + ". Give passport, or properties = \"given\", for the bonds of another cloth";
+  return text + ". Give passport, or properties = \"custom\", for the bonds of another cloth";
 }
 
 /// A mass of cloth soaked with water, in another liquid.
 std::string mass_of_another_liquid(const RagSettings& rag, const RagSettings& standard, const std::string& name, double liquid) {
-  if (rag.as_published || rag.mass_per_area != standard.mass_per_area || std::abs(liquid - water_density) <= noticeable * water_density)
+  if (rag.has_published_density() || rag.mass_per_area != standard.mass_per_area ||
+      std::abs(liquid - water_density) <= noticeable * water_density)
     return "";
   return name + " has mass_per_area = " + words(rag.mass_per_area) + " kg/m2, that of a cloth soaked with water of " +
          words(water_density) + " kg/m3; soaked with this liquid of " + words(liquid) + " kg/m3 it has " +

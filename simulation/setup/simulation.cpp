@@ -38,7 +38,7 @@ struct TemporaryMesh {
 template <class Settings>
 void read(const Table& root, Settings& settings) {
   const Section section = settings.section();
-  root.table(section.name).read(section.parameters);
+  root.table(section).read(section.parameters);
 }
 
 std::filesystem::path made_mesh(MPI_Comm comm, const MeshSettings& settings, const CaseFile& file) {
@@ -122,14 +122,14 @@ void Simulation::build_water(const CaseFile& file) {
   const auto gap_picture = std::filesystem::path(file.file()).replace_extension(".interface_gap.vtp");
   auto zone = read_rotating_zone(file.root(), *mesh, gap_picture);
   if (start_settings_.frozen && zone)
-    throw Error(ExitCode::usage, "[start] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
+    throw Error(ExitCode::usage, "[initial_flow] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
   auto boundaries = read_boundaries(file.root());
   auto turbulence = read_turbulence(file.root());
   laminar_asked_ = file.root().table("turbulence").has("model");
   if (store_ && start_settings_.frozen) {
     std::string conditions;
     for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
-    const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map), words(settings.density),
+    const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map_nearest_cell), words(settings.density),
                              words(settings.viscosity()), words(turbulence != nullptr), conditions});
     stored_water_ = &store_->waters[key];
     water = stored_water_->solver;
@@ -183,7 +183,7 @@ void Simulation::couple(const CaseFile& file) {
     Coupling coupling = read_coupling(file.root());
     if (frozen && coupling.settings.two_way())
       throw Error(ExitCode::usage,
-                  "[start] frozen with [coupling] mode = \"two_way\": water that stands cannot feel the rags; use \"one_way\"");
+                  "[initial_flow] frozen with [coupling] mode = \"two_way\": water that stands cannot feel the rags; use \"one_way\"");
     coupled = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
   } else if (prescribed_) {
     coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
@@ -266,17 +266,17 @@ void Simulation::insert_rags() {
     if (fresh.empty() && time_step_ > 0) crowding = overlap_of_particles(*rags);
     rags->insert(r);
     fresh.push_back(r);
-    if (piece.with_water) push_with_water(r);
+    if (piece.match_flow_velocity) add_flow_velocity(r);
     if (time_step_ > 0) log::info(piece.rag.name + ": put in at " + words(time()) + " s");
   }
   check_start(*this, fresh, crowding);
 }
 
-void Simulation::push_with_water(int rag) {
+void Simulation::add_flow_velocity(int rag) {
   const std::optional<Vec3> velocity = coupled ? coupled->water_velocity(rag) : std::nullopt;
   if (!velocity)
     throw Error(ExitCode::usage, rags->rags()[static_cast<std::size_t>(rag)].name +
-                                     ": with_water = true, but this case computes no water; give velocity, or [mesh] and [flow]");
+                                     ": match_flow_velocity = true, but this case computes no water; give velocity, or [mesh] and [flow]");
   rags->push(rag, *velocity);
 }
 
@@ -298,10 +298,11 @@ void Simulation::check_inside() {
 std::string Simulation::start() {
   const bool frozen = start_settings_.frozen;
   if (start_settings_.from.empty()) {
-    if (frozen) throw Error(ExitCode::usage, "[start] frozen: there is no water to stand still; give from, the output folder of a run");
+    if (frozen)
+      throw Error(ExitCode::usage, "[initial_flow] frozen: there is no water to stand still; give from, the output folder of a run");
     return {};
   }
-  if (!water) throw Error(ExitCode::usage, "[start] from: this case computes no water; remove it, or give [mesh]");
+  if (!water) throw Error(ExitCode::usage, "[initial_flow] from: this case computes no water; remove it, or give [mesh]");
   if (!frozen) return start_flow(*water, start_settings_, start_folder_).told;
   StoredWater own;
   StoredWater& kept = stored_water_ ? *stored_water_ : own;

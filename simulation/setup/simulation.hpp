@@ -49,10 +49,10 @@ class Simulation {
   /// There is no step left to do.
   bool has_ended() const { return time_step_ >= time_settings.n_steps() || rags_have_left(); }
 
-  /// Initial fields of the water from another run, if [start] names one; returns a line for the log, empty without. Collective; throws
-  /// Error.
+  /// Initial fields of the water from another run, if [initial_flow] names one; returns a line for the log, empty without. Collective;
+  /// throws Error.
   std::string start();
-  /// The water stays as [start] gives it.
+  /// The water stays as [initial_flow] gives it.
   bool frozen() const { return start_settings_.frozen; }
   /// The case says that the water is laminar; it is not only for want of a model.
   bool laminar_asked() const { return laminar_asked_; }
@@ -98,7 +98,7 @@ class Simulation {
   void couple(const CaseFile& file);
   void move_water(double dt);
   void bound_speeds();
-  void push_with_water(int rag);
+  void add_flow_velocity(int rag);
   void remove_rags();
   void check_inside();
 

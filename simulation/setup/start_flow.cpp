@@ -40,7 +40,7 @@ void check_checkpoint(MPI_Comm comm, const std::filesystem::path& folder, const 
 
 /// Throws unless the cells of the checkpoint are those of this mesh, by number and place.
 void check_same_mesh(CheckpointReader& reader, const Mesh& mesh, const std::string& where) {
-  const std::string remedy = "; take the run's own mesh, or set map = true to take each cell's values from the nearest cell";
+  const std::string remedy = "; take the run's own mesh, or set map_nearest_cell = true to take each cell's values from the nearest cell";
   const auto n_stored = sum(mesh.comm, static_cast<std::int64_t>(reader.ids(velocity_name).size()));
   if (n_stored != mesh.n_cells_global)
     throw Error(ExitCode::usage, where + ": that run has " + std::to_string(n_stored) + " cells and this mesh " +
@@ -80,7 +80,8 @@ void search(const std::vector<std::int64_t>& ids, const std::vector<Vec3>& centr
 /// Of each owned cell the number of the nearest cell of the checkpoint: the ranks' shares of the stored centres go round one after another.
 std::vector<std::int64_t> nearest_ids(CheckpointReader& reader, const Mesh& mesh, const std::string& where, double& farthest) {
   if (!reader.has(centre_name))
-    throw Error(ExitCode::usage, where + ": that checkpoint does not tell where its cells are, which map = true needs; repeat that run");
+    throw Error(ExitCode::usage,
+                where + ": that checkpoint does not tell where its cells are, which map_nearest_cell = true needs; repeat that run");
   const std::vector<std::int64_t> mine = reader.ids(centre_name);
   const std::vector<Vec3> my_centres = centres_of(reader, mine);
   std::vector<Nearest> nearest(static_cast<std::size_t>(mesh.n_cells));
@@ -104,18 +105,21 @@ std::vector<std::int64_t> nearest_ids(CheckpointReader& reader, const Mesh& mesh
 
 Section StartSettings::section() {
   return {
-      .name = "start",
+      .name = "initial_flow",
       .meaning = "Water to start from instead of the initial velocity: that of another run, as of a steady one. Time begins at 0.",
       .parameters = {file_setting("from", &from,
                                   "Output folder of the other run, relative to the case file; its newest checkpoint gives velocity, "
-                                  "pressure, k and epsilon. On the same mesh, unless map is set."),
-                     setting("map", &map, "Each cell takes the values of the nearest cell of the other run, for another mesh."),
+                                  "pressure, k and epsilon. The mesh must be the same, unless map_nearest_cell is true."),
+                     renamed(setting("map_nearest_cell", &map_nearest_cell,
+                                     "Each cell takes the values of the nearest cell of the other run, whose mesh may be another one."),
+                             {.key = "map"}),
                      setting("frozen", &frozen,
                              "The water stays as it starts and carries the rags, which it does not feel (one_way): many rags through one "
                              "flow in a moment. Not with a rotating zone."),
                      {"velocity_factor", &velocity_factor, "1", 0, 100, Basis::assumed,
                       "frozen: the velocities of the other run times this, k with its square, epsilon with its cube: the same flow at "
-                      "another rate, as long as the Reynolds number hardly matters."}}};
+                      "another rate, as long as the Reynolds number hardly matters."}},
+      .former_name = "start"};
 }
 
 void scale_flow(Flow& flow, const Flow& as_started, double factor) {
@@ -134,7 +138,7 @@ void scale_flow(Flow& flow, const Flow& as_started, double factor) {
 }
 
 StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder) {
-  const std::string where = "[start] from = \"" + settings.from + "\"";
+  const std::string where = "[initial_flow] from = \"" + settings.from + "\"";
   Flow& flow = water.flow;
   const Mesh& mesh = flow.mesh;
   check_checkpoint(mesh.comm, folder / "checkpoint", where);
@@ -144,7 +148,7 @@ StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const s
   std::string told = "start: water of " + folder.string() + " at " + words(time) + " s";
   if (!reader.fallback().empty()) told += "; " + reader.fallback();
   std::vector<std::int64_t> ids(owned_ids(mesh).begin(), owned_ids(mesh).end());
-  if (settings.map) {
+  if (settings.map_nearest_cell) {
     double farthest = 0;
     ids = nearest_ids(reader, mesh, where, farthest);
     told += ", from the nearest cells, " + words(farthest) + " m away or less";

@@ -18,7 +18,7 @@ class CheckpointWriter;
 
 struct StartSettings {
   std::string from;  // output folder of the other run, relative to the case file; empty: no such start
-  bool map = false;
+  bool map_nearest_cell = false;
   bool frozen = false;
   double velocity_factor = 1;
   Section section();

@@ -9,18 +9,19 @@ namespace {
 struct MovingWall final : Boundary {
   static constexpr const char* name = "moving_wall";
   Vec3 velocity, origin, axis{0, 0, 1};
-  double speed = 0;
+  double rotation_speed = 0;  // rad/s
   TimeCourse course;
 
   Section section() override {
     Section section{
         .name = name,
         .meaning = "No slip on a wall that moves along itself: a velocity, a rotation, or both.",
-        .parameters = {
-            {"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the wall."},
-            {"speed", &speed, "1/s", -infinity, infinity, Basis::assumed, "Speed of rotation (rad/s; \"1200 rpm\" is understood)."},
-            {"axis", &axis, "1", -infinity, infinity, Basis::assumed, "Direction of the axis of rotation; any length."},
-            {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis of rotation."}}};
+        .parameters = {{"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the wall."},
+                       renamed({"rotation_speed", &rotation_speed, "rad/s", -infinity, infinity, Basis::assumed,
+                                "Speed of rotation; \"1200 rpm\" is understood."},
+                               {.key = "speed", .unit = "1/s"}),
+                       {"axis", &axis, "1", -infinity, infinity, Basis::assumed, "Direction of the axis of rotation; any length."},
+                       {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis of rotation."}}};
     course.add_keys(section, "motion");
     return section;
   }
@@ -34,7 +35,7 @@ struct MovingWall final : Boundary {
   }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     const double factor = course.at(time);
-    const Vec3 omega = speed * unit(axis);
+    const Vec3 omega = rotation_speed * unit(axis);
     const auto turning = Turning::over_step(flow, time, origin, factor * omega, course.at(flow.time) * omega);
     for (int f = patch.first; f < patch.end(); ++f) set_turning_wall(turning, factor * velocity, flow, f, values);
   }

@@ -10,18 +10,20 @@ namespace {
 
 struct Wall final : Boundary {
   static constexpr const char* name = "wall";
-  bool fixed = false;
+  bool stationary = false;
 
   Section section() override {
-    return {.name = name,
-            .meaning = "No slip on a wall at rest, or turning with the turning zone where it is part of that.",
-            .parameters = {
-                setting("fixed", &fixed, "The wall stays at rest though its cells turn: a casing wall that is a surface of revolution.")}};
+    return {
+        .name = name,
+        .meaning = "No slip on a wall at rest, or turning with the turning zone where it is part of that.",
+        .parameters = {renamed(setting("stationary", &stationary,
+                                       "The wall stays at rest although its cells turn: a casing wall that is a surface of revolution."),
+                               {.key = "fixed"})}};
   }
   Fixes fixes() const override { return Fixes::velocity; }
   bool is_wall() const override { return true; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
-    const RotatingZone* zone = fixed ? nullptr : flow.rotating_zone;
+    const RotatingZone* zone = stationary ? nullptr : flow.rotating_zone;
     const Turning still,
         turning =
             zone ? Turning::over_step(flow, time, zone->origin(), zone->rotation_speed(time), zone->rotation_speed(flow.time)) : still;

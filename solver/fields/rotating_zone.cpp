@@ -27,7 +27,9 @@ Section RotatingZoneSettings::section() {
           {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis."},
           {"axis", &axis, "1", -infinity, infinity, Basis::assumed,
            "Direction of the axis, any length; right-handed about it is positive."},
-          {"speed", &speed, "rad/s", -infinity, infinity, Basis::assumed, "Speed of rotation; \"1200 rpm\" is understood."},
+          renamed(
+              {"rotation_speed", &speed, "rad/s", -infinity, infinity, Basis::assumed, "Speed of rotation; \"1200 rpm\" is understood."},
+              {.key = "speed"}),
           {"ramp", &ramp, "s", 0, infinity, Basis::assumed, "Time in which the speed grows linearly from zero to its full value."},
           {"start_angle", &start_angle, "rad", -infinity, infinity, Basis::assumed,
            "Angle of the zone at the start, from where the mesh file has it; \"90 deg\" is understood."}}};

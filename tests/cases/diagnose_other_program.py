@@ -18,7 +18,7 @@ import numpy
 
 RHO, G = 1000.0, numpy.array([0.0, 0.0, -9.81])
 POINTS, N_SAMPLES, REPLICATES, NOISE, END, STEP = "ABCD", 20, 5, 2e-4, 0.7, 5e-4
-U_OF_INPUTS = {"flow.amplitude": 0.05, "drag_form": 0.05, "particle.density_kg_m3": 0.002, "flow.kinematic_viscosity_m2_s": 0.02}
+U_OF_INPUTS = {"flow.amplitude": 0.05, "drag_law_uncertainty": 0.05, "particle.density_kg_m3": 0.002, "flow.kinematic_viscosity_m2_s": 0.02}
 
 # Truth, what has to be said, strengths, acceleration of a force that no library holds.
 SETS = [
@@ -111,7 +111,7 @@ kinematic_viscosity_m2_s = {water.nu}
 velocity_m_s = [{water.velocity}, 0, 0]
 gradient_per_s = [[0, 0, {water.shear}], [0, 0, 0], [0, 0, 0]]
 amplitude_m_s = [{water.amplitude}, 0, 0]
-omega_per_s = [{water.omega}, 0, 0]
+angular_frequency_rad_s = [{water.omega}, 0, 0]
 [[particle]]
 diameter_m = {d}
 density_kg_m3 = {density}

@@ -20,7 +20,7 @@ numerics_u = 0.0
 [[point]]
 id = "part_load"
 case = "CASE"
-set = ["boundary.0.flow_rate_L_s=14.74", "time.end_ms=2112", "time.run_on_ms=0", "rag.0.insert_time_ms=112", "flow.outer_correctors=1"]
+set = ["boundary.0.flow_rate_L_s=14.74", "time.end_ms=2112", "time.run_on_ms=0", "rag.0.insert_time_ms=112", "flow.n_outer_correctors=1"]
 role = "train"
 [[alternative]]
 effect = "operating_point"
@@ -33,7 +33,7 @@ candidates = ["operating_point"]
 pairs = false
 [budget]
 max_runs = 300  # five seeds a state at one point
-runs = "RUNS"
+runs_table = "RUNS"
 seed = 1
 """
 

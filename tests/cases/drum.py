@@ -26,7 +26,7 @@ kind = "stl"
 file = "drum.stl"
 normals_into_fluid = true
 axis = [0, 1, 0]
-speed_rpm = {speed}
+rotation_speed_rpm = {speed}
 [[rag]]
 length_mm = 60
 width_mm = 44

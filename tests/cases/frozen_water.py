@@ -1,6 +1,6 @@
 # timeout: 300
 # cost: 12
-"""Requirement: water that [start] freezes stays as it was at any rate of flow and carries rags, on any number of ranks and after a resume; a diagnosis runs such cases in memory and finds the same numbers."""
+"""Requirement: water that [initial_flow] freezes stays as it was at any rate of flow and carries rags, on any number of ranks and after a resume; a diagnosis runs such cases in memory and finds the same numbers."""
 import json
 
 import numpy
@@ -11,7 +11,7 @@ from start_from import CASE, COARSE, Water
 # Goes on in [output] of the case of start_from.py.
 RAG = """
 rags_interval_s = 0.02
-[start]
+[initial_flow]
 from = "steady"
 frozen = true
 velocity_factor = {factor}
@@ -21,12 +21,12 @@ width_mm = 24
 radius_mm = 2
 centre_m = [0.3, 0.05, 0.05]
 lengthwise = [0.6, 0.8, 0]
-with_water = true
+match_flow_velocity = true
 [coupling]
 mode = "{mode}"
 kernel = "cell"
 forces = ["published"]
-[observe]
+[virtual_camera]
 window_lower_m = [0.35, 0, 0]
 window_upper_m = [0.45, 0.1, 0.1]
 """
@@ -76,7 +76,7 @@ class FrozenWater(harness.CaseTest):
         for named, options in (("two_way", {"mode": "two_way"}), ("from", {"source": ""})):
             run = self.run_case(self.frozen(**options), 2, out="refused", code=2)
             self.assertEqual(len(run.messages), 1, run.stderr)
-            for fragment in ("[start] frozen", named):
+            for fragment in ("[initial_flow] frozen", named):
                 self.assertIn(fragment, run.messages[0])
 
     def test_diagnosis_in_memory(self):
@@ -95,7 +95,7 @@ class FrozenWater(harness.CaseTest):
 [[point]]
 id = "{factor}"
 case = "frozen_1_one_way.toml"
-set = ["start.velocity_factor={factor}"]
+set = ["initial_flow.velocity_factor={factor}"]
 input_u = {{ "flow.amplitude" = 0.01 }}
 """
         self.frozen(1)

@@ -50,7 +50,7 @@ pixel_mm = 1
 interval_ms = 20
 [cloth]
 background = "{background}"
-[volute]
+[pump_in_picture]
 axis = [200, 200]
 tongue = [300, 200]
 outlet = [340, 40]
@@ -200,7 +200,7 @@ class Observe(harness.CaseTest):
                 arguments.append(folder)
         background = self.work / "empty.pgm"
         write_picture(background)
-        camera = self.camera(PUMP[: PUMP.index("[volute]")].format(background=background), "points")
+        camera = self.camera(PUMP[: PUMP.index("[pump_in_picture]")].format(background=background), "points")
         run = self.snag_observe([*arguments, "--camera", camera], "points")
         areas = [[[width * height * 1e-6 for width, height in rag] for rag in rags] for rags in sizes.values()]
         every = [numpy.concatenate(group) for group in areas]

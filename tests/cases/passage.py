@@ -11,7 +11,7 @@ from turning_zone import RING_WALLS, Rings
 
 N_STEPS, N_PARTICLES = 100, 60
 PASSAGE = """
-[passage]
+[rag_passage]
 inlet_flange_m = [0, 0, 0.04]
 inlet_normal = [0, 0, -1]
 inlet_radius_m = 0.05
@@ -54,7 +54,7 @@ class RagThroughRings(harness.CaseTest):
         Rings().write(mesh)
         cls.file = cls.shared / "case.toml"
         cls.file.write_text(pump_case(
-            "rag-through-rings", mesh, rotor='speed = "600 rpm"', time="end_s = 0.1\nstep_s = 1e-3",
+            "rag-through-rings", mesh, rotor='rotation_speed = "600 rpm"', time="end_s = 0.1\nstep_s = 1e-3",
             flow="initial_velocity_m_s = [0, 0, -0.5]\n" + tight_flow("1e-11"), flow_rate_L_s=5, walls=RING_WALLS, more=PASSAGE + RAG,
             output="rags_interval_s = 0.001\n[checkpoint]\ninterval_s = 0.06"))
         cls.done = harness.snag(["run", cls.file, "--out", cls.shared / "1"], 1, cls.shared / "1")
@@ -164,7 +164,7 @@ class RagThroughRings(harness.CaseTest):
 
     def test_passage_needs_a_turning_zone(self):
         refused = self.run_case(self.case(CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell") + PASSAGE), code=2)
-        self.assertIn("[passage]", refused.stderr)
+        self.assertIn("[rag_passage]", refused.stderr)
         self.assertIn("add [rotating_zone]", refused.stderr)
 
 

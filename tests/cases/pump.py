@@ -29,7 +29,7 @@ class Pump(harness.CaseTest):
     def setUp(self):
         super().setUp()
         self.file = self.case(pump_case(
-            "pump", harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", rotor="speed_rpm = 1200", pump=FLANGES,
+            "pump", harness.SOURCE_DIR / "cases" / "meshes" / "pump_coarse.msh", rotor="rotation_speed_rpm = 1200", pump=FLANGES,
             time=f"end_s = {self.n_steps * STEP}\nstep_s = {STEP}", flow=WATER + tight_flow("1e-10"),
             output=f"single_precision = false\nfields_interval_s = {self.n_between_fields * STEP}\n"
                    f"[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}"))

@@ -12,7 +12,7 @@ import harness
 from small_cases import FLANGES, K_EPSILON, pump_case, tight_flow
 
 WATER = "kinematic_viscosity_m2_s = 1.0048e-6\ninitial_velocity_m_s = [0, 0, -1]\n"
-SPEED = "speed_rpm = 600     # an impact at full speed multiplies round-off of the water by some thousand"
+SPEED = "rotation_speed_rpm = 600     # an impact at full speed multiplies round-off of the water by some thousand"
 RAGS = """
 [[wall]]
 kind = "patches"
@@ -44,8 +44,8 @@ centre_m = [-0.05, -0.135, 0.04]
 lengthwise = [0, 0, 1]
 crosswise = [1, -0.3, 0]
 insert_time_ms = {insert_ms}
-with_water = true
-[passage]
+match_flow_velocity = true
+[rag_passage]
 inlet_flange_m = [0, 0, 0.086]
 inlet_normal = [0, 0, -1]
 inlet_radius_mm = 50

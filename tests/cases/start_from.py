@@ -68,7 +68,7 @@ class StartFromAnotherRun(harness.CaseTest):
         steady = self.steady()
         left = first_and_last(steady)[1]
         for ranks in (1, 2, 3):
-            run = self.run_case(self.channel("goes_on", more='[start]\nfrom = "steady"'), ranks, out=f"on_{ranks}")
+            run = self.run_case(self.channel("goes_on", more='[initial_flow]\nfrom = "steady"'), ranks, out=f"on_{ranks}")
             self.assertIn("start: water of", (run.folder / "log.txt").read_text())
             begun = first_and_last(run)[0]
             for name in ("velocity [m/s]", *SCALARS):
@@ -84,7 +84,7 @@ class StartFromAnotherRun(harness.CaseTest):
         """A flow that still changes goes on on the same mesh as it would have in its own run, from the first step on."""
         early = self.run_case(self.channel("early"), 2, out="early")
         whole = self.run_case(self.channel("whole", end=0.2), 2, out="whole").monitor("patches")
-        goes_on = self.run_case(self.channel("goes_on", more='[start]\nfrom = "early"'), 1, out="goes_on").monitor("patches")
+        goes_on = self.run_case(self.channel("goes_on", more='[initial_flow]\nfrom = "early"'), 1, out="goes_on").monitor("patches")
         self.assertEqual(early.summary["time_steps"], 5)
         for column in ("inlet_pressure", "top_force_x"):
             expected, found = whole.column(column)[5:], goes_on.column(column)
@@ -94,7 +94,7 @@ class StartFromAnotherRun(harness.CaseTest):
     def test_resumed(self):
         """A resume of a run with such a start goes on by itself: the other run may be gone."""
         self.steady()
-        case = self.channel("goes_on", more='[start]\nfrom = "steady"\n[checkpoint]\ninterval_s = 0.04')
+        case = self.channel("goes_on", more='[initial_flow]\nfrom = "steady"\n[checkpoint]\ninterval_s = 0.04')
         whole = self.run_case(case, 2, out="whole")
         (self.work / "steady").rename(self.work / "gone")
         slots = sorted((whole.folder / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
@@ -112,7 +112,7 @@ class StartFromAnotherRun(harness.CaseTest):
                 self.run_case(self.channel("coarse", COARSE), 2, out="coarse")
             left = first_and_last(harness.Run(self.work / name, 0, "", ""))[1]
             begun = [
-                first_and_last(self.run_case(self.channel("mapped", mesh, 0.02, f'[start]\nfrom = "{name}"\nmap = true'), n, out=f"{name}_on_{n}"))[0]
+                first_and_last(self.run_case(self.channel("mapped", mesh, 0.02, f'[initial_flow]\nfrom = "{name}"\nmap_nearest_cell = true'), n, out=f"{name}_on_{n}"))[0]
                 for n in (1, 3)
             ]
             distance = numpy.linalg.norm(begun[0].centre[:, None] - left.centre[None], axis=2)
@@ -131,15 +131,15 @@ class StartFromAnotherRun(harness.CaseTest):
         self.assertFalse((self.work / "refused" / "log.txt").exists())
 
     def test_refused(self):
-        self.refused(6, ["[start]", "absent", "no valid checkpoint"], self.channel("a", more='[start]\nfrom = "absent"'))
+        self.refused(6, ["[initial_flow]", "absent", "no valid checkpoint"], self.channel("a", more='[initial_flow]\nfrom = "absent"'))
         self.run_case(self.channel("coarse", COARSE), 1, out="coarse")
-        self.refused(2, ["90 cells", "720", "map = true"], self.channel("b", more='[start]\nfrom = "coarse"'))
-        self.refused(2, ["[start]", "elsewhere", "map = true"], self.shifted())
-        self.refused(2, ["[start]", "no water"], self.case('[time]\nend_s = 1\nstep_s = 1\n[start]\nfrom = "coarse"\n[[rag]]\nlength_mm = 20\nwidth_mm = 20\nradius_mm = 1\n', "d"))
+        self.refused(2, ["90 cells", "720", "map_nearest_cell = true"], self.channel("b", more='[initial_flow]\nfrom = "coarse"'))
+        self.refused(2, ["[initial_flow]", "elsewhere", "map_nearest_cell = true"], self.shifted())
+        self.refused(2, ["[initial_flow]", "no water"], self.case('[time]\nend_s = 1\nstep_s = 1\n[initial_flow]\nfrom = "coarse"\n[[rag]]\nlength_mm = 20\nwidth_mm = 20\nradius_mm = 1\n', "d"))
 
     def shifted(self):
         """The coarse case with its mesh half as large: as many cells, at other places."""
-        text = CASE.format(mesh=self.mesh(*COARSE), end=0.1, more='[start]\nfrom = "coarse"').replace("[time]", "scale = 0.5\n[time]", 1)
+        text = CASE.format(mesh=self.mesh(*COARSE), end=0.1, more='[initial_flow]\nfrom = "coarse"').replace("[time]", "scale = 0.5\n[time]", 1)
         return self.case(text, "shifted")
 
 

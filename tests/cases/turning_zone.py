@@ -77,7 +77,7 @@ class TurningZone(harness.CaseTest):
     def rings(self, motion="sliding"):
         mesh = self.shared / "rings.msh"
         Rings().write(mesh)
-        rotor = f'motion = "{motion}"\nspeed = "1200 rpm"\nramp = "0.02 s"\nstart_angle = "5 deg"'
+        rotor = f'motion = "{motion}"\nrotation_speed = "1200 rpm"\nramp = "0.02 s"\nstart_angle = "5 deg"'
         return self.case(pump_case(
             "turning-rings", mesh, rotor=rotor, time=f"end_s = {self.n_steps * STEP}\nstep_s = {STEP}", flow=tight_flow("1e-11"),
             flow_rate_L_s=2, walls=RING_WALLS, more=K_EPSILON + START,

@@ -10,7 +10,7 @@ COARSE = ("impeller_width_mm=20", "side_gap_mm=5", "design_flow_L_s=8", "inlet_l
 
 
 def three_vanes(mesh):
-    return pump_case("three-vanes", mesh, rotor="speed_rpm = 1000", time="end_ms = 40\nstep_ms = 2", flow="outer_correctors = 2", flow_rate_L_s=6)
+    return pump_case("three-vanes", mesh, rotor="rotation_speed_rpm = 1000", time="end_ms = 40\nstep_ms = 2", flow="n_outer_correctors = 2", flow_rate_L_s=6)
 
 
 class Vanes(harness.CaseTest):

@@ -31,7 +31,7 @@ class ManyVanes(harness.CaseTest):
                 self.assertEqual(judged.code, 0, judged.tail())
                 skew = float(re.search(r"skew cells.* ([\d.e-]+) % of the volume", judged.stdout).group(1))
                 self.assertLess(skew, 10)
-                settings = ["rotating_zone.speed_rpm=1200", "rotating_zone.ramp_ms=20", "time.step_ms=0.4", "time.end_ms=160",
+                settings = ["rotating_zone.rotation_speed_rpm=1200", "rotating_zone.ramp_ms=20", "time.step_ms=0.4", "time.end_ms=160",
                             f"boundary.0.flow_rate_L_s={flow}", "boundary.0.ramp_ms=20"]
                 run = self.run_case(self.case(vanes.three_vanes(mesh), name), 1, *[word for s in settings for word in ("--set", s)],
                                     out=name, timeout=3600)

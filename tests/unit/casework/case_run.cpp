@@ -84,7 +84,7 @@ forces = []
   EXPECT_NEAR(seen[0], 0.020 * 0.002, 1e-3 * 4e-5);
   EXPECT_NEAR(seen[1], 10, 1e-3 * 10);
   EXPECT_NEAR(seen[2], std::atan2(4, 3), 1e-9);
-  const auto end_on = run(fibre + "[observe]\nright = [4, -3, 0]\nup = [0, 0, 1]\n", {{"area", 0.001}});
+  const auto end_on = run(fibre + "[virtual_camera]\nright = [4, -3, 0]\nup = [0, 0, 1]\n", {{"area", 0.001}});
   EXPECT_NEAR(end_on[0], std::numbers::pi / 4 * 4e-6, 1e-3 * 4e-6);
 }
 
@@ -100,7 +100,7 @@ velocity_m_s = [0.5, 0, 0]
 velocity_m_s = [0.5, 0, 0]
 [coupling]
 forces = ["free_stream_drag"]
-[observe]
+[virtual_camera]
 exit_normal = [1, 0, 0]
 exit_point_m = )";
   const std::vector<Asked> asked{{"retention_time"}, {"exited"}};

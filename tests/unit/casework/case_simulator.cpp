@@ -62,9 +62,10 @@ class CaseSimulatorTest : public testing::Test {
     MPI_Barrier(MPI_COMM_WORLD);
     experiment_.observables = {{.id = "x", .unit = "m", .noise_u = 1e-4, .bias_u = 1e-3, .calibration_group = "camera"}};
     for (const char* id : {"A", "B"})
-      experiment_.points.push_back({.id = id,
-                                    .case_file = folder_ / "case.toml",
-                                    .input_u = {{"flow.amplitude", 0.05}, {"particle.density_kg_m3", 0.01}, {"drag_form", 0.05}}});
+      experiment_.points.push_back(
+          {.id = id,
+           .case_file = folder_ / "case.toml",
+           .input_u = {{"flow.amplitude", 0.05}, {"particle.density_kg_m3", 0.01}, {"drag_law_uncertainty", 0.05}}});
     for (const int point : {0, 1})
       for (const double t : {0.02, 0.05, 0.1}) experiment_.data.push_back({.point = point, .time = t});
   }
@@ -144,24 +145,25 @@ TEST_F(CaseSimulatorTest, SharesWhatIsTheSameThing) {
   EXPECT_EQ(count, (std::map<std::string, int>{{"flow.amplitude of a point", 2},
                                                {"particle.density_kg_m3", 1},
                                                {"particle.density_kg_m3 of a point", 2},
-                                               {"drag_form", 1},
-                                               {"drag_form.slope", 1},
+                                               {"drag_law_uncertainty", 1},
+                                               {"drag_law_uncertainty.slope", 1},
                                                {"camera", 1}}));
   for (const double variance : variance_of_density) EXPECT_NEAR(std::sqrt(variance), 0.01, 1e-15);
 }
 
 /// Requirement: an error of the drag law that is each point's own is not shared, and changes the drag as the shared one does.
 TEST_F(CaseSimulatorTest, TellsOwnFromSharedErrorOfTheDragLaw) {
-  for (OperatingPoint& point : experiment_.points) point.input_u.emplace_back("drag_form_of_point", 0.05);
+  for (OperatingPoint& point : experiment_.points) point.input_u.emplace_back("drag_law_uncertainty_per_point", 0.05);
   CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
   int own = 0;
   for (const Nuisance& nuisance : simulator.nuisances()) {
-    if (nuisance.name != "drag_form_of_point") continue;
+    if (nuisance.name != "drag_law_uncertainty_per_point") continue;
     ++own;
     EXPECT_EQ(nuisance.points.size(), 1u);
   }
   EXPECT_EQ(own, 2);
-  EXPECT_EQ(values(simulator, with_input("drag_form_of_point", 0.1)), values(simulator, with_input("drag_form", 0.1)));
+  EXPECT_EQ(values(simulator, with_input("drag_law_uncertainty_per_point", 0.1)),
+            values(simulator, with_input("drag_law_uncertainty", 0.1)));
 }
 
 /// Requirement: all ranks have the same answers; equal requests run once; a new start with the same folder runs nothing again.

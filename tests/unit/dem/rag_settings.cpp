@@ -24,7 +24,7 @@ RagPiece piece_of(const std::string& text) {
 
 TEST(RagSettings, PublishedClothHasItsParticlesAndBonds) {
   // Requirement: the rag of the thesis at r_p = 1 mm is an in-line grid of 150 x 110 spheres with the bonds of Tables 3.3 and 3.4.
-  const RagPiece piece = piece_of("[[rag]]\nradius_mm = 1.0\nas_published = true\n");
+  const RagPiece piece = piece_of("[[rag]]\nradius_mm = 1.0\ndensity_model = \"jensen_2018\"\n");
   const Rag& rag = piece.rag;
   EXPECT_EQ(rag.n_columns, 150);
   EXPECT_EQ(rag.n_rows, 110);
@@ -112,16 +112,16 @@ TEST(RagSettings, ContactsAreNoHarderThanTheBeam) {
 }
 
 TEST(RagSettings, GivenBondsMustBeGiven) {
-  // Requirement: properties = "given" without stiffness is an error that names the keys.
+  // Requirement: properties = "custom" without stiffness is an error that names the keys.
   try {
-    piece_of("[[rag]]\nproperties = \"given\"\n");
+    piece_of("[[rag]]\nproperties = \"custom\"\n");
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
     EXPECT_NE(std::string(error.what()).find("normal_stiffness_lengthwise"), std::string::npos);
   }
   const RagPiece piece = piece_of(
-      "[[rag]]\nlength_mm = 20\nwidth_mm = 10\nproperties = \"given\"\nnormal_stiffness_lengthwise_N_m3 = 1e8\n"
+      "[[rag]]\nlength_mm = 20\nwidth_mm = 10\nproperties = \"custom\"\nnormal_stiffness_lengthwise_N_m3 = 1e8\n"
       "normal_stiffness_crosswise_N_m3 = 2e8\nbending_stiffness_crosswise_N_m3 = 3e6\n");
   EXPECT_EQ(piece.rag.bond[1].normal_stiffness, 2e8);
   EXPECT_EQ(piece.rag.bond[1].bending_stiffness, 3e6);

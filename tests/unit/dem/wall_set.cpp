@@ -243,7 +243,7 @@ kind = "box"
 name = "tank"
 lower_m = [0, 0, 0]
 upper_m = ["10 mm", "20 mm", "30 mm"]
-speed = "600 rpm"
+rotation_speed = "600 rpm"
 axis = [0, 1, 0]
 )");
   const WallSet walls = read_walls(file, nullptr);

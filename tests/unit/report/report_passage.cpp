@@ -60,7 +60,8 @@ class PassageReport : public testing::Test {
   }
   void write_case() const {
     std::ofstream(dir / "case.resolved.toml")
-        << "[rotating_zone]\nmotion = \"sliding\"\naxis = [0.0, 0.0, 1.0]\norigin_m = [0.0, 0.0, 0.0]\nspeed_rad_s = 125.66\n[passage]\n"
+        << "[rotating_zone]\nmotion = \"sliding\"\naxis = [0.0, 0.0, 1.0]\norigin_m = [0.0, 0.0, 0.0]\nrotation_speed_rad_s = "
+           "125.66\n[rag_passage]\n"
            "inlet_normal = [0.0, 0.0, -1.0]\noutlet_normal = [0.0, 1.0, 0.0]\ntongue_m = [0.03, 0.04, 0.5]\nimpeller_radius_m = 0.1\n";
   }
   static nlohmann::json summary() {

@@ -32,7 +32,7 @@ PassageSettings pump() {
 }
 
 PassageGeometry geometry(const PassageSettings& settings = pump(), double speed = 125) {
-  return {settings, {}, {0, 0, 1}, speed, "case.toml: [passage]"};
+  return {settings, {}, {0, 0, 1}, speed, "case.toml: [rag_passage]"};
 }
 
 Vec3 at(double degrees, double radius, double z = 0.02) {
@@ -351,7 +351,7 @@ TEST(Passage, WrongTablesAreRefused) {
   refused([](PassageSettings& s) { s.tongue = {0, 0, 0.05}; });
   refused([](PassageSettings& s) { s.outlet_radius = 0; });
   refused([](PassageSettings& s) { s.impeller_radius = 0; });
-  EXPECT_THROW(read_passage(CaseFile::parse("[passage]\n").root(), {}), Error);
+  EXPECT_THROW(read_passage(CaseFile::parse("[rag_passage]\n").root(), {}), Error);
 }
 
 TEST(RagForces, QuantilesOfMagnitudes) {

@@ -102,7 +102,7 @@ TEST(TimeCourse, of_each_kind) {
 
 // A wall that turns: velocity omega x r, acceleration omega x (omega x r), and while its speed rises domega/dt x r; nothing passes.
 TEST(MovingWall, turning) {
-  const std::string keys = "speed_rad_s = 3\naxis = [0, 0, 2]\norigin_m = [0.5, 0.5, 0]\n";
+  const std::string keys = "rotation_speed_rad_s = 3\naxis = [0, 0, 2]\norigin_m = [0.5, 0.5, 0]\n";
   const FirstFace steady = first_face(condition("z1", "moving_wall", keys), 1, 0.1);
   const Vec3 r{steady.centre.x - 0.5, steady.centre.y - 0.5, 0}, across = cross({0, 0, 1}, r);
   EXPECT_GT(norm(r), 0.1);

@@ -68,5 +68,6 @@ TEST(TurningWall, turns_with_its_cells) {
 
 // A wall that is told to stay is at rest, though the mesh slides along it.
 TEST(TurningWall, may_be_fixed) {
-  for (const char* motion : {"sliding", "frame"}) check_walls(motion, "fixed = true\n", [](const Vec3&, double) { return Expected{}; });
+  for (const char* motion : {"sliding", "frame"})
+    check_walls(motion, "stationary = true\n", [](const Vec3&, double) { return Expected{}; });
 }

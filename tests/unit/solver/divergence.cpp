@@ -158,7 +158,7 @@ TEST(DivergenceWatch, advice) {
   message = diverged(outlet, 7);
   EXPECT_TRUE(mentions(message, "enters again through the outlet \"x1\" (100 %")) << message;
   message = diverged(plain, 50);
-  EXPECT_TRUE(mentions(message, "outer_correctors = 2")) << message;
+  EXPECT_TRUE(mentions(message, "n_outer_correctors = 2")) << message;
 }
 
 // A start at once with 10 m/s, at small and at large steps, is no divergence.

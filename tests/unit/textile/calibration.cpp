@@ -94,7 +94,7 @@ TEST(Passport, GivesARagItsBonds) {
   EXPECT_EQ(piece_of("").rag.bond[0].normal_stiffness, 1e8);
   EXPECT_EQ(piece_of("").rag.bond[1].normal_stiffness, 2e8);
   EXPECT_EQ(piece_of("").rag.bond[1].normal_strength, 3e5);
-  EXPECT_THROW(piece_of("properties = \"given\"\nnormal_stiffness_lengthwise_N_m3 = 1\nnormal_stiffness_crosswise_N_m3 = 1\n"), Error);
+  EXPECT_THROW(piece_of("properties = \"custom\"\nnormal_stiffness_lengthwise_N_m3 = 1\nnormal_stiffness_crosswise_N_m3 = 1\n"), Error);
 }
 
 TEST(Passport, LacksNoDirection) {

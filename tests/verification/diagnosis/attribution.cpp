@@ -34,7 +34,7 @@ TEST(Attribution, NullsAreNotBlamedOnEffects) {
   int blamed = 0, none = 0;
   for (int i = 0; i < 60; ++i) {
     formula::Truth truth;
-    if (i % 3 == 0) truth.nuisances = {{"drag_form", i % 2 ? 0.125 : -0.125}, {"flow.viscosity", 0.05}};
+    if (i % 3 == 0) truth.nuisances = {{"drag_law_uncertainty", i % 2 ? 0.125 : -0.125}, {"flow.viscosity", 0.05}};
     const Verdict verdict = judged(truth, 1000 + i, false, 0);
     blamed += verdict.verdict == "effects" && verdict.wording == "attributed";
     none += verdict.verdict == "none";

@@ -49,7 +49,8 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
   const double flow = (1 + get(nuisances, "flow.amplitude")) * (1 + get(effects, "operating_point")),
                nu = 1e-5 * (1 + get(nuisances, "flow.viscosity"));
   const double r = 1000 / f.density, tau = f.density * f.diameter * f.diameter / (18 * 1000 * nu), g = 9.81;
-  const double drag = (1 + get(nuisances, "drag_form")) * (1 + get(effects, "drag_magnitude")), scale = 1 + get(effects, "measurement");
+  const double drag = (1 + get(nuisances, "drag_law_uncertainty")) * (1 + get(effects, "drag_magnitude")),
+               scale = 1 + get(effects, "measurement");
   const double added = get(effects, "added_mass") + get(effects, "entrained_water"), pressure = get(effects, "pressure_gradient"),
                lift = get(effects, "lift"), dispersion = get(effects, "turbulent_dispersion");
   NormalNumbers random(seed * 7919 + static_cast<std::uint64_t>(point));
@@ -118,7 +119,7 @@ class Sphere final : public Simulator {
       for (const auto& [name, u] : experiment.points[p].input_u)
         if (name == "flow.amplitude") nuisances_.push_back({name, u, {p}});
     }
-    nuisances_.push_back({"drag_form", 0.05, all}), nuisances_.push_back({"flow.viscosity", 0.02, all});
+    nuisances_.push_back({"drag_law_uncertainty", 0.05, all}), nuisances_.push_back({"flow.viscosity", 0.02, all});
     for (const Datum& d : experiment.data) {
       auto& slots = slots_[d.point];
       const bool there =
@@ -184,7 +185,7 @@ inline Experiment experiment(const Truth& truth, int n_train, int n_withheld, in
                         .case_file = {},
                         .withheld = p >= n_train,
                         .input_u = {{"flow.amplitude", 0.05}}});
-    Theta nuisances{{"flow.amplitude", 0.05 * random()}, {"flow.viscosity", viscosity}, {"drag_form", drag}};
+    Theta nuisances{{"flow.amplitude", 0.05 * random()}, {"flow.viscosity", viscosity}, {"drag_law_uncertainty", drag}};
     for (const auto& [name, value] : truth.nuisances) nuisances[name] = value;
     std::vector<std::vector<std::array<double, 2>>> paths;
     for (int r = 0; r < n_replicates; ++r)

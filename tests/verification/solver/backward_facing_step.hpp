@@ -15,7 +15,7 @@ class BackwardFacingStep {
   static constexpr double H = 0.0127, U = 44.2, nu = U * H / 37400;  // m, m/s, m2/s
 
   /// 8160 cells times level^2; the inlet is 110 H upstream, uniform.
-  BackwardFacingStep(int level, int outer_correctors) : mesh(grid(level)), solver(flow_solver(mesh, outer_correctors)) {}
+  BackwardFacingStep(int level, int n_outer_correctors) : mesh(grid(level)), solver(flow_solver(mesh, n_outer_correctors)) {}
 
   /// Where the shear on the floor turns from upstream to downstream, in H behind the step; 0 if nowhere.
   double reattachment() const {
@@ -87,10 +87,10 @@ class BackwardFacingStep {
     for (std::size_t i = lines.empty() ? 0 : 1; i < place.size(); ++i) lines.push_back(from + (to - from) * place[i]);
   }
 
-  static FlowSolver flow_solver(const Mesh& mesh, int outer_correctors) {
+  static FlowSolver flow_solver(const Mesh& mesh, int n_outer_correctors) {
     FlowSettings settings;
     settings.density = 1, settings.kinematic_viscosity = nu, settings.initial_velocity = {U, 0, 0};
-    settings.outer_correctors = outer_correctors, settings.n_non_orthogonal = 0;
+    settings.n_outer_correctors = n_outer_correctors, settings.n_non_orthogonal_correctors = 0;
     settings.momentum_tolerance = 1e-6, settings.pressure_tolerance = 1e-4;
     // k = 3/2 (0.005 U)^2, nu_t = 10 nu
     const CaseFile file = CaseFile::parse(R"(

@@ -49,7 +49,7 @@ TEST(TimeOrder, one_corrector) {
 // The same with two correctors.
 TEST(TimeOrder, two_correctors) {
   FlowSettings settings = sharp_settings();
-  settings.outer_correctors = 2;
+  settings.n_outer_correctors = 2;
   const Orders order = time_orders("two correctors", settings, 0);
   EXPECT_GT(order.velocity, 1.8);
   EXPECT_GT(order.pressure, 1.0);

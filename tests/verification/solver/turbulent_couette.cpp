@@ -57,7 +57,7 @@ Cylinders between_cylinders(double inner, double outer, double water, int steps)
   ring.patches = {"inner", "outer"};
   ring.patch = [](int, int, GridSide side) { return side == GridSide::low_j ? "inner" : "outer"; };
   const Mesh mesh = plane_mesh(ring);
-  const auto speed = [](double value) { return "speed = \"" + std::to_string(value) + " rad/s\""; };
+  const auto speed = [](double value) { return "rotation_speed = \"" + std::to_string(value) + " rad/s\""; };
   FlowSolver solver(mesh, {},
                     conditions(moving_wall("inner", speed(inner)) + moving_wall("outer", speed(outer)) +
                                "[[boundary]]\npatch = \"sides\"\nkind = \"symmetry\"\n"),
