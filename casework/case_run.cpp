@@ -83,7 +83,7 @@ struct Question {
   std::size_t place;
 };
 
-std::vector<Question> slots_of(const std::vector<Asked>& asked, bool has_window) {
+std::vector<Question> slots_of(const std::vector<ObservableRequest>& asked, bool has_window) {
   std::vector<Question> slots;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const ObservableRecord& w = record_of(asked[i].observable);
@@ -196,9 +196,9 @@ double last_time(const std::vector<Question>& slots, double end) {
   return last;
 }
 
-PlaceInPiece place_in_piece(const Tile& tile, const Rag& rag, int k, int column) {
+LatticePosition place_in_piece(const Tile& tile, const Rag& rag, int k, int column) {
   const int n = rag.n_columns;
-  PlaceInPiece place{.x = tile.vector(Tile::x, k), .along = 0, .mean_abs_along = 0, .normal = {}};
+  LatticePosition place{.x = tile.vector(Tile::x, k), .along = 0, .mean_abs_along = 0, .normal = {}};
   if (n == 1) return place;
   place.along = (2.0 * (tile.column + column) - (n - 1)) / (n - 1);
   place.mean_abs_along = n % 2 == 0 ? 0.5 * n / (n - 1) : 0.5 * (n + 1) / n;
@@ -207,7 +207,7 @@ PlaceInPiece place_in_piece(const Tile& tile, const Rag& rag, int k, int column)
   return place;
 }
 
-void kick(RagSystem& rags, const OutsideForce& outside, double time, double dt) {
+void kick(RagSystem& rags, const UnmodelledForce& outside, double time, double dt) {
   for (Tile& tile : rags.tiles()) {
     const Rag& rag = rags.rags()[static_cast<std::size_t>(tile.rag)];
     for_particles(tile, [&](int k, int column, int) {
@@ -230,8 +230,8 @@ void move(RagSystem& rags, const Restart& restart, double time) {
 
 }  // namespace
 
-std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Asked>& asked, const OutsideForce& outside, WaterStore* store,
-                                  const std::optional<Restart>& restart) {
+std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& outside,
+                                  WaterStore* store, const std::optional<Restart>& restart) {
   const log::Silence silence;
   Simulation run(file, MPI_COMM_SELF, {}, store);
   std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());

@@ -14,13 +14,13 @@ namespace snag {
 
 /// One number asked of a run: an observable (observe/observables.hpp) at a time; or, time NaN, its mean over the time in the window of the
 /// camera; or, time NaN, one of the whole run.
-struct Asked {
+struct ObservableRequest {
   std::string observable;
   double time = std::numeric_limits<double>::quiet_NaN();  // s
 };
 
 /// Of a particle in its piece.
-struct PlaceInPiece {
+struct LatticePosition {
   Vec3 x;                     // m
   double along = 0;           // lengthwise, -1 to 1 from end to end
   double mean_abs_along = 0;  // mean of |along| over the columns of the piece
@@ -28,13 +28,13 @@ struct PlaceInPiece {
 };
 
 /// Acceleration of a particle beside all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
-using OutsideForce = std::function<Vec3(double time, const PlaceInPiece& place)>;
+using UnmodelledForce = std::function<Vec3(double time, const LatticePosition& place)>;
 
 /// Runs a case in a prescribed flow or in frozen water of a mesh, up to the last time that is asked for (its end, if a number of the whole
 /// run is asked for; earlier, if every rag has left the mesh). NaN where there is no answer: a time beyond the end of the case, a retention
 /// time of a piece that stays, a window that was never reached. `store`: holds meshes and water between runs. `restart`: at the last step
 /// before its time; in a prescribed flow only. Throws Error.
-std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Asked>& asked, const OutsideForce& outside = {},
+std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& outside = {},
                                   WaterStore* store = nullptr, const std::optional<Restart>& restart = {});
 
 }  // namespace snag

@@ -138,7 +138,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     for (const std::string& note : base.former_names()) log::warning_once(note);
     check_inputs(base, experiment.points[p]);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
-    std::vector<Asked> asked;
+    std::vector<ObservableRequest> asked;
     const std::string of_case = base.sha256() + program_;
     std::string fingerprint = base.sha256();
     for (const Slot& slot : slots) {
@@ -151,7 +151,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
       base.set_alternative(alternative.effect, overrides_at(alternative, experiment.points[p].id));
     points_.push_back({std::move(base), std::move(slots), std::move(asked), of_case, sha256(fingerprint)});
   }
-  BaseCase facts = points_.front().base.facts();
+  CaseFeatures facts = points_.front().base.facts();
   std::set<std::string> held;  // a force that one point holds cannot be added to all
   for (const Point& point : points_) {
     facts = any_of(facts, point.base.facts());
@@ -161,7 +161,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
   set_alternatives(effects_, experiment.alternatives);
   find_nuisances(experiment);
   if (!folder_.empty()) open_cache(folder_ / "runs.tsv");
-  if (!experiment.runs.empty()) take_runs(experiment.runs);
+  if (!experiment.runs.empty()) import_runs(experiment.runs);
 }
 
 void CaseSimulator::find_nuisances(const Experiment& experiment) {
@@ -195,7 +195,7 @@ CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
   return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change)};
 }
 
-RunResult CaseSimulator::done(const Job& job) const {
+RunResult CaseSimulator::run_serial(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   RunResult result;
   try {
@@ -209,7 +209,7 @@ RunResult CaseSimulator::done(const Job& job) const {
   return result;
 }
 
-RunResult CaseSimulator::done_together(const Job& job) const {
+RunResult CaseSimulator::run_collective(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   // Whatever is asked of it: monitors and summary answer later questions too.
   const std::string name = numbered("run", job.request->point) + "_" + sha256(point.of_case + job.settings).substr(0, 16);
@@ -218,7 +218,7 @@ RunResult CaseSimulator::done_together(const Job& job) const {
   RunResult result;
   try {
     run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name);
-    result.values = answers_of(folder_ / "runs" / name, point.asked);
+    result.values = read_observables(folder_ / "runs" / name, point.asked);
   } catch (const Error& failure) {
     if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
@@ -255,7 +255,7 @@ void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
     bits.resize(first + n, 0);
     const bool whole_run = is_whole_run(*fresh[j]);
     if (!whole_run && static_cast<int>(j % static_cast<std::size_t>(size)) != rank) continue;
-    const RunResult result = whole_run ? done_together(*fresh[j]) : done(*fresh[j]);
+    const RunResult result = whole_run ? run_collective(*fresh[j]) : run_serial(*fresh[j]);
     for (std::size_t i = 0; i < n; ++i) bits[first + i] = std::bit_cast<std::uint64_t>(result.values[i]);
     std::strncpy(&failures[j * text_size], result.failure.c_str(), text_size - 1);
   }
@@ -267,10 +267,10 @@ void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
   for (std::size_t j = 0; j < fresh.size(); ++j) {
     RunResult result{.values = {}, .failure = &failures[j * text_size]};
     for (std::size_t i = 0; i < slots(fresh[j]->request->point).size(); ++i) result.values.push_back(std::bit_cast<double>(bits[at++]));
-    kept_.emplace(fresh[j]->key, std::move(result));
+    cached_.emplace(fresh[j]->key, std::move(result));
   }
   together(comm_, [&] {
-    for (const Job* job : fresh) keep(job->key, kept_.at(job->key));
+    for (const Job* job : fresh) store(job->key, cached_.at(job->key));
   });
   n_runs_ += static_cast<int>(fresh.size());
 }
@@ -285,7 +285,7 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   std::vector<const Job*> fresh;  // the same on every rank
   std::set<std::string> listed;
   for (const Job& job : jobs)
-    if (!kept_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
+    if (!cached_.contains(job.key) && listed.insert(job.key).second) fresh.push_back(&job);
 
   // In portions, each of which is kept when it is done: a diagnosis that is stopped goes on from there.
   constexpr std::size_t per_rank = 8;
@@ -295,7 +295,7 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   std::vector<RunResult> results;
   results.reserve(jobs.size());
   for (const Job& job : jobs) {
-    const RunResult& kept = kept_.at(job.key);
+    const RunResult& kept = cached_.at(job.key);
     if (const std::size_t n = slots(job.request->point).size(); kept.values.size() != n)
       throw Error(ExitCode::io, "table of runs: \"" + shortened(job.key) + "\" has " + std::to_string(kept.values.size()) +
                                     " values, its point has " + std::to_string(n) + "; remove the line: that run is then done again");
@@ -304,14 +304,14 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
   return results;
 }
 
-void CaseSimulator::keep(const std::string& key, const RunResult& result) {
+void CaseSimulator::store(const std::string& key, const RunResult& result) {
   if (cache_.descriptor() >= 0) cache_.write(run_table_line({program_.substr(0, 16), key, result}));
 }
 
 void CaseSimulator::open_cache(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
-  for (KeptRun& run : run_table(text, file))
-    if (run.program == program_.substr(0, 16)) kept_.emplace(run.key, std::move(run.result));
+  for (StoredRun& run : run_table(text, file))
+    if (run.program == program_.substr(0, 16)) cached_.emplace(run.key, std::move(run.result));
   together(comm_, [&] {
     if (rank_of(comm_) != 0) return;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
@@ -322,15 +322,15 @@ void CaseSimulator::open_cache(const std::filesystem::path& file) {
   });
 }
 
-void CaseSimulator::take_runs(const std::filesystem::path& file) {
+void CaseSimulator::import_runs(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
   if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs");
-  for (KeptRun& run : run_table(text, file))
-    if (kept_.emplace(run.key, std::move(run.result)).second) taken_.insert(run.key);
+  for (StoredRun& run : run_table(text, file))
+    if (cached_.emplace(run.key, std::move(run.result)).second) imported_.insert(run.key);
 }
 
-int CaseSimulator::n_taken() const {
-  return static_cast<int>(std::count_if(used_.begin(), used_.end(), [&](const std::string& key) { return taken_.contains(key); }));
+int CaseSimulator::n_imported() const {
+  return static_cast<int>(std::count_if(used_.begin(), used_.end(), [&](const std::string& key) { return imported_.contains(key); }));
 }
 
 }  // namespace snag

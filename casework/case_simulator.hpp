@@ -33,13 +33,13 @@ class CaseSimulator final : public Simulator {
   bool restarts(int point) const override { return points_[static_cast<std::size_t>(point)].base.restarts(); }
   int n_runs() const override { return n_runs_; }
   int n_used() const override { return static_cast<int>(used_.size()); }
-  int n_taken() const override;
+  int n_imported() const override;
 
  private:
   struct Point {
     PointCase base;
     std::vector<Slot> slots;
-    std::vector<Asked> asked;
+    std::vector<ObservableRequest> asked;
     std::string of_case, fingerprint;  // of base case and program; of the base case and the slots
   };
   struct Job {
@@ -51,13 +51,13 @@ class CaseSimulator final : public Simulator {
   void find_nuisances(const Experiment& experiment);
   Job job_of(const RunRequest& request) const;
   void run_portion(std::span<const Job* const> fresh);
-  RunResult done(const Job& job) const;
-  RunResult done_together(const Job& job) const;
+  RunResult run_serial(const Job& job) const;
+  RunResult run_collective(const Job& job) const;
   bool is_whole_run(const Job& job) const { return points_[static_cast<std::size_t>(job.request->point)].base.is_whole_run(); }
   RunResult as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const;
   void open_cache(const std::filesystem::path& file);
-  void take_runs(const std::filesystem::path& file);
-  void keep(const std::string& key, const RunResult& result);
+  void import_runs(const std::filesystem::path& file);
+  void store(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
   mutable WaterStore store_;
@@ -68,10 +68,10 @@ class CaseSimulator final : public Simulator {
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;
   std::string program_;  // its fingerprint; empty: nothing is kept on disk
-  std::unordered_map<std::string, RunResult> kept_;
-  std::unordered_set<std::string> used_;   // keys of the runs that were asked for
-  std::unordered_set<std::string> taken_;  // of those of the table that the experiment names
-  OpenFile cache_;                         // open on rank 0
+  std::unordered_map<std::string, RunResult> cached_;
+  std::unordered_set<std::string> used_;      // keys of the runs that were asked for
+  std::unordered_set<std::string> imported_;  // of those of the table that the experiment names
+  OpenFile cache_;                            // open on rank 0
   int n_runs_ = 0;
 };
 

@@ -34,15 +34,15 @@ std::vector<std::pair<std::string, const toml::table*>> tables_at(const toml::ta
   return found;
 }
 
-std::vector<Place> places_of(const toml::table& root, const std::string& key) {
+std::vector<KeyNode> nodes_of(const toml::table& root, const std::string& key) {
   const auto dot = key.rfind('.');
   if (dot == std::string::npos) return {};
-  std::vector<Place> places;
+  std::vector<KeyNode> nodes;
   for (const auto& [prefix, table] : tables_at(root, key.substr(0, dot))) {
     const toml::node* value = table->get(key.substr(dot + 1));
-    if (value && is_number(*value)) places.push_back({prefix + "." + key.substr(dot + 1), value});
+    if (value && is_number(*value)) nodes.push_back({prefix + "." + key.substr(dot + 1), value});
   }
-  return places;
+  return nodes;
 }
 
 std::string scaled_text(const toml::node& node, double factor) {
@@ -57,14 +57,14 @@ std::string scaled_text(const toml::node& node, double factor) {
 void KeyChanges::set(const std::string& text) {
   const auto equals = text.find('=');
   const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
-  const auto places = places_of(root_, key);
-  for (const Place& place : places) values_[place.key] = value;
-  if (places.empty()) values_[key] = value;
+  const auto nodes = nodes_of(root_, key);
+  for (const KeyNode& node : nodes) values_[node.key] = value;
+  if (nodes.empty()) values_[key] = value;
 }
 
 void KeyChanges::scale(const std::string& key, double factor) {
-  for (const Place& place : places_of(root_, key)) {
-    Scaled& scaled = factors_.emplace(place.key, Scaled{place.value, 1}).first->second;
+  for (const KeyNode& node : nodes_of(root_, key)) {
+    Scaled& scaled = factors_.emplace(node.key, Scaled{node.value, 1}).first->second;
     scaled.factor *= factor;
   }
 }

@@ -13,13 +13,13 @@ namespace snag {
 std::vector<std::pair<std::string, const toml::table*>> tables_at(const toml::table& root, const std::string& path);
 
 /// A number, or a list of numbers, of a case.
-struct Place {
+struct KeyNode {
   std::string key;  // for an override
   const toml::node* value;
 };
 
-/// All places of a key such as "boundary.flow_rate_m3_s"; none if the case has no such number.
-std::vector<Place> places_of(const toml::table& root, const std::string& key);
+/// All nodes of a key such as "boundary.flow_rate_m3_s"; none if the case has no such number.
+std::vector<KeyNode> nodes_of(const toml::table& root, const std::string& key);
 
 /// Value times factor, number by number, as TOML.
 std::string scaled_text(const toml::node& value, double factor);
@@ -30,7 +30,7 @@ class KeyChanges {
   /// `root`: the resolved case, which must outlive this.
   explicit KeyChanges(const toml::table& root) : root_(root) {}
 
-  /// "section.key=value", of every place that has the key. The last value counts.
+  /// "section.key=value", of every node that has the key. The last value counts.
   void set(const std::string& text);
   /// Of the numbers that the case has at a key.
   void scale(const std::string& key, double factor);

@@ -14,8 +14,8 @@ namespace snag {
 namespace {
 
 /// A setting of the rags: of pieces of any shape.
-LibraryEffect setting_effect(const Candidate& candidate) {
-  LibraryEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
+CatalogueEffect setting_effect(const Candidate& candidate) {
+  CatalogueEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
   if (candidate.prior.key.starts_with("rag."))
     for (const char* shape : {"disc", "fibre"}) effect.added_to.push_back(shape + candidate.prior.key.substr(3));
   return effect;
@@ -33,8 +33,8 @@ std::vector<std::string> forms_of(FluidForce& force) {
   return {};
 }
 
-std::vector<LibraryEffect> all_of_cases() {
-  std::vector<LibraryEffect> all;
+std::vector<CatalogueEffect> all_of_cases() {
+  std::vector<CatalogueEffect> all;
   for (const std::string& name : fluid_forces().names()) {
     const auto force = fluid_forces().make(name, "diagnosis");
     const Card card = force->card();
@@ -47,7 +47,7 @@ std::vector<LibraryEffect> all_of_cases() {
 }
 
 /// Why cases with these facts lack it; empty: they have it.
-const char* reason_against(Need need, const BaseCase& facts) {
+const char* reason_against(Need need, const CaseFeatures& facts) {
   switch (need) {
     case Need::wall:
       return facts.wall ? "" : "there is no wall";
@@ -72,7 +72,7 @@ const char* reason_against(Need need, const BaseCase& facts) {
 }
 
 /// Why cases with these facts cannot show it; empty: they can.
-std::string reason_against(const Prior& prior, const BaseCase& facts) {
+std::string reason_against(const Prior& prior, const CaseFeatures& facts) {
   if (prior.acts_on_water && facts.prescribed) return "it acts on the water, which is prescribed";
   for (const Need need : prior.needs)
     if (const std::string reason = reason_against(need, facts); !reason.empty()) return reason;
@@ -81,14 +81,14 @@ std::string reason_against(const Prior& prior, const BaseCase& facts) {
 
 }  // namespace
 
-const std::vector<LibraryEffect>& library_of_cases() {
-  static const std::vector<LibraryEffect> all = all_of_cases();
+const std::vector<CatalogueEffect>& effect_catalogue() {
+  static const std::vector<CatalogueEffect> all = all_of_cases();
   return all;
 }
 
-const LibraryEffect* library_effect(const std::string& name) {
-  const auto& all = library_of_cases();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const LibraryEffect& effect) { return effect.name == name; });
+const CatalogueEffect* catalogue_effect(const std::string& name) {
+  const auto& all = effect_catalogue();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const CatalogueEffect& effect) { return effect.name == name; });
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -96,8 +96,8 @@ std::string seed_of(const std::string& force, std::uint64_t seed) {
   return "coupling." + force + ".seed=" + std::to_string(seed % 1000000007);
 }
 
-std::vector<std::string> LibraryEffect::overrides(double theta, int form, std::uint64_t seed,
-                                                  const std::function<std::string(const std::string&)>& base) const {
+std::vector<std::string> CatalogueEffect::overrides(double theta, int form, std::uint64_t seed,
+                                                    const std::function<std::string(const std::string&)>& base) const {
   if (name == "gravity") return {prior.key + "=[0.0, 0.0, " + toml_text(-9.81 * theta) + "]"};
   if (added_to.empty()) {
     std::vector<std::string> all{prior.key + "=" + toml_text(theta)};
@@ -116,9 +116,9 @@ std::vector<std::string> LibraryEffect::overrides(double theta, int form, std::u
   return all;
 }
 
-std::vector<Effect> library_effects(const BaseCase& facts, const std::vector<std::string>& forces) {
+std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector<std::string>& forces) {
   std::vector<Effect> all;
-  for (const LibraryEffect& effect : library_of_cases()) {
+  for (const CatalogueEffect& effect : effect_catalogue()) {
     const Prior& p = effect.prior;
     const bool held = std::find(forces.begin(), forces.end(), effect.name) != forces.end();
     all.push_back({.name = effect.name,

@@ -10,7 +10,7 @@
 
 namespace snag {
 
-struct LibraryEffect {
+struct CatalogueEffect {
   std::string name;
   Prior prior;
   bool is_force = false;
@@ -26,8 +26,8 @@ struct LibraryEffect {
 std::string seed_of(const std::string& force, std::uint64_t seed);
 
 /// Null if there is none of that name.
-const LibraryEffect* library_effect(const std::string& name);
+const CatalogueEffect* catalogue_effect(const std::string& name);
 /// Sorted by name.
-const std::vector<LibraryEffect>& library_of_cases();
+const std::vector<CatalogueEffect>& effect_catalogue();
 
 }  // namespace snag

@@ -102,11 +102,11 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
     throw Error(code, "exit code " + std::to_string(static_cast<int>(code)) + "; why is in " + (folder / "log.txt").string());
 }
 
-std::vector<double> answers_of(const std::filesystem::path& folder, const std::vector<Asked>& asked) {
+std::vector<double> read_observables(const std::filesystem::path& folder, const std::vector<ObservableRequest>& asked) {
   const auto passage = first_passage(folder / "summary.json");
   std::map<std::string, Course> courses;
   std::vector<double> values;
-  for (const Asked& one : asked) {
+  for (const ObservableRequest& one : asked) {
     const std::string& name = one.observable;
     const ObservableRecord* record = find_observable(name);
     if (record && record->is_of_whole_run()) {

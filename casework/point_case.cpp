@@ -39,11 +39,11 @@ Vec3 vector_of(const toml::node* node, const Vec3& fallback) {
   return {list->get(0)->value_or(0.0), list->get(1)->value_or(0.0), list->get(2)->value_or(0.0)};
 }
 
-BaseCase facts_of(const toml::table& root, const Simulation& run) {
-  BaseCase facts;
+CaseFeatures facts_of(const toml::table& root, const Simulation& run) {
+  CaseFeatures facts;
   const auto value = [&](const std::string& key) {
-    const auto places = places_of(root, key);
-    return places.empty() ? nullptr : places.front().value;
+    const auto nodes = nodes_of(root, key);
+    return nodes.empty() ? nullptr : nodes.front().value;
   };
   facts.prescribed = !run.mesh || run.frozen();
   facts.wall = !run.walls.empty();
@@ -52,8 +52,8 @@ BaseCase facts_of(const toml::table& root, const Simulation& run) {
   facts.uniform = !is_zero(value("flow.velocity_m_s"));
   if (run.mesh)
     facts.uniform = run.frozen() || std::any_of(set_points.begin(), set_points.end(), [&](const char* key) {
-                      const auto places = places_of(root, key);
-                      return std::any_of(places.begin(), places.end(), [](const Place& place) { return !is_zero(place.value); });
+                      const auto nodes = nodes_of(root, key);
+                      return std::any_of(nodes.begin(), nodes.end(), [](const KeyNode& node) { return !is_zero(node.value); });
                     });
   facts.varies = !run.frozen() && (facts.gradient || !is_zero(value("flow.amplitude_m_s")));
   facts.flows = facts.uniform || (facts.varies && !run.mesh);
@@ -109,7 +109,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {
     const std::string key = "coupling." + name + ".drag_factor";
-    if (!places_of(tree_->root, key).empty()) drag_factors_.push_back(key);
+    if (!nodes_of(tree_->root, key).empty()) drag_factors_.push_back(key);
   }
   const View view = run.observe_settings.view();
   right_ = view.right, up_ = view.up;
@@ -134,7 +134,7 @@ void PointCase::set_alternative(const std::string& effect, const std::vector<std
 void PointCase::check_nuisance(const std::string& key) const {
   if (key == drag_law_uncertainty || key == drag_law_uncertainty_per_point || (key == flow_field && (facts_.prescribed || facts_.flows)))
     return;
-  if (!places_of(tree_->root, key).empty()) return;
+  if (!nodes_of(tree_->root, key).empty()) return;
   throw Error(ExitCode::usage,
               file_.string() + ": input_u names \"" + key +
                   "\", which is no number of this case; give a key of the case with its unit such as "
@@ -157,7 +157,7 @@ std::string PointCase::reason_against(const ObservableRecord& observable) const 
 
 std::string PointCase::value_of(const std::string& key) const {
   std::vector<std::string> values;
-  for (const Place& place : places_of(tree_->root, key)) values.push_back(scaled_text(*place.value, 1));
+  for (const KeyNode& node : nodes_of(tree_->root, key)) values.push_back(scaled_text(*node.value, 1));
   return joined(values);
 }
 
@@ -178,7 +178,7 @@ class PointCase::Edit final : public RunEdit {
     std::erase(forces_, "gravity");
     n_base_forces_ = forces_.size();
   }
-  const BaseCase& base() const override { return point_.facts_; }
+  const CaseFeatures& base() const override { return point_.facts_; }
   void set(const std::string& text) override { keys_.set(text); }
   void scale(const std::string& key, double factor) override { keys_.scale(key, factor); }
   void turn_pieces(double angle) override { turn_ += angle; }
@@ -191,14 +191,14 @@ class PointCase::Edit final : public RunEdit {
   void seed(std::uint64_t seed) {
     if (point_.crumpled_) set("rag.seed=" + std::to_string(seed % 1000000007));  // each replicate is another crumple
     for (const std::string& name : forces_) {
-      const LibraryEffect* held = library_effect(name);
+      const CatalogueEffect* held = catalogue_effect(name);
       if (held && held->prior.random) set(seed_of(name, seed));
     }
   }
   void add_effect(const std::string& name, double theta, int form, std::uint64_t seed) {
     if (const auto alternative = point_.alternatives_.find(name); alternative != point_.alternatives_.end()) {
       for (const std::string& text : alternative->second) set(text);
-    } else if (const LibraryEffect* of_library = library_effect(name)) {
+    } else if (const CatalogueEffect* of_library = catalogue_effect(name)) {
       if (of_library->is_force) add_force(name);
       for (const std::string& text : of_library->overrides(theta, form, seed, [this](const auto& key) { return point_.value_of(key); }))
         set(text);
@@ -261,13 +261,13 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
 }
 
 std::string PointCase::with_step_factor(double factor) const {
-  const auto number = [&](const char* key) { return places_of(tree_->root, key).front().value->value<double>().value(); };
+  const auto number = [&](const char* key) { return nodes_of(tree_->root, key).front().value->value<double>().value(); };
   const double end = number("time.end_s");
   const auto n = std::max(1.0, std::round(end / number("time.step_s") / factor));
   return "time.step_s=" + toml_text(end / n);
 }
 
-double PointCase::end() const { return places_of(tree_->root, "time.end_s").front().value->value<double>().value(); }
+double PointCase::end() const { return nodes_of(tree_->root, "time.end_s").front().value->value<double>().value(); }
 
 // Resolved paths are absolute: so a file is told from another text.
 bool PointCase::names_file(const std::string& table, const std::string& key) const {

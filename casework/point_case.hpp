@@ -34,7 +34,7 @@ class PointCase {
   PointCase(PointCase&&) noexcept;
   PointCase& operator=(PointCase&&) noexcept;
 
-  const BaseCase& facts() const { return facts_; }
+  const CaseFeatures& facts() const { return facts_; }
   const std::string& sha256() const { return sha256_; }
   /// Forces that the base case lists, gravity among them where it is given.
   const std::vector<std::string>& forces() const { return forces_; }
@@ -86,7 +86,7 @@ class PointCase {
   CaseFile case_file_;
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
-  BaseCase facts_;
+  CaseFeatures facts_;
   bool crumpled_ = false;  // a piece starts crumpled, by its seed
   bool restarts_ = false;
   bool has_passage_ = false, has_exit_ = false;                   // [rag_passage]; an exit plane in [virtual_camera]
@@ -96,6 +96,6 @@ class PointCase {
 };
 
 /// Effects that this library can add to base cases with these facts, by name; `forces`: those that the base cases hold already.
-std::vector<Effect> library_effects(const BaseCase& facts, const std::vector<std::string>& forces);
+std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector<std::string>& forces);
 
 }  // namespace snag

@@ -28,8 +28,8 @@ std::optional<std::vector<double>> numbers(const std::string& text) {
 
 }  // namespace
 
-std::vector<KeptRun> run_table(std::string_view text, const std::filesystem::path& file) {
-  std::vector<KeptRun> runs;
+std::vector<StoredRun> run_table(std::string_view text, const std::filesystem::path& file) {
+  std::vector<StoredRun> runs;
   std::size_t begin = 0;
   for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string_view::npos; begin = end + 1) {
     const std::string_view line = text.substr(begin, end - begin);
@@ -44,7 +44,7 @@ std::vector<KeptRun> run_table(std::string_view text, const std::filesystem::pat
   return runs;
 }
 
-std::string run_table_line(const KeptRun& run) {
+std::string run_table_line(const StoredRun& run) {
   std::string line = run.program + "\t" + run.key + "\t";
   char digits[32];
   for (const double value : run.result.values) line.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr).append(",");

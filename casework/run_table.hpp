@@ -14,16 +14,16 @@
 
 namespace snag {
 
-struct KeptRun {
+struct StoredRun {
   std::string program, key;
   RunResult result;
 };
 
 /// Runs of the text of a table. A last line without its end was cut off when a diagnosis was stopped, and is passed over; any other line
 /// that is no run is an Error(io) with `file` and line.
-std::vector<KeptRun> run_table(std::string_view text, const std::filesystem::path& file);
+std::vector<StoredRun> run_table(std::string_view text, const std::filesystem::path& file);
 
 /// The line of a run, with its end.
-std::string run_table_line(const KeptRun& run);
+std::string run_table_line(const StoredRun& run);
 
 }  // namespace snag

@@ -11,7 +11,7 @@ namespace snag {
 
 /// A force on the particles, or a camera that no candidate describes.
 struct OutsideTruth {
-  OutsideForce force;
+  UnmodelledForce force;
   double pixel_ratio = 1;  // of a picture: breadth over height of its pixels
 
   bool acts() const { return static_cast<bool>(force) || pixel_ratio != 1; }

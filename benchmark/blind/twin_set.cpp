@@ -44,8 +44,8 @@ std::vector<TwinInput> TwinSet::inputs() const {
   return all;
 }
 
-std::vector<Asked> TwinSet::asked(const std::string& subset) const {
-  std::vector<Asked> all;
+std::vector<ObservableRequest> TwinSet::asked(const std::string& subset) const {
+  std::vector<ObservableRequest> all;
   for (const TwinInstrument& one : experiment.instruments) {
     if (!in_subset(subset, one.id)) continue;
     if (find_observable(one.id)->is_of_whole_run())
@@ -60,13 +60,14 @@ const TwinInstrument& TwinSet::instrument(const std::string& id) const {
   return *std::find_if(experiment.instruments.begin(), experiment.instruments.end(), [&](const auto& i) { return i.id == id; });
 }
 
-std::vector<double> TwinSet::values(std::size_t point, const std::vector<Asked>& asked, const std::map<std::string, double>& theta,
-                                    bool outside_acts, const std::map<std::string, double>& input_deviations, int replicate) const {
+std::vector<double> TwinSet::values(std::size_t point, const std::vector<ObservableRequest>& asked,
+                                    const std::map<std::string, double>& theta, bool outside_acts,
+                                    const std::map<std::string, double>& input_deviations, int replicate) const {
   CaseChange change = cases[point].change(theta, input_deviations, mixed(mixed(run_seed) + static_cast<std::uint64_t>(replicate)));
   for (const auto& [name, form] : forms)
     if (theta.contains(name)) change.overrides.push_back(form);
   change.overrides.push_back(cases[point].with_step_factor(0.5));
-  std::vector<double> values = run_in_memory(cases[point].with(change.overrides), asked, outside_acts ? outside.force : OutsideForce{});
+  std::vector<double> values = run_in_memory(cases[point].with(change.overrides), asked, outside_acts ? outside.force : UnmodelledForce{});
   const double ratio = outside_acts ? outside.pixel_ratio : 1;
   for (std::size_t i = 0; i < asked.size(); ++i)
     values[i] = pictured(asked[i].observable, values[i], change.picture_scale, ratio, picture_centre);
@@ -98,7 +99,7 @@ std::string twin_diagnosis(const TwinSet& set, int seed) {
 }
 
 std::string twin_data(const TwinSet& set, NormalNumbers& random) {
-  const std::vector<Asked> asked = set.asked();
+  const std::vector<ObservableRequest> asked = set.asked();
   std::string text = "point,replicate,t_s,observable,value,censored\n";
   std::map<std::string, double> bias;
   for (const TwinInstrument& instrument : set.experiment.instruments)

@@ -39,17 +39,17 @@ struct TwinSet {
   std::size_t n_training() const { return experiment.cases.size() - n_withheld; }
   std::vector<TwinInput> inputs() const;
   /// What a subset of the observables asks of a point, in the order of the instruments; without a name that of the truth.
-  std::vector<Asked> asked(const std::string& subset) const;
-  std::vector<Asked> asked() const { return asked(truth.subset); }
+  std::vector<ObservableRequest> asked(const std::string& subset) const;
+  std::vector<ObservableRequest> asked() const { return asked(truth.subset); }
   const TwinInstrument& instrument(const std::string& id) const;
   /// Values without noise at a point with these effects in the form of the truth, and what is outside the library if `outside_acts`.
-  std::vector<double> values(std::size_t point, const std::vector<Asked>& asked, const std::map<std::string, double>& theta,
+  std::vector<double> values(std::size_t point, const std::vector<ObservableRequest>& asked, const std::map<std::string, double>& theta,
                              bool outside_acts, const std::map<std::string, double>& input_deviations, int replicate = 0) const;
   /// With all that is true, or without what the truth adds.
-  std::vector<double> true_values(std::size_t point, const std::vector<Asked>& asked, int replicate = 0) const {
+  std::vector<double> true_values(std::size_t point, const std::vector<ObservableRequest>& asked, int replicate = 0) const {
     return values(point, asked, truth.theta, true, deviations[point], replicate);
   }
-  std::vector<double> base_values(std::size_t point, const std::vector<Asked>& asked,
+  std::vector<double> base_values(std::size_t point, const std::vector<ObservableRequest>& asked,
                                   const std::map<std::string, double>& deviation) const {
     return values(point, asked, {}, false, deviation);
   }

@@ -12,8 +12,8 @@ namespace snag {
 namespace {
 
 /// What one standard uncertainty of an input does to the samples of a point, with what acts or without it.
-std::vector<double> change_by_input(const TwinSet& set, std::size_t point, const std::vector<Asked>& asked, const Nuisance& input,
-                                    bool with_truth) {
+std::vector<double> change_by_input(const TwinSet& set, std::size_t point, const std::vector<ObservableRequest>& asked,
+                                    const Nuisance& input, bool with_truth) {
   const auto moved = [&](double share) {
     auto deviations = set.deviations[point];
     deviations[input.name] += share * input.u;
@@ -28,7 +28,7 @@ std::vector<double> change_by_input(const TwinSet& set, std::size_t point, const
 /// The directions that a diagnosis keeps free, each one standard uncertainty: rows are all samples of the training points. An input does
 /// not do the same with what acts as without it; between the two states the mean of both is right to second order, so that an effect which
 /// is nothing but an input far off is found along the input's own direction.
-std::vector<std::vector<double>> input_columns(const TwinSet& set, const std::vector<Asked>& asked) {
+std::vector<std::vector<double>> input_columns(const TwinSet& set, const std::vector<ObservableRequest>& asked) {
   const std::size_t n = asked.size(), rows = set.n_training() * n;
   std::vector<const PointCase*> bases;
   std::vector<std::pair<std::string, double>> input_u;
@@ -54,16 +54,16 @@ std::vector<std::vector<double>> input_columns(const TwinSet& set, const std::ve
 }
 
 /// Of the mean of the replicates, all samples of the training points.
-std::vector<double> noise_variance(const TwinSet& set, const std::vector<Asked>& asked, int replicates) {
+std::vector<double> noise_variance(const TwinSet& set, const std::vector<ObservableRequest>& asked, int replicates) {
   std::vector<double> variance;
   for (std::size_t p = 0; p < set.n_training(); ++p)
-    for (const Asked& one : asked) variance.push_back(std::pow(set.instrument(one.observable).noise_u, 2) / replicates);
+    for (const ObservableRequest& one : asked) variance.push_back(std::pow(set.instrument(one.observable).noise_u, 2) / replicates);
   return variance;
 }
 
 /// What is left of the weaker of two effects when the other one may have any strength: a set whose second effect cannot be seen cannot be
 /// told.
-double weaker_of_pair(const TwinSet& set, const std::vector<Asked>& asked, const std::vector<double>& variance,
+double weaker_of_pair(const TwinSet& set, const std::vector<ObservableRequest>& asked, const std::vector<double>& variance,
                       const std::vector<std::vector<double>>& columns) {
   std::vector<std::vector<double>> alone;  // what each adds to the other
   for (const auto& [name, theta] : set.truth.theta) {
@@ -110,14 +110,14 @@ SignalSize size_of_random(const Signal& signal, int replicates, std::size_t n_po
 
 std::vector<Effect> showable(const TwinSet& set) {
   const std::vector<PointCase>& cases = set.cases;
-  BaseCase facts = cases.front().facts();
+  CaseFeatures facts = cases.front().facts();
   for (const PointCase& one : cases) {
     facts.wall |= one.facts().wall, facts.gradient |= one.facts().gradient, facts.varies |= one.facts().varies;
     facts.uniform |= one.facts().uniform;
   }
   std::vector<Effect> effects = library_effects(facts, cases.front().forces());
   std::erase_if(effects, [](const Effect& e) { return !e.blind.empty(); });
-  const std::vector<Asked> asked = set.asked("all");
+  const std::vector<ObservableRequest> asked = set.asked("all");
   constexpr int replicates = 10;
   const auto variance = noise_variance(set, asked, replicates);
   const auto columns = input_columns(set, asked);
@@ -141,7 +141,7 @@ std::vector<Effect> showable(const TwinSet& set) {
 }
 
 void measure_gap(TwinSet& set) {
-  const std::vector<Asked> asked = set.asked();
+  const std::vector<ObservableRequest> asked = set.asked();
   const auto signal = [&](int replicate) {
     std::vector<double> all;
     for (std::size_t p = 0; p < set.n_training(); ++p) {

@@ -82,7 +82,7 @@ class Simulator {
   /// Distinct runs asked for so far, those that were kept among them: what a budget counts, the same after a new start.
   virtual int n_used() const { return n_runs(); }
   /// Those of them that were taken from a table of runs of whatever program.
-  virtual int n_taken() const { return 0; }
+  virtual int n_imported() const { return 0; }
 };
 
 }  // namespace snag

@@ -2,11 +2,11 @@
 
 namespace snag {
 
-BaseCase any_of(BaseCase a, const BaseCase& b) {
+CaseFeatures any_of(CaseFeatures a, const CaseFeatures& b) {
   a.prescribed = a.prescribed && b.prescribed;
-  for (bool BaseCase::*fact :
-       {&BaseCase::wall, &BaseCase::gravity, &BaseCase::flows, &BaseCase::uniform, &BaseCase::varies, &BaseCase::gradient,
-        &BaseCase::turbulence, &BaseCase::bonds, &BaseCase::sheet, &BaseCase::several, &BaseCase::oriented})
+  for (bool CaseFeatures::*fact : {&CaseFeatures::wall, &CaseFeatures::gravity, &CaseFeatures::flows, &CaseFeatures::uniform,
+                                   &CaseFeatures::varies, &CaseFeatures::gradient, &CaseFeatures::turbulence, &CaseFeatures::bonds,
+                                   &CaseFeatures::sheet, &CaseFeatures::several, &CaseFeatures::oriented})
     a.*fact = a.*fact || b.*fact;
   return a;
 }

@@ -11,7 +11,7 @@
 namespace snag {
 
 /// What a candidate may know of the base case of an operating point.
-struct BaseCase {
+struct CaseFeatures {
   bool prescribed = true;                                                // the water is a formula, or stands frozen; false: it is computed
   bool wall = false, gravity = false;                                    // given in the case
   bool flows = false;                                                    // the water moves
@@ -21,14 +21,14 @@ struct BaseCase {
 };
 
 /// What of several cases at least one has; prescribed: all of them.
-BaseCase any_of(BaseCase a, const BaseCase& b);
+CaseFeatures any_of(CaseFeatures a, const CaseFeatures& b);
 
 /// A run of a case that effects change. As it is handed to them, it is the base model.
 class RunEdit {
  public:
   virtual ~RunEdit() = default;
   /// What effects may know of the case.
-  virtual const BaseCase& base() const = 0;
+  virtual const CaseFeatures& base() const = 0;
   /// Gives a key a value, "section.key=value"; the last one counts.
   virtual void set(const std::string& text) = 0;
   /// Multiplies the numbers that the case has at a key; factors on one key multiply. Nothing where the case has no such number.
@@ -50,7 +50,7 @@ class EffectModel {
  public:
   virtual ~EffectModel() = default;
   /// Its record, with the reason why this base case cannot show it, if there is one.
-  virtual Effect effect(const BaseCase& base) const = 0;
+  virtual Effect effect(const CaseFeatures& base) const = 0;
   /// Adds an effect of strength theta to a run; `form`: index among its forms and deviations, `seed`: that of the run.
   virtual void change(double theta, int form, std::uint64_t seed, RunEdit& run) const = 0;
 };

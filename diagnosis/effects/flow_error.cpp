@@ -8,7 +8,7 @@ namespace {
 struct FlowError final : EffectModel {
   static constexpr const char* name = "flow_error";
 
-  Effect effect(const BaseCase& base) const override {
+  Effect effect(const CaseFeatures& base) const override {
     return {.name = name,
             .parameter = "relative error of shear and oscillation of the flow",
             .unit = "1",

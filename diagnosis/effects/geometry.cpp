@@ -7,7 +7,7 @@ namespace {
 struct Geometry final : EffectModel {
   static constexpr const char* name = "geometry";
 
-  Effect effect(const BaseCase& base) const override {
+  Effect effect(const CaseFeatures& base) const override {
     return {.name = name,
             .parameter = "relative change of the gap at the tongue",
             .unit = "1",

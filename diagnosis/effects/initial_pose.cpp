@@ -15,7 +15,7 @@ double normal_deviate(std::uint64_t seed) {
 struct InitialPose final : EffectModel {
   static constexpr const char* name = "initial_pose";
 
-  Effect effect(const BaseCase& base) const override {
+  Effect effect(const CaseFeatures& base) const override {
     return {.name = name,
             .parameter = "standard deviation of the angle at the start",
             .unit = "rad",

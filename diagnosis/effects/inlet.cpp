@@ -7,7 +7,7 @@ namespace {
 struct Inlet final : EffectModel {
   static constexpr const char* name = "inlet";
 
-  Effect effect(const BaseCase& base) const override {
+  Effect effect(const CaseFeatures& base) const override {
     return {.name = name,
             .parameter = "swirl of the water that comes in",
             .unit = "1",

@@ -9,7 +9,7 @@ namespace {
 struct Measurement final : EffectModel {
   static constexpr const char* name = "measurement";
 
-  Effect effect(const BaseCase&) const override {
+  Effect effect(const CaseFeatures&) const override {
     return {.name = name,
             .parameter = "relative error of the camera's scale",
             .unit = "1",

@@ -8,7 +8,7 @@ namespace {
 struct OperatingPoint final : EffectModel {
   static constexpr const char* name = "operating_point";
 
-  Effect effect(const BaseCase& base) const override {
+  Effect effect(const CaseFeatures& base) const override {
     return {.name = name,
             .parameter = "relative error of all set-points of the flow",
             .unit = "1",

@@ -12,8 +12,8 @@ using namespace snag;
 void read(const std::filesystem::path& file) {
   const std::string text = file_text(file).value_or("");
   std::string again;
-  const std::vector<KeptRun> runs = run_table(text, file);
-  for (const KeptRun& run : runs) again += run_table_line(run);
+  const std::vector<StoredRun> runs = run_table(text, file);
+  for (const StoredRun& run : runs) again += run_table_line(run);
   if (run_table(again, file).size() != runs.size()) throw std::logic_error("a table that was written is not the one that was read");
 }
 

@@ -28,7 +28,9 @@ position_m = [1, 0, 0]
 forces = ["free_stream_drag"]
 )";
 
-std::vector<double> run(const std::string& text, const std::vector<Asked>& asked) { return run_in_memory(CaseFile::parse(text), asked); }
+std::vector<double> run(const std::string& text, const std::vector<ObservableRequest>& asked) {
+  return run_in_memory(CaseFile::parse(text), asked);
+}
 
 /// Requirement: place and velocity are those of the exact motion at any time, also between two steps.
 TEST(CaseRun, FallingSphereInStokesFlow) {
@@ -54,7 +56,7 @@ TEST(CaseRun, OrderAndEnd) {
 /// what was before it is as without it.
 TEST(CaseRun, GoesOnFromAMeasuredState) {
   const double rate = 18 * 1.0 / (1150 * 25e-6), time = 0.40002;
-  const std::vector<Asked> asked{{"z", 0.3999}, {"z", 0.4001}, {"z", 0.42}, {"x", 0.8}, {"vz", 0.401}};
+  const std::vector<ObservableRequest> asked{{"z", 0.3999}, {"z", 0.4001}, {"z", 0.42}, {"x", 0.8}, {"vz", 0.401}};
   const Restart restart{.time = time, .position = {0.01, 0, 0.02}, .velocity = {0, 0, 0.05}};
   const auto before = run(falling_sphere, asked);
   const auto after = run_in_memory(CaseFile::parse(falling_sphere), asked, {}, nullptr, restart);
@@ -103,7 +105,7 @@ forces = ["free_stream_drag"]
 [virtual_camera]
 exit_normal = [1, 0, 0]
 exit_point_m = )";
-  const std::vector<Asked> asked{{"retention_time"}, {"exited"}};
+  const std::vector<ObservableRequest> asked{{"retention_time"}, {"exited"}};
   const auto left = run(carried + "[0.20013, 0, 0]", asked), stays = run(carried + "[0.7, 0, 0]", asked);
   EXPECT_NEAR(left[0], 0.40026, 1e-9);
   EXPECT_EQ(left[1], 1);

@@ -213,7 +213,7 @@ TEST_F(CaseSimulatorTest, TakesRunsThatWereMadeElsewhere) {
   const auto results = simulator.run(requests);
   for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
   EXPECT_EQ(simulator.n_runs(), 0);
-  EXPECT_EQ(simulator.n_taken(), 2);
+  EXPECT_EQ(simulator.n_imported(), 2);
 }
 
 /// Requirement: a damaged table of runs is never taken for runs: the message names file and line, or the run that has too few values.

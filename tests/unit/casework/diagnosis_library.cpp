@@ -11,7 +11,7 @@ namespace {
 TEST(DiagnosisLibrary, PriorsAreThoseOfTheCards) {
   for (const std::string& name : fluid_forces().names()) {
     const auto prior = fluid_forces().make(name, "test")->card().prior;
-    const LibraryEffect* effect = library_effect(name);
+    const CatalogueEffect* effect = catalogue_effect(name);
     ASSERT_EQ(effect != nullptr, prior.has_value()) << name;
     if (!effect) continue;
     EXPECT_EQ(effect->prior.key, prior->key) << name;
@@ -23,7 +23,7 @@ TEST(DiagnosisLibrary, PriorsAreThoseOfTheCards) {
     EXPECT_EQ(effect->prior.maximum, prior->maximum) << name;
     EXPECT_EQ(effect->is_force, name != "gravity") << name;
   }
-  const auto overrides = library_effect("gravity")->overrides(1, 0, 0, [](const std::string&) { return ""; });
+  const auto overrides = catalogue_effect("gravity")->overrides(1, 0, 0, [](const std::string&) { return ""; });
   ASSERT_EQ(overrides.size(), 1u);
   EXPECT_EQ(overrides[0], "gravity.acceleration_m_s2=[0.0, 0.0, -9.81]");
 }

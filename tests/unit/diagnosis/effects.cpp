@@ -12,16 +12,16 @@ namespace {
 
 /// Writes down what a run is changed by.
 struct Recorded final : RunEdit {
-  const BaseCase& base() const override { return facts; }
+  const CaseFeatures& base() const override { return facts; }
   void set(const std::string& text) override { changes[text] = 1; }
   void scale(const std::string& key, double factor) override { changes.emplace(key, 1).first->second *= factor; }
   void turn_pieces(double angle) override { changes["turn"] = angle; }
   void scale_picture(double factor, int axis) override { changes["picture " + std::to_string(axis)] = factor; }
-  BaseCase facts;
+  CaseFeatures facts;
   std::map<std::string, double> changes;
 };
 
-std::map<std::string, double> changes_by(const std::string& effect, const BaseCase& facts, double theta) {
+std::map<std::string, double> changes_by(const std::string& effect, const CaseFeatures& facts, double theta) {
   Recorded run;
   run.facts = facts;
   effect_models().make(effect, "test")->change(theta, 0, 1, run);
@@ -38,8 +38,9 @@ TEST(Effects, RegistryHoldsTheFolder) {
 
 /// Requirement: an effect of a case that can show it changes its run, and says for every other case why it cannot be shown.
 TEST(Effects, WhatCanBeSeenChangesARun) {
-  BaseCase all;
-  for (bool BaseCase::*fact : {&BaseCase::flows, &BaseCase::uniform, &BaseCase::varies, &BaseCase::oriented}) all.*fact = true;
+  CaseFeatures all;
+  for (bool CaseFeatures::*fact : {&CaseFeatures::flows, &CaseFeatures::uniform, &CaseFeatures::varies, &CaseFeatures::oriented})
+    all.*fact = true;
   for (const std::string& name : effect_models().names()) {
     const Effect effect = effect_models().make(name, "test")->effect(all);
     EXPECT_EQ(effect.name, name);
@@ -50,7 +51,7 @@ TEST(Effects, WhatCanBeSeenChangesARun) {
 /// Requirement: an error of the set-points scales a prescribed flow as a whole, and of computed water what sets it; an error of the flow
 /// leaves its mean alone.
 TEST(Effects, FlowIsScaledByWhatSetsIt) {
-  BaseCase prescribed, computed;
+  CaseFeatures prescribed, computed;
   computed.prescribed = false;
   EXPECT_EQ(changes_by("operating_point", prescribed, 0.25).at("flow.velocity_m_s"), 1.25);
   EXPECT_EQ(changes_by("operating_point", prescribed, 0.25).count("boundary.flow_rate_m3_s"), 0u);

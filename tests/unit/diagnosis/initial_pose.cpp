@@ -10,12 +10,12 @@ namespace {
 
 /// Remembers by how much the pieces are turned.
 struct Turned final : RunEdit {
-  const BaseCase& base() const override { return facts; }
+  const CaseFeatures& base() const override { return facts; }
   void set(const std::string&) override {}
   void scale(const std::string&, double) override {}
   void turn_pieces(double by) override { angle += by; }
   void scale_picture(double, int) override {}
-  BaseCase facts;
+  CaseFeatures facts;
   double angle = 0;
 };
 
