@@ -60,7 +60,7 @@ class CaseSimulator final : public Simulator {
   void store(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
-  mutable WaterStore store_;
+  mutable FlowCache store_;
   std::filesystem::path folder_;
   std::vector<Observable> observables_;
   double picture_size_;  // m

@@ -90,7 +90,7 @@ PointCase::~PointCase() = default;
 PointCase::PointCase(PointCase&&) noexcept = default;
 PointCase& PointCase::operator=(PointCase&&) noexcept = default;
 
-PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, WaterStore* store)
+PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, FlowCache* store)
     : file_(file), tree_(std::make_unique<Tree>()) {
   const CaseFile read = CaseFile::read(file, overrides);
   StartSettings start;

@@ -10,7 +10,7 @@
 #include "base/case_file.hpp"
 #include "diagnosis/effects/effect_model.hpp"
 #include "observe/observables.hpp"
-#include "simulation/setup/water_store.hpp"
+#include "simulation/setup/flow_cache.hpp"
 
 namespace snag {
 
@@ -29,7 +29,7 @@ class PointCase {
  public:
   /// Reads the base case and builds it once, so that what is wrong with it is told at once. Throws Error.
   /// `overrides`: values of the case that this point replaces; `store`: holds meshes and water of several cases.
-  explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, WaterStore* store = nullptr);
+  explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, FlowCache* store = nullptr);
   ~PointCase();
   PointCase(PointCase&&) noexcept;
   PointCase& operator=(PointCase&&) noexcept;

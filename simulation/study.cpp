@@ -52,7 +52,7 @@ void add_run(Study& study, const std::vector<std::size_t>& choice) {
   study.runs.push_back(run);
 }
 
-void lay_out(Study& study) {
+void expand_runs(Study& study) {
   const std::string where = "[[vary]]";
   if (study.vary.empty()) throw Error(ExitCode::usage, where + " is missing: nothing varies; add one with key and values");
   std::size_t n = 1;
@@ -115,35 +115,35 @@ std::string input_of(const Study& study, const StudyRun& run) {
   return input;
 }
 
-enum class Before : int { nothing, ended, stopped, partial };
+enum class RunState : int { nothing, ended, stopped, partial };
 
 /// What an earlier start of the study left of a run; a partial one has begun and has no summary.
-Before left_of(const std::filesystem::path& folder, const std::string& input) {
-  if (!std::filesystem::exists(folder / "monitors")) return Before::nothing;
+RunState previous_state(const std::filesystem::path& folder, const std::string& input) {
+  if (!std::filesystem::exists(folder / "monitors")) return RunState::nothing;
   if (file_text(folder / "input.toml") != input)
     throw Error(ExitCode::usage, folder.string() +
                                      ": holds a run of another case or other values than the study has now (see its input.toml); "
                                      "choose another --out, or remove the folder");
   const auto summary = nlohmann::json::parse(file_text(folder / "summary.json").value_or(""), nullptr, false);
-  if (!summary.is_object()) return Before::partial;
+  if (!summary.is_object()) return RunState::partial;
   const int code = summary.value("exit", -1);
   for (const ExitCode end : {ExitCode::ok, ExitCode::diverged, ExitCode::invariant})
-    if (code == static_cast<int>(end)) return Before::ended;
-  return code == static_cast<int>(ExitCode::stopped) ? Before::stopped : Before::partial;
+    if (code == static_cast<int>(end)) return RunState::ended;
+  return code == static_cast<int>(ExitCode::stopped) ? RunState::stopped : RunState::partial;
 }
 
-Before prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run) {
+RunState prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run) {
   int before = 0;
   together(world, [&] {
     if (rank_of(world) != 0) return;
     const std::string input = input_of(study, run);
-    before = static_cast<int>(left_of(folder, input));
+    before = static_cast<int>(previous_state(folder, input));
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     write_atomically(folder / "input.toml", input);
   });
   MPI_Bcast(&before, 1, MPI_INT, 0, world);
-  return static_cast<Before>(before);
+  return static_cast<RunState>(before);
 }
 
 bool has_checkpoint(const std::filesystem::path& folder) {
@@ -156,10 +156,10 @@ bool has_checkpoint(const std::filesystem::path& folder) {
 }
 
 /// Runs one; what it failed with if that is its own matter.
-ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, Before before,
+ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, RunState before,
                  const ReportWriter& write_report) {
   RunOptions options{.case_file = study.case_file, .out = folder, .overrides = run.overrides, .write_report = write_report};
-  if (before != Before::nothing) {
+  if (before != RunState::nothing) {
     options.resume = has_checkpoint(folder / "checkpoint");
     options.overwrite = !options.resume;
   }
@@ -229,7 +229,7 @@ Study read_study(const std::filesystem::path& file) {
   for (const Table& table : root.tables("plot")) table.read(study.plots.emplace_back().section().parameters);
   text.reject_unread();
   study.case_file = text.path(study.settings.case_file);
-  lay_out(study);
+  expand_runs(study);
   check_keys(study, file);
   return study;
 }
@@ -249,9 +249,9 @@ ExitCode run_study(const StudyOptions& options) {
       log::info(which + "\n  " + joined(run.overrides));
       continue;
     }
-    const Before before = prepare(folder / run.name, study, run);
-    log::info(which + (before == Before::ended ? " has been run before" : ""));
-    if (before == Before::ended) continue;
+    const RunState before = prepare(folder / run.name, study, run);
+    log::info(which + (before == RunState::ended ? " has been run before" : ""));
+    if (before == RunState::ended) continue;
     const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report);
     if (code == ExitCode::stopped) return code;
     run.failed_with = static_cast<int>(code);

@@ -57,7 +57,7 @@ std::filesystem::path made_mesh(MPI_Comm comm, const MeshSettings& settings, con
 
 }  // namespace
 
-Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, WaterStore* store)
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowCache* store)
     : comm_(comm), stored_(std::move(stored)), store_(store) {
   const Table root = file.root();
   read(root, case_settings);
@@ -95,12 +95,12 @@ void Simulation::read_mesh(const CaseFile& file) {
   // Only standing meshes are shared: a turning one is left at some angle by the run before.
   mesh_key_ = joined({file.path(mesh_settings_.file).string(), file.path(mesh_settings_.parameters).string(), mesh_settings_.geometry,
                       words(mesh_settings_.scale)});
-  StoredMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
+  CachedMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
   if (!kept || !kept->mesh) {
     TemporaryMesh made;
     if (!mesh_settings_.geometry.empty()) made.file = made_mesh(comm_, mesh_settings_, file);
     const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
-    StoredMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}};
+    CachedMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}};
     fresh.quality = quality(*fresh.mesh);
     if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());
     mesh = fresh.mesh, mesh_quality = fresh.quality;
@@ -131,11 +131,11 @@ void Simulation::build_water(const CaseFile& file) {
     for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
     const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map_nearest_cell), words(settings.density),
                              words(settings.viscosity()), words(turbulence != nullptr), conditions});
-    stored_water_ = &store_->waters[key];
-    water = stored_water_->solver;
+    cached_flow_ = &store_->flows[key];
+    water = cached_flow_->solver;
   }
   if (!water) water = std::make_shared<FlowSolver>(*mesh, settings, std::move(boundaries), std::move(turbulence), std::move(zone));
-  if (stored_water_) stored_water_->solver = water;
+  if (cached_flow_) cached_flow_->solver = water;
   check_turn(*water, time_settings.step);
   if (!start_settings_.frozen) water->foresee(time_settings.end);
 }
@@ -282,7 +282,7 @@ void Simulation::add_flow_velocity(int rag) {
 
 /// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.
 void Simulation::check_inside() {
-  if (!coupled || !mesh || (strays_told_ && !periodic_)) return;
+  if (!coupled || !mesh || (warned_of_particles_outside_ && !periodic_)) return;
   std::int64_t n = coupled->report().particles_outside;
   for (const std::int64_t out : passage->n_out()) n -= out;
   if (n <= 0) return;
@@ -292,7 +292,7 @@ void Simulation::check_inside() {
     throw Error(ExitCode::invariant,
                 found + "; particles are not carried through periodic patches yet: shorten the run, or make the domain longer");
   log::warning(found + "; they feel the water of the nearest cell: is a [[wall]] missing?");
-  strays_told_ = true;
+  warned_of_particles_outside_ = true;
 }
 
 std::string Simulation::start() {
@@ -303,18 +303,18 @@ std::string Simulation::start() {
     return {};
   }
   if (!water) throw Error(ExitCode::usage, "[initial_flow] from: this case computes no water; remove it, or give [mesh]");
-  if (!frozen) return start_flow(*water, start_settings_, start_folder_).told;
-  StoredWater own;
-  StoredWater& kept = stored_water_ ? *stored_water_ : own;
-  std::string told = "start: frozen water of " + start_folder_.string();
+  if (!frozen) return start_flow(*water, start_settings_, start_folder_).log_message;
+  CachedFlow own;
+  CachedFlow& kept = cached_flow_ ? *cached_flow_ : own;
+  std::string log_message = "start: frozen water of " + start_folder_.string();
   if (!kept.as_started) {
     const StartedFlow from = start_flow(*water, start_settings_, start_folder_);
-    told = from.told + ", frozen";
+    log_message = from.log_message + ", frozen";
     water->start(from.time);
     kept.as_started.emplace(water->flow);
   }
   scale_flow(water->flow, *kept.as_started, start_settings_.velocity_factor);
-  return told;
+  return log_message;
 }
 
 void Simulation::save(CheckpointWriter& writer) const {

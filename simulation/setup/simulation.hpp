@@ -8,13 +8,13 @@
 #include "dem/rag_system.hpp"
 #include "dem/walls/walls.hpp"
 #include "mesh/quality.hpp"
+#include "simulation/setup/flow_cache.hpp"
 #include "simulation/setup/observe_settings.hpp"
 #include "simulation/setup/passage.hpp"
 #include "simulation/setup/rag_poses.hpp"
 #include "simulation/setup/settings.hpp"
 #include "simulation/setup/speed_bounds.hpp"
 #include "simulation/setup/start_flow.hpp"
-#include "simulation/setup/water_store.hpp"
 #include "solver/flow_solver.hpp"
 #include "solver/pump_monitor.hpp"
 
@@ -29,7 +29,7 @@ class Simulation {
   };
   /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn.
   /// Collective; throws Error.
-  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, WaterStore* store = nullptr);
+  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, FlowCache* store = nullptr);
   ~Simulation();
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
@@ -107,15 +107,15 @@ class Simulation {
   StartSettings start_settings_;
   std::filesystem::path start_folder_;
   Stored stored_;
-  WaterStore* store_;
-  StoredWater* stored_water_ = nullptr;  // of the store, for frozen water
-  std::string mesh_key_;                 // of the store
+  FlowCache* store_;
+  CachedFlow* cached_flow_ = nullptr;  // of the store, for frozen water
+  std::string mesh_key_;               // of the store
   std::optional<PrescribedFlow> prescribed_;
   double impact_speed_ = 0;                    // m/s, of the contacts
   std::unique_ptr<SpeedBounds> speed_bounds_;  // of the rags
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling
-  bool laminar_asked_ = false, periodic_ = false, strays_told_ = false;
+  bool laminar_asked_ = false, periodic_ = false, warned_of_particles_outside_ = false;
 };
 
 }  // namespace snag

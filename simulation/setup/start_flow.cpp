@@ -145,16 +145,16 @@ StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const s
   CheckpointReader reader(mesh.comm, folder / "checkpoint");
   if (!reader.has(velocity_name)) throw Error(ExitCode::usage, where + ": that run has no water; name the output folder of one that has");
   const double time = reader.stamp().time;
-  std::string told = "start: water of " + folder.string() + " at " + words(time) + " s";
-  if (!reader.fallback().empty()) told += "; " + reader.fallback();
+  std::string log_message = "start: water of " + folder.string() + " at " + words(time) + " s";
+  if (!reader.fallback().empty()) log_message += "; " + reader.fallback();
   std::vector<std::int64_t> ids(owned_ids(mesh).begin(), owned_ids(mesh).end());
   if (settings.map_nearest_cell) {
     double farthest = 0;
     ids = nearest_ids(reader, mesh, where, farthest);
-    told += ", from the nearest cells, " + words(farthest) + " m away or less";
+    log_message += ", from the nearest cells, " + words(farthest) + " m away or less";
   } else {
     check_same_mesh(reader, mesh, where);
-    if (!settings.frozen && water.go_on_from(reader)) return {.told = told, .time = time};
+    if (!settings.frozen && water.go_on_from(reader)) return {.log_message = log_message, .time = time};
   }
 
   const auto velocity = reader.rows(velocity_name, ids, 3);
@@ -169,10 +169,10 @@ StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const s
       read_scalar("flow/k", flow.turbulent_kinetic_energy);
       read_scalar("flow/epsilon", flow.dissipation_rate);
     } else {
-      told += "; that run had no k and epsilon: they start as [turbulence] says";
+      log_message += "; that run had no k and epsilon: they start as [turbulence] says";
     }
   }
-  return {.told = told, .time = time};
+  return {.log_message = log_message, .time = time};
 }
 
 void save_cell_centres(CheckpointWriter& checkpoint, const Mesh& mesh) {

@@ -29,8 +29,8 @@ struct StartSettings {
 void scale_flow(Flow& flow, const Flow& as_started, double factor);
 
 struct StartedFlow {
-  std::string told;  // a line for the log
-  double time;       // of the other run at which its water was taken, s
+  std::string log_message;  // a line for the log
+  double time;              // of the other run at which its water was taken, s
 };
 
 /// Sets the initial fields. Collective. Throws Error(io) where `folder` holds no valid checkpoint, Error(usage)

@@ -12,20 +12,20 @@
 
 namespace snag {
 
-struct StoredMesh {
+struct CachedMesh {
   std::shared_ptr<Mesh> mesh;  // null: not read yet
   MeshQuality quality;
 };
 
-struct StoredWater {
+struct CachedFlow {
   std::shared_ptr<FlowSolver> solver;  // null: not made yet
   std::optional<Flow> as_started;      // at velocity_factor = 1
 };
 
 /// By all that decides about them, as text.
-struct WaterStore {
-  std::map<std::string, StoredMesh> meshes;
-  std::map<std::string, StoredWater> waters;
+struct FlowCache {
+  std::map<std::string, CachedMesh> meshes;
+  std::map<std::string, CachedFlow> flows;
 };
 
 }  // namespace snag
