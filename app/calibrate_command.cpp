@@ -90,7 +90,7 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
   for (const double radius : radii) {
     log::info("calibration of " + tests.name + " at a particle radius of " + words(1e3 * radius) + " mm");
     CalibrationSettings settings{.radius = radius, .as_published = options.as_published, .n_seeds = options.n_seeds};
-    settings.tell = [](const std::string& line) { log::info(line); };
+    settings.report_progress = [](const std::string& line) { log::info(line); };
     calibrations.push_back(calibrate(MPI_COMM_WORLD, tests, settings));
     tell_result(tests, calibrations.back());
   }

@@ -119,7 +119,7 @@ bool is_run(const std::filesystem::path& subject) {
   return std::filesystem::exists(subject / "rags" / "rags.pvd") || std::filesystem::exists(subject / "summary.json");
 }
 
-Findings look_at(const std::filesystem::path& subject, const Camera* camera, const std::filesystem::path& folder, std::uint64_t seed) {
+Findings analyse(const std::filesystem::path& subject, const Camera* camera, const std::filesystem::path& folder, std::uint64_t seed) {
   if (!is_run(subject)) return look_at_pictures(subject, *camera, folder);
   Findings findings;
   if (camera) findings = look_at_run(subject, *camera, folder, seed);

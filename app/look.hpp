@@ -12,6 +12,6 @@ bool is_run(const std::filesystem::path& subject);
 
 /// What `camera` sees; null: nothing, the summary of a run alone is read, and `subject` must be one. Writes observations.csv, outlines/
 /// and, of a run, pictures/ to `folder`; `seed` of the virtual camera's noise. Throws Error(usage, io).
-Findings look_at(const std::filesystem::path& subject, const Camera* camera, const std::filesystem::path& folder, std::uint64_t seed);
+Findings analyse(const std::filesystem::path& subject, const Camera* camera, const std::filesystem::path& folder, std::uint64_t seed);
 
 }  // namespace snag

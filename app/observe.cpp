@@ -113,7 +113,7 @@ void observe_groups(const ObserveOptions& options, const Camera* camera, const p
     for (std::size_t s = 0; s < group.subjects.size(); ++s) {
       const path own = folder_of(group_folder, group.subjects[s], taken);
       std::filesystem::create_directories(own);
-      const Findings found = look_at(group.subjects[s], camera, own, static_cast<std::uint64_t>(options.seed) + n_observed++);
+      const Findings found = analyse(group.subjects[s], camera, own, static_cast<std::uint64_t>(options.seed) + n_observed++);
       found.write(own);
       log::info(group.subjects[s].string() + ": " + found.words(false));
       of_group.add(found);
@@ -149,7 +149,7 @@ void observe(const ObserveOptions& options) {
   const Camera* view = camera ? &*camera : nullptr;
   if (options.groups.size() > 1 || options.groups[0].subjects.size() > 1) return observe_groups(options, view, folder);
   std::filesystem::create_directories(folder);
-  const Findings found = look_at(first, view, folder, static_cast<std::uint64_t>(options.seed));
+  const Findings found = analyse(first, view, folder, static_cast<std::uint64_t>(options.seed));
   found.write(folder);
   log::info(found.words(true));
   std::vector<NamedVolute> volutes;

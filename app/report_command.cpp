@@ -14,7 +14,7 @@ namespace {
 
 constexpr int pictures_per_second = 24;  // of a film
 
-void tell(const Film& film, const std::string& folder) {
+void log_film(const Film& film, const std::string& folder) {
   if (film.n_pictures > 0)
     log::info("film: " + std::to_string(film.n_pictures) + " pictures, " + folder + "/pictures/film_0001.png and on; " +
               words(static_cast<double>(film.n_pictures) / pictures_per_second) + " s at " + std::to_string(pictures_per_second) +
@@ -36,7 +36,7 @@ Action add_report(CLI::App& app) {
     together(MPI_COMM_WORLD, [&] {
       if (rank_of(MPI_COMM_WORLD) != 0) return;
       write_report(*folder);
-      if (*with_film) tell(make_film(*folder), *folder);
+      if (*with_film) log_film(make_film(*folder), *folder);
     });
     log::info("report: " + *folder + "/report.html");
     return ExitCode::ok;

@@ -18,10 +18,10 @@
 namespace snag {
 
 struct CalibrationSettings {
-  double radius = 1.5e-3;                                                    // r_p, m
-  bool as_published = false;                                                 // clamps of the elongation test counted twice
-  int n_seeds = 4;                                                           // of the drape at the S_t that is chosen; two at the others
-  std::function<void(const std::string&)> tell = [](const std::string&) {};  // progress, in words
+  double radius = 1.5e-3;     // r_p, m
+  bool as_published = false;  // clamps of the elongation test counted twice
+  int n_seeds = 4;            // of the drape at the S_t that is chosen; two at the others
+  std::function<void(const std::string&)> report_progress = [](const std::string&) {};  // progress, in words
 };
 
 /// What the drape says of one tangential stiffness.

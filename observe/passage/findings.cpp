@@ -73,14 +73,14 @@ void PictureFindings::write(const std::filesystem::path& folder) const {
 }
 
 std::string PictureFindings::words(bool statistics) const {
-  std::ostringstream told;
-  told << n_pictures_ << " pictures, " << n_blobs_ << " pieces of cloth, " << samples_.size() << " of them wholly in the picture";
-  told.precision(4);
+  std::ostringstream summary;
+  summary << n_pictures_ << " pictures, " << n_blobs_ << " pieces of cloth, " << samples_.size() << " of them wholly in the picture";
+  summary.precision(4);
   for (std::size_t o = 0; o < quantities().size() && statistics && !samples_.empty(); ++o) {
     const MeanAndSigma m = mean_and_sigma(column(o), quantities()[o]);
-    told << "\n  " << quantities()[o].name << ": mean " << m.mean << ", sigma " << m.sigma << " " << quantities()[o].unit;
+    summary << "\n  " << quantities()[o].name << ": mean " << m.mean << ", sigma " << m.sigma << " " << quantities()[o].unit;
   }
-  return told.str();
+  return summary.str();
 }
 
 void Findings::add(const Findings& other) {

@@ -132,7 +132,7 @@ PassageResult PassageTracker::verdict() const {
 
 /// Visits all numbers of the state but the log: one list for both ways.
 template <class Self, class Visit>
-void PassageTracker::for_numbers(Self& self, const Visit& visit) {
+void PassageTracker::for_each_state_value(Self& self, const Visit& visit) {
   visit(self.time_), visit(self.angle_), visit(self.is_seen_), visit(self.is_armed_), visit(self.is_passing_), visit(self.is_past_tongue_),
       visit(self.is_upstream_);
   visit(self.n_recirculations_), visit(self.entered_), visit(self.wholly_in_), visit(self.reached_outlet_), visit(self.exited_);
@@ -147,14 +147,14 @@ void PassageTracker::for_numbers(Self& self, const Visit& visit) {
 
 std::vector<double> PassageTracker::state() const {
   std::vector<double> state;
-  for_numbers(*this, [&](const auto& number) { state.push_back(static_cast<double>(number)); });
+  for_each_state_value(*this, [&](const auto& number) { state.push_back(static_cast<double>(number)); });
   for (const Entry& entry : log_) state.insert(state.end(), {entry.time, entry.angle, static_cast<double>(entry.what)});
   return state;
 }
 
 void PassageTracker::restore(const std::vector<double>& state) {
   auto next = state.begin();
-  for_numbers(*this, [&](auto& number) { number = static_cast<std::remove_reference_t<decltype(number)>>(*next++); });
+  for_each_state_value(*this, [&](auto& number) { number = static_cast<std::remove_reference_t<decltype(number)>>(*next++); });
   log_.clear();
   for (; next != state.end(); next += 3) log_.push_back({next[0], next[1], static_cast<PassageEvent>(next[2])});
 }

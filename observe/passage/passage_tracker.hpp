@@ -107,7 +107,7 @@ class PassageTracker {
   void leave(const RagSnapshot& seen, double time, double step);
   Outcome outcome() const;
   template <class Self, class Visit>
-  static void for_numbers(Self& self, const Visit& visit);
+  static void for_each_state_value(Self& self, const Visit& visit);
 
   Passageway passageway_;
   int sense_;
