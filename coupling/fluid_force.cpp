@@ -93,7 +93,7 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   Particles particles(rag, tile);
   particles.step = state.step;
   particles.memory = memory.data(), particles.memory_stride = tile.field_size;
-  const bool changes_drag = card.role == Role::other_drag || card.role == Role::drag_change;
+  const bool changes_drag = card.role == Role::drag_replacement || card.role == Role::drag_modifier;
   const auto drag = fluid_forces().make("schiller_naumann", "sphere");
   if (changes_drag) drag->add(fluid, particles, forces);
   force.add(fluid, particles, forces);

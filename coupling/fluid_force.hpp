@@ -93,11 +93,11 @@ struct Forces {
 
 /// What a model changes; models act in this order, those of one role in the order of their names.
 enum class Role {
-  fluid,        // the fluid velocity that the others see
-  drag,         // adds drag
-  other_drag,   // takes the place of a share of the drag that `force` and `slope` hold by then
-  drag_change,  // changes the drag that `force` and `slope` hold by then; force = slope w, unless a model before made it anisotropic
-  force         // adds a force
+  fluid,             // the fluid velocity that the others see
+  drag,              // adds drag
+  drag_replacement,  // takes the place of a share of the drag that `force` and `slope` hold by then
+  drag_modifier,     // changes the drag that `force` and `slope` hold by then; force = slope w, unless a model before made it anisotropic
+  force              // adds a force
 };
 
 /// What a model is, for the manual.

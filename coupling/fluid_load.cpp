@@ -8,9 +8,9 @@ namespace snag {
 namespace {
 enum Sum { impulse_x, impulse_y, impulse_z, sensitivity_sum, n_sums };
 enum Array {
-  reacting_force = 0,
+  two_way_force = 0,
   slope_sum = 3,
-  silent_force = 4,
+  one_way_force = 4,
   added_mass_sum = 7,
   torque_sum = 8,
   torque_slope_sum = 11,
@@ -71,7 +71,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
       Q[k] += exists[k] * step * slope[k] * phi[k];
     }
     for (int i = 0; i < 3; ++i) {
-      const double *R = array(reacting_force + i), *N = array(silent_force + i);
+      const double *R = array(two_way_force + i), *N = array(one_way_force + i);
       double *f = tile.field(Tile::fx + i), *J = sums_.field(index, impulse_x + i);
 #pragma omp simd
       for (int k = first; k < end; ++k) {
@@ -93,14 +93,14 @@ void FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   const auto clear = [&](int f, int count) {
     for (int i = f; i < f + count; ++i) std::fill(array(i) + particles.begin, array(i) + particles.end, 0.0);
   };
-  clear(reacting_force, 4);  // with the slope
-  if (!all_react_) clear(silent_force, 3);
+  clear(two_way_force, 4);  // with the slope
+  if (!all_react_) clear(one_way_force, 3);
   if (added_mass_) clear(added_mass_sum, 1);
   if (torque_) clear(torque_sum, 4);  // with the slope
   const auto vector = [&](int f) { return VectorSum{array(f), array(f + 1), array(f + 2)}; };
-  Forces reacting{vector(reacting_force), vector(torque_sum), array(slope_sum), array(added_mass_sum), array(torque_slope_sum)};
+  Forces reacting{vector(two_way_force), vector(torque_sum), array(slope_sum), array(added_mass_sum), array(torque_slope_sum)};
   Forces silent = reacting;
-  silent.force = vector(silent_force);
+  silent.force = vector(one_way_force);
   // The middle of the sub-step is where the integrator evaluates forces.
   FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
   if (changes_fluid_) {

@@ -57,8 +57,8 @@ void Kernel::locate(std::span<const Vec3> points) {
   const std::vector<double> factors = weight_factors(answers, unresolved);
   around_.router.forward(factors, 1, received);
   finish_weights(received);
-  strays_ = sum(mesh_.comm, static_cast<std::int64_t>(unresolved.size())) > 0;
-  if (strays_) take_nearest_cells(points, unresolved);
+  some_in_nearest_cell_ = sum(mesh_.comm, static_cast<std::int64_t>(unresolved.size())) > 0;
+  if (some_in_nearest_cell_) take_nearest_cells(points, unresolved);
 }
 
 /// A particle is told to the ranks whose cells' bounding box, enlarged by the support, holds it.
@@ -232,7 +232,7 @@ std::vector<double> Kernel::average(std::span<const CellField> fields) const {
   for (const auto& field : fields) components += field.components;
   std::vector<double> values(static_cast<std::size_t>(n_particles_) * components, 0.0);
   average(around_, fields, components, values);
-  if (strays_) average(nearest_, fields, components, values);
+  if (some_in_nearest_cell_) average(nearest_, fields, components, values);
   return values;
 }
 
@@ -293,7 +293,7 @@ void Kernel::average(const Stencils& stencils, std::span<const CellField> fields
 
 void Kernel::spread(std::span<const double> amounts, int components, std::span<double> field) const {
   spread(around_, amounts, components, field);
-  if (strays_) spread(nearest_, amounts, components, field);
+  if (some_in_nearest_cell_) spread(nearest_, amounts, components, field);
 }
 
 void Kernel::spread(const Stencils& stencils, std::span<const double> amounts, int components, std::span<double> field) const {

@@ -82,7 +82,7 @@ class Kernel {
 
   int n_particles_ = 0;
   std::int64_t n_outside_ = 0;
-  bool strays_ = false;  // some particle of some rank took the nearest cell
+  bool some_in_nearest_cell_ = false;  // some particle of some rank took the nearest cell
   std::vector<int> holder_rank_;
   std::vector<int> holder_cell_;      // local number of that cell on its rank: the hint of the next search
   std::vector<int> received_holder_;  // by received particle: the owned cell that holds it, or -1

@@ -84,7 +84,7 @@ void RagSystem::remove(int rag) {
   halo_->exchange();
 }
 
-void RagSystem::push(int rag, const Vec3& velocity) {
+void RagSystem::add_velocity(int rag, const Vec3& velocity) {
   for (Tile& tile : tiles_)
     if (tile.rag == rag) for_particles(tile, [&](int k, int, int) { tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + velocity); });
   halo_->exchange();

@@ -91,7 +91,7 @@ class RagSystem {
   /// before the next one. Collective.
   void remove(int rag);
   /// Adds a velocity to all particles of a rag, m/s.
-  void push(int rag, const Vec3& velocity);
+  void add_velocity(int rag, const Vec3& velocity);
   double time() const { return time_; }
   std::int64_t n_sub_steps() const { return n_sub_steps_; }
   /// Of the last advance.

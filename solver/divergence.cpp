@@ -214,7 +214,7 @@ void DivergenceWatch::fail(const Flow& flow, const BoundarySet& boundary, double
 /// Water that enters through an outlet near the place: a sentence, or nothing.
 std::string DivergenceWatch::backflow(const Flow& flow, const BoundarySet& boundary, const Finding& found) const {
   for (int p = 0; p < static_cast<int>(mesh_.patches.size()); ++p) {
-    if (!boundary.is_way_out(p)) continue;
+    if (!boundary.is_outlet(p)) continue;
     double in = 0, through = 0, area = 0, distance = infinite;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       in += std::max(0.0, -flow.flux[f]), through += std::abs(flow.flux[f]), area += norm(mesh_.face_vector[f]);

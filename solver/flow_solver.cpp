@@ -89,7 +89,7 @@ StepReport FlowSolver::advance(double dt) {
   return report;
 }
 
-void FlowSolver::hold(double dt) {
+void FlowSolver::advance_frozen(double dt) {
   start(flow.time);
   flow.velocity_old = flow.velocity;
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
@@ -120,7 +120,7 @@ void FlowSolver::balance_body_force() {
   const auto velocity = flow.velocity;
   const auto reaction = std::exchange(flow.reaction, std::vector<Vec3>(flow.reaction.size()));
   const auto drag = std::exchange(flow.drag, std::vector<double>(flow.drag.size()));
-  const auto values = boundary_.at_rest();
+  const auto values = boundary_.exchange_for_rest_state();
   for (int k = 0; k < static_correctors; ++k) {
     for (std::size_t c = 0; c < velocity.size(); ++c) flow.velocity[c] = flow.body_force - flow.pressure_gradient[c];
     continuity_.correct(flow, boundary_, unit_step, no_gradient);

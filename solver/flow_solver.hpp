@@ -57,7 +57,7 @@ class FlowSolver {
   /// Advance by dt, second order in space and time. Throws Error(diverged) that names step, field and place.
   StepReport advance(double dt);
   /// The water stays as it is for dt: a frozen field, for bodies that it carries. Not for a rotating zone.
-  void hold(double dt);
+  void advance_frozen(double dt);
   /// What the first step does before it begins: the velocity as it was given becomes divergence-free, gradients and halos are made. Once.
   /// Conditions on the boundary are those of the given time, s: of water from another run the time at which it is taken.
   void start(double time_of_conditions);

@@ -3,7 +3,7 @@
 // Below Re = 1, where drag is linear whatever the body, the factor stays what it is at Re = 1, so that it is finite at rest.
 #include <algorithm>
 
-#include "coupling/drag_change.hpp"
+#include "coupling/drag_modifier.hpp"
 
 namespace snag {
 namespace {
@@ -19,7 +19,7 @@ struct DragExponent final : FluidForce {
             .equation = "C_d -> C_d (max(Re, 1)/Re_ref)^theta",
             .source = "power law about a reference state",
             .valid_for = "any drag law",
-            .role = Role::drag_change,
+            .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.drag_exponent.exponent",
                            .meaning = "change of the exponent of Re in the drag coefficient",
                            .mean = 0.2,

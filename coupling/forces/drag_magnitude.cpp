@@ -1,7 +1,7 @@
 // Drag of another size:   F = (1 + theta) F_drag
 //
 // One factor on whatever drag law is active: particles that are rougher, larger or less round than the law takes them for.
-#include "coupling/drag_change.hpp"
+#include "coupling/drag_modifier.hpp"
 
 namespace snag {
 namespace {
@@ -15,7 +15,7 @@ struct DragMagnitude final : FluidForce {
             .equation = "F = (1 + theta) F_drag",
             .source = "definition",
             .valid_for = "any drag law",
-            .role = Role::drag_change,
+            .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.drag_magnitude.excess",
                            .meaning = "relative excess of drag",
                            .mean = 0.3,

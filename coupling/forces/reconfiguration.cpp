@@ -8,7 +8,7 @@
 // Machado-Almeida (2010), J. Fluid Mech. 650, 319-341.
 #include <algorithm>
 
-#include "coupling/drag_change.hpp"
+#include "coupling/drag_modifier.hpp"
 
 namespace snag {
 namespace {
@@ -23,7 +23,7 @@ struct Reconfiguration final : FluidForce {
             .equation = "F = (1 + (|w|/w_0)^2)^(V/2) F_drag",
             .source = "Vogel (1984); Gosselin, de Langre and Machado-Almeida (2010)",
             .valid_for = "flexible parts below the resolution of the particles",
-            .role = Role::drag_change,
+            .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.reconfiguration.exponent",
                            .meaning = "Vogel exponent",
                            .mean = -0.67,

@@ -33,7 +33,7 @@ struct SheetDrag final : FluidForce {
             .equation = "F = (1 - theta) F_drag + theta (1/2 rho C_n A |w_n| w_n + rho C_t A |w_t| w_t)",
             .source = "Taylor and Batchelor (1949); Hoerner (1965)",
             .valid_for = "sheets resolved by particles",
-            .role = Role::other_drag,
+            .role = Role::drag_replacement,
             .prior = Prior{.key = "coupling.sheet_drag.share",
                            .meaning = "share of the drag that follows the plane of the sheet",
                            .mean = 0.8,

@@ -22,7 +22,7 @@ struct Shielding final : FluidForce {
             .equation = "F = (1 - theta s) F_drag",
             .source = "Hoerner (1965), chapter 8; form assumed",
             .valid_for = "particles of a cloth or fibre under the drag of single spheres",
-            .role = Role::drag_change,
+            .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.shielding.shelter",
                            .meaning = "share of drag lost in full shelter",
                            .mean = 0.5,

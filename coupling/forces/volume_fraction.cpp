@@ -8,7 +8,7 @@
 // 2.7 on the slip in the gaps in creeping flow.
 #include <algorithm>
 
-#include "coupling/drag_change.hpp"
+#include "coupling/drag_modifier.hpp"
 #include "coupling/suspension_drag.hpp"
 
 namespace snag {
@@ -25,7 +25,7 @@ struct VolumeFraction final : FluidForce {
             .source = "Richardson and Zaki (1954), di Felice (1994)",
             .valid_for = "many particles, void fraction above 0.4",
             .samples = {.solid_fraction = true},
-            .role = Role::drag_change,
+            .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.volume_fraction.exponent",
                            .meaning = "exponent of the void fraction in the drag",
                            .mean = 2.7,

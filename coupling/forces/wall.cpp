@@ -32,7 +32,7 @@ struct Wall final : FluidForce {
             .source = "Brenner (1961), Faxen (1923), Lorentz (1907)",
             .valid_for = "spheres near one plane wall, Re < 1",
             .samples = {.wall = true},
-            .role = Role::drag_change,
+            .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.wall.strength",
                            .meaning = "share of the theoretical increase of drag by the wall",
                            .mean = 1,

@@ -12,9 +12,9 @@ inline constexpr double opening_reach = 1.5;
 
 struct Opening {
   std::string name;
-  Vec3 centre, normal;     // m; unit, out of the domain
-  double radius = 0;       // m, the one that holds the patch
-  bool is_way_out = true;  // false for an inlet: what lies beyond it has not come in
+  Vec3 centre, normal;    // m; unit, out of the domain
+  double radius = 0;      // m, the one that holds the patch
+  bool is_outlet = true;  // false for an inlet: what lies beyond it has not come in
 
   /// Distance beyond the plane (m, negative in front of it) if x is near the axis, -infinity otherwise.
   double beyond(const Vec3& x) const;

@@ -18,7 +18,7 @@ std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary) {
       vectors.push_back(mesh.face_vector[f]), moments.push_back(area * mesh.face_centre[f]), areas.push_back(area);
     }
     Opening opening{patch.name, sum(mesh.comm, moments) / sum(mesh.comm, areas), unit(sum(mesh.comm, vectors)), 0,
-                    boundary.is_way_out(static_cast<int>(p))};
+                    boundary.is_outlet(static_cast<int>(p))};
     double radius = 0;
     for (int f = patch.first; f < patch.end(); ++f) radius = std::max(radius, norm(mesh.face_centre[f] - opening.centre));
     opening.radius = maximum(mesh.comm, radius);

@@ -24,9 +24,9 @@ enum Count {
   n_counts = touched + n_wall_places
 };
 
-bool is_beyond(const Vec3& x, const std::vector<Opening>& openings, bool is_way_out) {
+bool is_beyond(const Vec3& x, const std::vector<Opening>& openings, bool is_outlet) {
   return std::any_of(openings.begin(), openings.end(),
-                     [&](const Opening& opening) { return opening.is_way_out == is_way_out && opening.beyond(x) > 0; });
+                     [&](const Opening& opening) { return opening.is_outlet == is_outlet && opening.beyond(x) > 0; });
 }
 
 /// In a pump the walls that move are the impeller's, and the marked line is the tongue.

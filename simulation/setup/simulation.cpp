@@ -203,7 +203,7 @@ void Simulation::bound_speeds() {
 
 void Simulation::move_water(double dt) {
   if (rags) bound_speeds();  // before the water feels what has diverged
-  if (start_settings_.frozen) return water->hold(dt);
+  if (start_settings_.frozen) return water->advance_frozen(dt);
   try {
     flow_report = water->advance(dt);
   } catch (const Error& failure) {
@@ -277,7 +277,7 @@ void Simulation::add_flow_velocity(int rag) {
   if (!velocity)
     throw Error(ExitCode::usage, rags->rags()[static_cast<std::size_t>(rag)].name +
                                      ": match_flow_velocity = true, but this case computes no water; give velocity, or [mesh] and [flow]");
-  rags->push(rag, *velocity);
+  rags->add_velocity(rag, *velocity);
 }
 
 /// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.

@@ -120,7 +120,7 @@ void BoundarySet::update(const Flow& flow, double time) {
   if (!fixes_pressure_) check_net_flux();
 }
 
-BoundaryValues BoundarySet::at_rest() {
+BoundaryValues BoundarySet::exchange_for_rest_state() {
   BoundaryValues before = values_;
   std::fill(values_.flux.begin(), values_.flux.end(), 0.0);
   std::fill(values_.acceleration.begin(), values_.acceleration.end(), Vec3{});

@@ -39,9 +39,9 @@ class Boundary {
   /// True where water passes: not at walls and planes of symmetry.
   bool is_open() const { return !is_wall() && fixes() != Fixes::symmetry; }
   /// True where the pressure is as given, false where its level follows from the flow.
-  virtual bool level_is_given() const { return fixes() == Fixes::pressure; }
+  virtual bool pressure_is_prescribed() const { return fixes() == Fixes::pressure; }
   /// True where what the water carries has left for good once it is beyond the patch.
-  virtual bool is_way_out() const { return fixes() == Fixes::pressure; }
+  virtual bool is_outlet() const { return fixes() == Fixes::pressure; }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
   virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
   /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
@@ -81,12 +81,12 @@ class BoundarySet {
 
   const BoundaryValues& values() const { return values_; }
   /// Set all fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
-  BoundaryValues at_rest();
+  BoundaryValues exchange_for_rest_state();
   void restore(const BoundaryValues& values) { values_ = values; }
   Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
-  bool is_way_out(int patch) const { return conditions_[patch].boundary->is_way_out(); }
+  bool is_outlet(int patch) const { return conditions_[patch].boundary->is_outlet(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// Of all conditions, s.

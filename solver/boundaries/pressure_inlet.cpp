@@ -42,7 +42,7 @@ struct PressureInlet final : Boundary {
   }
   std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::pressure; }
-  bool is_way_out() const override { return false; }
+  bool is_outlet() const override { return false; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
   }

@@ -45,7 +45,7 @@ struct PressureOutlet final : Boundary {
   }
   std::vector<double> knots() const override { return course.knots(); }
   Fixes fixes() const override { return Fixes::pressure; }
-  bool level_is_given() const override { return !target_flow_rate; }
+  bool pressure_is_prescribed() const override { return !target_flow_rate; }
 
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>& all) override {
     const std::string where = "[[boundary]] \"" + patch.name + "\"";
@@ -53,7 +53,7 @@ struct PressureOutlet final : Boundary {
     if (response_time && !target_flow_rate)
       throw Error(ExitCode::usage, where + ": response_time is given without target_flow_rate; remove it or give the target");
     if (!target_flow_rate) return;
-    if (std::none_of(all.begin(), all.end(), [](const PatchBoundary& other) { return other.boundary->level_is_given(); }))
+    if (std::none_of(all.begin(), all.end(), [](const PatchBoundary& other) { return other.boundary->pressure_is_prescribed(); }))
       throw Error(ExitCode::usage, where +
                                        ": target_flow_rate needs another patch where the pressure is given, from which the fluid comes; "
                                        "use kind = \"pressure_inlet\", or take target_flow_rate away");
