@@ -83,7 +83,7 @@ void write_results(const std::filesystem::path& out, const TextileTests& tests, 
 ExitCode run_calibrate(const CalibrateOptions& options) {
   TextileTests tests;
   std::vector<double> radii;
-  together(MPI_COMM_WORLD, [&] { tests = read_textile_tests(options.tests_file), radii = radii_of(options); });
+  on_all_ranks(MPI_COMM_WORLD, [&] { tests = read_textile_tests(options.tests_file), radii = radii_of(options); });
   const std::filesystem::path tests_file(options.tests_file);
   const std::filesystem::path out = options.out.empty() ? "results/calibrate-" + tests_file.stem().string() : options.out;
   std::vector<Calibration> calibrations;
@@ -95,7 +95,7 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
     tell_result(tests, calibrations.back());
   }
   const auto write = [&](const std::optional<IndependencePart>& part) {
-    together(MPI_COMM_WORLD, [&] {
+    on_all_ranks(MPI_COMM_WORLD, [&] {
       if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, part, options.tests_file);
     });
   };

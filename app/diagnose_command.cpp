@@ -17,7 +17,7 @@ namespace {
 
 /// A page as report.html of a folder, and lines for the terminal. Collective; rank 0 has the text.
 void publish(const std::filesystem::path& folder, const std::function<std::string()>& page, const std::function<std::string()>& lines) {
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) != 0) return;
     write_atomically(folder / "report.html", page());
     log::info(lines());

@@ -74,7 +74,7 @@ Action add_observe(CLI::App& app) {
   return [options, groups] {
     options->observe.groups = groups_of(groups->results());
     if (options->observe.groups.empty()) options->observe.groups = {{"", {options->subjects.begin(), options->subjects.end()}}};
-    together(MPI_COMM_WORLD, [&] {
+    on_all_ranks(MPI_COMM_WORLD, [&] {
       if (rank_of(MPI_COMM_WORLD) == 0) observe(options->observe);
     });
     return ExitCode::ok;

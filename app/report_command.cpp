@@ -33,7 +33,7 @@ Action add_report(CLI::App& app) {
   command->add_flag("--film", *with_film,
                     "Also draw DIR/pictures/film_0001.png and so on, one for each time at which the rags were written");
   return [folder, with_film] {
-    together(MPI_COMM_WORLD, [&] {
+    on_all_ranks(MPI_COMM_WORLD, [&] {
       if (rank_of(MPI_COMM_WORLD) != 0) return;
       write_report(*folder);
       if (*with_film) log_film(make_film(*folder), *folder);

@@ -114,7 +114,7 @@ std::string text_of(const Restart& restart) {
 /// Empty where there is no such file.
 std::string shared_text(MPI_Comm comm, const std::filesystem::path& file) {
   std::string text;
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     if (rank_of(comm) == 0) text = file_text(file).value_or("");
     if (text.size() > std::numeric_limits<int>::max())
       throw Error(ExitCode::io, file.string() + ": has more than 2 GB; is it the right one?");
@@ -269,7 +269,7 @@ void CaseSimulator::run_portion(std::span<const Job* const> fresh) {
     for (std::size_t i = 0; i < slots(fresh[j]->request->point).size(); ++i) result.values.push_back(std::bit_cast<double>(bits[at++]));
     cached_.emplace(fresh[j]->key, std::move(result));
   }
-  together(comm_, [&] {
+  on_all_ranks(comm_, [&] {
     for (const Job* job : fresh) store(job->key, cached_.at(job->key));
   });
   n_runs_ += static_cast<int>(fresh.size());
@@ -312,7 +312,7 @@ void CaseSimulator::open_cache(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
   for (StoredRun& run : run_table(text, file))
     if (run.program == program_.substr(0, 16)) cached_.emplace(run.key, std::move(run.result));
-  together(comm_, [&] {
+  on_all_ranks(comm_, [&] {
     if (rank_of(comm_) != 0) return;
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     // A line that a crash cut off is cut off for good.

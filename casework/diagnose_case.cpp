@@ -20,7 +20,7 @@ Verdict diagnose_file(const DiagnoseOptions& options) {
   const bool first = rank_of(world) == 0;
   Experiment experiment;
   std::optional<FolderLock> lock;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     experiment = read_experiment(options.file);
     if (first) lock.emplace(options.out);
   });
@@ -31,7 +31,7 @@ Verdict diagnose_file(const DiagnoseOptions& options) {
                                      if (progress) progress->update(done, stage);
                                    }});
   if (progress) progress->finish();
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (first) write_atomically(options.out / "verdict.json", verdict_json(verdict));
   });
   return verdict;

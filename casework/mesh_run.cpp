@@ -86,7 +86,7 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
   auto case_file = folder;
   case_file += ".toml";
   int done = 0, begun = 0;
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     std::filesystem::create_directories(folder.parent_path());
     if (rank_of(MPI_COMM_WORLD) == 0) write_atomically(case_file, case_text);
     done = is_done(folder), begun = std::filesystem::exists(folder / "checkpoint");

@@ -316,7 +316,7 @@ void RagSystem::move_tiles(const std::vector<int>& owner) {
     parcels[to].push_back(numbers_[i]), parcels[to].push_back(static_cast<double>(values.size()));
     parcels[to].insert(parcels[to].end(), values.begin(), values.end());
   }
-  Letters<double> out;
+  RowsByRank<double> out;
   for (const auto& parcel : parcels) {
     out.counts.push_back(static_cast<int>(parcel.size()));
     out.rows.insert(out.rows.end(), parcel.begin(), parcel.end());

@@ -53,7 +53,7 @@ struct CheckpointWriter::File {
 
   template <class T>
   void rows(const std::string& name, std::span<const std::int64_t> ids, std::span<const T> values, int components) {
-    together(slot.comm, [&] {
+    on_all_ranks(slot.comm, [&] {
       if (components < 1 || values.size() != ids.size() * components)
         throw Error(ExitCode::io, "checkpoint " + name + ": " + std::to_string(values.size()) + " values for " +
                                       std::to_string(ids.size()) + " rows of " + std::to_string(components) +
@@ -71,7 +71,7 @@ struct CheckpointWriter::File {
 };
 
 CheckpointWriter::CheckpointWriter(MPI_Comm comm, const std::filesystem::path& folder, const CheckpointStamp& stamp) {
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     std::error_code failure;
     if (rank_of(comm) == 0) std::filesystem::create_directories(folder, failure);
     if (failure) throw Error(ExitCode::io, folder.string() + ": cannot be created (" + failure.message() + "); choose another --out");

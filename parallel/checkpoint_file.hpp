@@ -51,7 +51,7 @@ struct CheckpointFile {
   template <class Call>
   auto on_all(const std::string& what, Call call) const {
     decltype(call()) result = -1;
-    together(comm, [&] {
+    on_all_ranks(comm, [&] {
       result = call();
       if (result >= 0 && write_failure().empty()) return;
       const std::string reason = write_failure().empty() ? hdf5::last_reason() : write_failure();

@@ -84,7 +84,7 @@ std::uint32_t joined_crc32(MPI_Comm comm, uLong part, std::int64_t part_bytes) {
 void append_trailer(MPI_Comm comm, const std::filesystem::path& file) {
   const std::int64_t length = content_length(comm, file) + trailer_length;
   const auto crc = file_crc32(comm, file, length);
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     if (!crc) throw Error(ExitCode::io, file.string() + ": cannot be read again after it was written; is the disk damaged?");
     if (rank_of(comm) != 0) return;
     OpenFile out(file, O_WRONLY | O_APPEND);

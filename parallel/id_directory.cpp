@@ -12,7 +12,7 @@ namespace snag {
 
 namespace {
 
-using Numbers = Letters<std::int64_t>;
+using Numbers = RowsByRank<std::int64_t>;
 
 std::vector<int> starts(const std::vector<int>& counts) {
   std::vector<int> result(counts.size());
@@ -26,20 +26,20 @@ int directory_rank(std::int64_t id, int n_ranks) { return static_cast<int>(stati
 /// The ids for each directory rank with their indices here, as pairs or (without indices) alone.
 Numbers addressed(std::span<const std::int64_t> ids, int n_ranks, bool with_index, std::vector<int>* order = nullptr) {
   const int width = with_index ? 2 : 1;
-  Numbers letters;
-  letters.counts.assign(n_ranks, 0);
-  for (const auto id : ids) letters.counts[directory_rank(id, n_ranks)] += width;
-  auto at = starts(letters.counts);
-  letters.rows.resize(ids.size() * width);
+  Numbers rows_by_rank;
+  rows_by_rank.counts.assign(n_ranks, 0);
+  for (const auto id : ids) rows_by_rank.counts[directory_rank(id, n_ranks)] += width;
+  auto at = starts(rows_by_rank.counts);
+  rows_by_rank.rows.resize(ids.size() * width);
   if (order) order->resize(ids.size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     int& place = at[directory_rank(ids[i], n_ranks)];
     if (order) (*order)[place / width] = static_cast<int>(i);
-    letters.rows[place] = ids[i];
-    if (with_index) letters.rows[place + 1] = static_cast<std::int64_t>(i);
+    rows_by_rank.rows[place] = ids[i];
+    if (with_index) rows_by_rank.rows[place + 1] = static_cast<std::int64_t>(i);
     place += width;
   }
-  return letters;
+  return rows_by_rank;
 }
 
 struct Entry {
@@ -72,7 +72,7 @@ RowPlaces find_rows(MPI_Comm comm, std::span<const std::int64_t> held, std::span
   const Numbers asked = exchanged(comm, addressed(wanted, n_ranks, false, &order));
 
   Numbers answer;
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     const auto entries = directory(known, what);
     answer.rows.reserve(2 * asked.rows.size());
     for (const auto id : asked.rows) {

@@ -46,16 +46,16 @@ std::vector<Row> gathered_on_first(MPI_Comm comm, const std::vector<Row>& mine) 
 
 /// Rows in order of the ranks they go to, or came from, and how many of each.
 template <class Row>
-struct Letters {
+struct RowsByRank {
   std::vector<Row> rows;
   std::vector<int> counts;  // [n_ranks]
 };
 
 /// What the other ranks sent here. Collective.
 template <class Row>
-Letters<Row> exchanged(MPI_Comm comm, const Letters<Row>& sent) {
+RowsByRank<Row> exchanged(MPI_Comm comm, const RowsByRank<Row>& sent) {
   static_assert(std::is_trivially_copyable_v<Row>);
-  Letters<Row> received;
+  RowsByRank<Row> received;
   received.counts = exchanged_counts(comm, sent.counts);
   std::size_t n = 0;
   for (const int count : received.counts) n += static_cast<std::size_t>(count);

@@ -40,7 +40,7 @@ int size_of(MPI_Comm comm) {
   return size;
 }
 
-void together(MPI_Comm comm, const std::function<void()>& work) {
+void on_all_ranks(MPI_Comm comm, const std::function<void()>& work) {
   const int rank = rank_of(comm), size = size_of(comm);
   std::optional<Error> caught;
   try {

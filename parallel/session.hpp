@@ -27,7 +27,7 @@ int size_of(MPI_Comm comm);
 
 /// Run a piece of work that may fail on some ranks only; then either all ranks return or all throw the same Error (that of the lowest
 /// failing rank). The work itself must not communicate after the point where it may throw. Collective.
-void together(MPI_Comm comm, const std::function<void()>& work);
+void on_all_ranks(MPI_Comm comm, const std::function<void()>& work);
 
 /// After an error: a rank that fails alone leaves the others waiting in some exchange; gives them a moment to fail too, else ends them with
 /// the same code. Returns where all have failed.

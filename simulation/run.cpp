@@ -172,7 +172,7 @@ void load(Simulation& simulation, CheckpointReader& checkpoint) {
 void begin(Simulation& simulation, const CaseFile& file, const OutputFolder& folder, CheckpointReader* reader) {
   const std::string start = reader ? "" : simulation.start();
   if (!reader) simulation.insert_rags();
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     folder.prepare(!reader);
     if (simulation.poses) simulation.poses->write(folder.path() / "rags");
@@ -193,7 +193,7 @@ void begin_as_a_run(Simulation& simulation) {
 
 /// Collective.
 void report(const std::filesystem::path& folder, const ReportWriter& write) {
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) == 0) write(folder);
   });
   log::info("report: " + (folder / "report.html").string());

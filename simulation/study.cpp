@@ -134,7 +134,7 @@ RunState previous_state(const std::filesystem::path& folder, const std::string& 
 
 RunState prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run) {
   int before = 0;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     const std::string input = input_of(study, run);
     before = static_cast<int>(previous_state(folder, input));
@@ -238,7 +238,7 @@ ExitCode run_study(const StudyOptions& options) {
   Study study = read_study(options.study_file);
   const auto folder = options.out.empty() ? std::filesystem::path("results") / folder_word(study.settings.name) : options.out;
   std::optional<FolderLock> lock;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) == 0 && !options.dry_run) lock.emplace(folder);
   });
   ExitCode worst = ExitCode::ok;
@@ -259,7 +259,7 @@ ExitCode run_study(const StudyOptions& options) {
   }
   if (options.dry_run) return worst;
   std::string results;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) == 0) results = options.write_results(study, folder);
   });
   log::info(results);

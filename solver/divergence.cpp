@@ -270,7 +270,7 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
 void DivergenceWatch::throw_at(const Flow& flow, const BoundarySet& boundary, double dt, const Finding& found,
                                const std::string& what) const {
   const std::string outlet = backflow(flow, boundary, found);
-  together(mesh_.comm, [&] {
+  on_all_ranks(mesh_.comm, [&] {
     if (rank_of(mesh_.comm) != found.rank) return;
     throw Error(ExitCode::diverged, "the water diverged in step " + std::to_string(found.step) + " (t = " + words(found.time) +
                                         " s): " + what + " in " + cell_in_words(found) + "; the case has a speed of " + rounded(speed_) +

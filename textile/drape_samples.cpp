@@ -10,7 +10,7 @@ namespace snag {
 std::vector<DrapeSample> drape_samples(MPI_Comm comm, std::size_t n, const std::function<DrapeSample(std::size_t)>& make) {
   const std::size_t n_directions = OutlineSettings{}.n_directions, width = n_directions + 5;
   std::vector<double> rows(n * width, 0.0);
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     for (std::size_t i = rank_of(comm); i < n; i += size_of(comm)) {
       const DrapeSample sample = make(i);
       double* row = &rows[i * width];

@@ -55,7 +55,7 @@ ScoreRow judged(const DiagnoseBenchOptions& options, int number) {
   const std::string name = name_of(options, number);
   const auto folder = options.out / "sets" / name, sealed = options.out / "sealed" / (name + ".json");
   std::string fingerprint;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     fingerprint = seal(make_twin(options, number, folder), sealed);
     std::ofstream(options.out / "sealed.log", std::ios::app) << name << " sha256 " << fingerprint << "\n" << std::flush;
@@ -64,7 +64,7 @@ ScoreRow judged(const DiagnoseBenchOptions& options, int number) {
   const Verdict verdict = diagnose_file({.file = folder / "DIAGNOSIS.toml", .out = folder, .keep_runs = false, .quiet = true});
   const double seconds = sum(world, processor_seconds() - begun);
   ScoreRow row;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) == 0) row = scored(opened(sealed, fingerprint), verdict, seconds, fingerprint);
   });
   return row;
@@ -76,7 +76,7 @@ BlindScores bench_diagnosis(const DiagnoseBenchOptions& options) {
   const bool first = rank_of(world) == 0;
   const auto file = options.out / "rows.csv";
   std::vector<ScoreRow> rows;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     rows = rows_of(file);
     if (first) std::filesystem::create_directories(options.out);
   });
@@ -88,14 +88,14 @@ BlindScores bench_diagnosis(const DiagnoseBenchOptions& options) {
   for (int number = 0; number < options.n; ++number) {
     if (done[static_cast<std::size_t>(number)]) continue;
     rows.push_back(judged(options, number));
-    together(world, [&] {
+    on_all_ranks(world, [&] {
       if (first) write_atomically(file, content_of(rows));
     });
     if (progress) progress->update(static_cast<double>(rows.size()), rows.back().kind);
   }
   if (progress) progress->finish();
   ScoreCard card;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (!first) return;
     card = score_card(rows, options.twin == "sphere");
     write_atomically(options.out / "score.json", score_json(card));

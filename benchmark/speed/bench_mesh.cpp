@@ -14,7 +14,7 @@ std::filesystem::path bench_mesh(const std::filesystem::path& out, const std::st
   auto mesh = std::filesystem::absolute(out) / (name + ".msh"), unfinished = mesh;
   unfinished.replace_extension(".unfinished.msh");
   int made = 0;
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     std::error_code failure;
     std::filesystem::create_directories(mesh.parent_path(), failure);
     if (failure)
@@ -28,7 +28,7 @@ std::filesystem::path bench_mesh(const std::filesystem::path& out, const std::st
   all.insert(all.end(), {"--out", unfinished.string()});
   const ExitCode code = generate_mesh(world, all);
   if (code != ExitCode::ok) throw Error(code, "bench: no mesh was made; try snag mesh " + arguments.front() + " by itself");
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     auto parameters = mesh, written = unfinished;  // what snag-mesh writes beside the mesh
     std::filesystem::rename(written.replace_extension(".resolved.toml"), parameters.replace_extension(".resolved.toml"));

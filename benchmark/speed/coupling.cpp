@@ -140,7 +140,7 @@ ExitCode bench_coupling(const CouplingBenchOptions& options) {
   const Timed alone = timed(in_a_prescribed_stream(), options.n_steps);
   findings.add("rag_in_prescribed_flow", 1e-6 * alone.n_particles * alone.n_sub_steps / alone.step, "M/s",
                "million particle-steps a second with drag, on the clock, all ranks");
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     write_bench(options.out / "bench.json", findings.records);
     std::cout << bench_table(findings.records) << (options.out / "bench.json").string() << std::endl;

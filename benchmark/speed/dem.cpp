@@ -167,7 +167,7 @@ ExitCode bench_dem(const DemBenchOptions& options) {
   findings.add_plain("dem.traffic", 1e-3 * value_of(findings.records, "dem.hundred") * bytes_per_particle, "GB/s", 1e-9 * bandwidth / n,
                      "of dem.hundred; limit: triad, a rank's share");
   if (options.peer) add_peers(findings, lammps);
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     write_bench(options.out / "bench.json", findings.records);
     std::cout << bench_table(findings.records) << "M/s: million particle-steps a second of user processor time. ratio: value over peer.\n"

@@ -89,7 +89,7 @@ Start flow_in_the_frame(const std::filesystem::path& mesh) {
 /// Both meshes come from one file on the same ranks, so that cells have the same places.
 void give(const Start& start, Flow& flow) {
   const auto n = static_cast<std::ptrdiff_t>(flow.mesh.n_cells);
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (!std::equal(flow.mesh.cell_id.begin(), flow.mesh.cell_id.begin() + n, start.cell_id.begin()))
       throw Error(ExitCode::invariant, "bench: the mesh was read in another order the second time; please report this");
   });
@@ -314,7 +314,7 @@ ExitCode bench_flow(const FlowBenchOptions& options) {
                      .kinematic_viscosity = kinematic_viscosity});
   }
   const auto records = Findings(steps, bandwidth, peer).records();
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     write_bench(options.out / "bench.json", records);
     std::cout << bench_table(records) << "Compared: " << compared << ". limit: memory bandwidth. ratio: value over peer.\n"

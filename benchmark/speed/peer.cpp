@@ -67,7 +67,7 @@ void first_rank_alone(const std::function<void()>& work) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibarrier(world, &request);
   for (int done = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), !done;) std::this_thread::sleep_for(nap);
-  together(world, [&] {
+  on_all_ranks(world, [&] {
     if (failure) std::rethrow_exception(failure);
   });
 }
@@ -92,7 +92,7 @@ std::optional<PeerSheet> run_peer_sheet(const std::filesystem::path& folder, int
 }
 
 void require_peer() {
-  together(world, [] {
+  on_all_ranks(world, [] {
     if (rank_of(world) == 0 && !in_path("pimpleFoam"))
       throw Error(ExitCode::usage,
                   "--peer: OpenFOAM is not installed (no pimpleFoam in PATH); install the Debian package openfoam (apt-get install "

@@ -297,7 +297,7 @@ std::vector<std::string> make_poses(MPI_Comm comm, std::vector<RagPiece>& pieces
     if (!piece.plan.crumpled() || !piece.poses.empty()) continue;
     const double begun = MPI_Wtime();
     CrumpledPose made;
-    together(comm, [&] {
+    on_all_ranks(comm, [&] {
       if (rank_of(comm) == 0) made = crumple(piece, contacts);
     });
     made.poses.resize(static_cast<std::size_t>(piece.rag.n_columns) * piece.rag.n_rows);

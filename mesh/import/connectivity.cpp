@@ -178,7 +178,7 @@ void require_fitting_cells(const MeshParts& parts) {
 
 std::vector<LocalFace> connect(const MeshParts& parts) {
   std::vector<LocalFace> faces;
-  together(parts.comm, [&] {
+  on_all_ranks(parts.comm, [&] {
     const auto sides = grouped(sides_of(parts), parts.node.size());
     faces.reserve(sides.size() / 2);
     for_each_group(sides, [&](std::span<const Side> group) {

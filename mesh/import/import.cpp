@@ -64,7 +64,7 @@ std::vector<int> fresh_partition(MPI_Comm comm, const Plex& plex, const std::vec
   PetscInt n = 0, *offset = nullptr, *neighbour = nullptr;
   check_petsc(DMPlexCreatePartitionerGraph(plex.dm, 0, &n, &offset, &neighbour, nullptr), "DMPlexCreatePartitionerGraph");
   std::vector<int> rank_of_cell(number.size());
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     if (n == 0) return;
     const std::vector<int> part = partition_graph({offset, offset + n + 1}, {neighbour, neighbour + offset[n]}, size_of(comm));
     for (std::size_t c = 0; c < number.size(); ++c) rank_of_cell[number[c]] = part[c];
@@ -235,7 +235,7 @@ void take_boundary(const Plex& plex, MeshParts& parts) {
 }
 
 void require_zones(const MeshParts& parts) {
-  together(parts.comm, [&] {
+  on_all_ranks(parts.comm, [&] {
     const auto unnamed = std::count(parts.zone.begin(), parts.zone.begin() + parts.n_owned, -1);
     if (unnamed > 0)
       throw Error(ExitCode::mesh,
@@ -256,7 +256,7 @@ void require_partition(const std::vector<int>& partition, std::int64_t n_cells, 
 /// The whole mesh on rank 0, empty elsewhere but for the names.
 MeshParts read(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options) {
   MeshParts whole;
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     if (rank_of(comm) != 0) return;
     whole = mesh_reader_of(file)->read(file, options.scale);
     require_fitting_cells(whole);

@@ -126,7 +126,7 @@ DM plex_of(const MeshParts& whole, const std::vector<PetscInt>& order, MPI_Comm 
   add_cells(dm, whole, order);
   add_faces_and_edges(dm);
   add_positions(dm, whole, static_cast<PetscInt>(order.size()));
-  together(comm, [&] { add_names(dm, whole, order); });
+  on_all_ranks(comm, [&] { add_names(dm, whole, order); });
   return dm;
 }
 

@@ -86,7 +86,7 @@ std::vector<int> joined(std::vector<Vec3>& corners) {
 WallSurface read_stl(const std::filesystem::path& file, const std::string& part, double scale) {
   std::vector<Vec3> corners;
   MPI_Comm comm = MPI_COMM_WORLD;
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     if (rank_of(comm) == 0) corners = corners_of(file);
   });
   auto n = static_cast<std::int64_t>(corners.size());

@@ -340,7 +340,7 @@ FlatFace flat_disc_face(const RevolvedFace& face, const std::vector<Point2>& pla
 
 RevolvedSurface revolved_surface(const Mesh& mesh, const SlidingDescription& description) {
   const AxisFrame frame(description);
-  together(mesh.comm, [&] { require_separate(mesh, description); });
+  on_all_ranks(mesh.comm, [&] { require_separate(mesh, description); });
   return SurfaceBuilder(frame, gathered(mesh, frame, description.rotor_patch), gathered(mesh, frame, description.stator_patch)).build();
 }
 

@@ -86,7 +86,7 @@ WallOutput::WallOutput(std::shared_ptr<const FieldWriter> writer, SeriesPlace pl
 void WallOutput::initial(const Flow& flow) {
   if (series_) return write(flow);
   const VtkPiece walls = walls_of(flow);
-  together(flow.mesh.comm, [&] {
+  on_all_ranks(flow.mesh.comm, [&] {
     if (rank_of(flow.mesh.comm) == 0) writer_->write(place_.folder, place_.name, place_.kind, walls);
   });
 }
@@ -94,7 +94,7 @@ void WallOutput::initial(const Flow& flow) {
 void WallOutput::write(const Flow& flow) {
   if (!series_) return;
   const VtkPiece walls = walls_of(flow);
-  together(flow.mesh.comm, [&] {
+  on_all_ranks(flow.mesh.comm, [&] {
     if (rank_of(flow.mesh.comm) == 0) series_->add(flow.time, flow.time_step, walls);
   });
 }

@@ -28,7 +28,7 @@ void refuse_results(const fs::path& folder, bool resume, bool overwrite) {
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, bool resume, bool overwrite) : path_(std::move(folder)) {
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) != 0) return;
     lock_.emplace(path_);
     refuse_results(path_, resume, overwrite);

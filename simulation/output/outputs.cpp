@@ -122,7 +122,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     cross_section_ = cross_section(*simulation.water);
   }
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     if (!root) return;
     write_atomically(folder_ / "case.resolved.toml", file.resolved());
     const auto open = [&]<class Record>(Monitor<Record>& monitor, const char* name, std::vector<Column<Record>> columns) {
@@ -172,7 +172,7 @@ bool Outputs::due(double interval) const {
 void Outputs::after_step() {
   const double begun = MPI_Wtime();
   write_monitors();
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     for (const Series* each : series()) each->check();
   });
   const bool last = simulation_.has_ended();
@@ -231,7 +231,7 @@ std::vector<const Series*> Outputs::series() const {
 }
 
 void Outputs::sync() const {
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     for (const Series* each : series()) each->check(), each->sync();
   });
 }
@@ -320,7 +320,7 @@ void Outputs::summarise_rags(Summary& summary) const {
 
 void Outputs::summarise_passages(Summary& summary) const {
   if (!pump_) return;
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) != 0) return;
     const PumpRecord pump(folder_ / "monitors");
     for (RagSummary& rag : summary.rags) rag.pump = pump.passage(rag.verdict.entered.value_or(NAN), rag.verdict.exited.value_or(NAN));
@@ -328,7 +328,7 @@ void Outputs::summarise_passages(Summary& summary) const {
 }
 
 void Outputs::write_phase() const {
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) pump_->write_phase();
   });
 }
@@ -371,7 +371,7 @@ ExitCode Outputs::finish(ExitCode exit, const std::string& error) {
   }
   const ExitCode code = judged(s, exit);
   s.exit = static_cast<int>(code);
-  together(MPI_COMM_WORLD, [&] {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
   });
   if (const std::string results = results_in_words(s); !results.empty()) log::info(results);

@@ -107,7 +107,7 @@ PumpOutput::PumpOutput(std::filesystem::path monitors, const Flow& flow, const P
       speed_(start.shaft.speed),
       sampler_(start.angle),
       phase_(n_bins, 2) {
-  together(flow.mesh.comm, [&] {
+  on_all_ranks(flow.mesh.comm, [&] {
     if (!root_) return;
     instants_ = Monitor<PumpInstant>(folder_ / "pump.csv", instant_columns(), resume, from_time);
     revolutions_ = Monitor<RevolutionRecord>(folder_ / "revolutions.csv", revolution_columns(), resume, from_time);

@@ -79,7 +79,7 @@ Columns force_columns() {
 
 RagMonitors::RagMonitors(const std::filesystem::path& folder, const RagSystem& rags, bool with_passage, bool resume, double from_time)
     : with_passage_(with_passage), max_wall_overlap_(rags.rags().size()), max_bond_strain_p99_(rags.rags().size()) {
-  together(rags.comm(), [&] {
+  on_all_ranks(rags.comm(), [&] {
     if (rank_of(rags.comm()) != 0) return;
     const auto open = [&](const char* name, Columns columns) {
       return Monitor<RagRecord>(folder / name, std::move(columns), resume, from_time);

@@ -31,7 +31,7 @@ RagOutput::RagOutput(const FieldWriter& writer, SeriesPlace place) {
 
 void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time) {
   const RagSheet sheet = gather_sheet(rags, {&forces.fluid, &forces.contact});
-  together(rags.comm(), [&] {
+  on_all_ranks(rags.comm(), [&] {
     if (rank_of(rags.comm()) != 0) return;
     VtkPiece piece;
     piece.points = sheet.position;

@@ -26,7 +26,7 @@ int run_generator(std::vector<std::string> arguments) {
 
 ExitCode generate_mesh(MPI_Comm comm, std::vector<std::string> arguments) {
   int code = 0;
-  together(comm, [&] {
+  on_all_ranks(comm, [&] {
     if (rank_of(comm) == 0) code = run_generator(std::move(arguments));
   });
   MPI_Bcast(&code, 1, MPI_INT, 0, comm);

@@ -105,7 +105,7 @@ void check_sides(const Simulation& simulation, const std::vector<int>& which) {
     const WallPose pose = wall_pose(body.motion, simulation.time());
     for (const int r : which) {
       const Rag& rag = simulation.rags->rags()[static_cast<std::size_t>(r)];
-      together(simulation.rags->comm(), [&] {
+      on_all_ranks(simulation.rags->comm(), [&] {
         const std::vector<Vec3> centres = centres_of_particles(*simulation.rags, r);
         if (centres.empty()) return;
         const bool is_inside = std::abs(winding(body, pose.in_wall(centres.front()))) > 0.5;

@@ -56,12 +56,12 @@ TEST(Rows, AreGatheredOnTheFirstRankOnly) {
 TEST(Rows, ReachTheRankTheyAreFor) {
   const int size = size_of(MPI_COMM_WORLD), rank = rank_of(MPI_COMM_WORLD);
   const auto n_rows = [](int from, int to) { return (from + 2 * to) % 3; };
-  Letters<Row> sent;
+  RowsByRank<Row> sent;
   for (int to = 0; to < size; ++to) {
     sent.counts.push_back(n_rows(rank, to));
     for (int i = 0; i < n_rows(rank, to); ++i) sent.rows.push_back({100 * rank + to, {1.0 * i, 0, 0}, rank});
   }
-  const Letters<Row> received = exchanged(MPI_COMM_WORLD, sent);
+  const RowsByRank<Row> received = exchanged(MPI_COMM_WORLD, sent);
   std::size_t at = 0;
   for (int from = 0; from < size; ++from) {
     EXPECT_EQ(received.counts[static_cast<std::size_t>(from)], n_rows(from, rank));
