@@ -18,8 +18,8 @@ namespace {
 constexpr double prior_none = 0.36, prior_effects = 0.36, prior_outside = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
-constexpr double screening_width = 10, share_not_linear = 0.05, speaks_for_it = 3;
-constexpr int least_kept = 3, most_kept = 8, most_pairs = 5, most_pairs_around_base = 2, n_screened_again = 3;
+constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
+constexpr int min_candidates = 3, max_candidates = 8, most_pairs = 5, most_pairs_around_base = 2, n_screened_again = 3;
 constexpr double blind_detectability = 3;
 
 class Attributor {
@@ -55,7 +55,7 @@ class Attributor {
     fit_rivals_of_leader();
     refine_random_leader();
     if (model_.experiment().pairs) credit_other_pairs(live);
-    result_.outside = fit_outside(model_, fitter_, result_.fits.front());
+    result_.outside = fit_discrepancy(model_, fitter_, result_.fits.front());
     result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
     for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
     set_probabilities(result_);
@@ -117,7 +117,7 @@ class Attributor {
   void add(Fit fit) {
     result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
     result_.not_fitted.erase(result_.names.back());
-    result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.not_believed.push_back(0);
+    result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.evidence_penalty.push_back(0);
     const bool is_pair = fit.hypothesis.effects.size() > 1;
     result_.weight.push_back(fit.log_evidence +
                              (is_pair ? std::log(prior_effects / n_singles_) - nats_of_second : result_.log_prior.back()));
@@ -175,9 +175,9 @@ class Attributor {
     const auto first =
         std::max_element(singles.begin(), singles.end(), [&](const Screened& a, const Screened& b) { return weak_gain(a) < weak_gain(b); });
     for (auto s = singles.begin(); s != singles.end(); ++s) {
-      const bool by_paths =
-          std::ssize(kept) < most_kept && (std::ssize(kept) < least_kept || s->log_evidence >= singles.front().log_evidence - width);
-      if (by_paths || (s == first && weak_gain(*s) > speaks_for_it)) kept.push_back(*s);
+      const bool by_paths = std::ssize(kept) < max_candidates &&
+                            (std::ssize(kept) < min_candidates || s->log_evidence >= singles.front().log_evidence - width);
+      if (by_paths || (s == first && weak_gain(*s) > weak_form_threshold)) kept.push_back(*s);
     }
     return kept;
   }
@@ -401,7 +401,7 @@ class Attributor {
 
 int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
 
-int Attribution::first_effect() const {
+int Attribution::best_with_effect() const {
   int best = 0;
   for (int i = 1; i < static_cast<int>(weight.size()); ++i)
     if (best == 0 || weight[i] > weight[best]) best = i;
@@ -419,7 +419,7 @@ void set_probabilities(Attribution& attribution) {
     weights.emplace_back(name, (log_evidence - attribution.fits.front().log_evidence) / calibration().temperature + log_prior);
   };
   for (std::size_t i = 0; i < attribution.names.size(); ++i)
-    add(attribution.names[i], attribution.fits[i].log_evidence - attribution.not_believed[i], attribution.log_prior[i]);
+    add(attribution.names[i], attribution.fits[i].log_evidence - attribution.evidence_penalty[i], attribution.log_prior[i]);
   for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
   add("outside", attribution.outside.log_evidence, std::log(prior_outside));
   std::vector<double> logarithms;

@@ -18,11 +18,11 @@ struct NotFitted {
 };
 
 struct Attribution {
-  std::vector<Fit> fits;             // none first
-  std::vector<std::string> names;    // of the fits
-  std::vector<double> weight;        // of each fit for the verdict: log evidence + log prior, second effects at the price of the rule
-  std::vector<double> log_prior;     // of each fit
-  std::vector<double> not_believed;  // nats of each fit's evidence that a guard takes away
+  std::vector<Fit> fits;                 // none first
+  std::vector<std::string> names;        // of the fits
+  std::vector<double> weight;            // of each fit for the verdict: log evidence + log prior, second effects at the price of the rule
+  std::vector<double> log_prior;         // of each fit
+  std::vector<double> evidence_penalty;  // nats of each fit's evidence that a guard takes away
   std::map<std::string, NotFitted> not_fitted{};
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Outside outside;
@@ -33,8 +33,8 @@ struct Attribution {
   double sham_rate = 0;
   std::vector<std::string> notes{};
 
-  int first() const;         // the likeliest fit
-  int first_effect() const;  // the likeliest fit that names an effect; 0 if there is none
+  int first() const;             // the likeliest fit
+  int best_with_effect() const;  // the likeliest fit that names an effect; 0 if there is none
 };
 
 /// Candidates of the experiment that this base case can show, by index; why the others cannot goes to `blind`.

@@ -189,7 +189,7 @@ class GaussianProcess {
 
 }  // namespace
 
-Outside fit_outside(const Responses& model, Fitter& fitter, const Fit& none) {
+Outside fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none) {
   const GaussianProcess at_base(model, fitter.base()), at_none(model, none.at);
   const Outside from_base = at_base.fit(), from_none = at_none.fit();
   // Inputs are not linear as far as they may have to go: the linear model nearest to where it leads is the one to go by, and one made

@@ -19,6 +19,6 @@ struct Outside {
 };
 
 /// `none`: the fit of no effect.
-Outside fit_outside(const Responses& model, Fitter& fitter, const Fit& none);
+Outside fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none);
 
 }  // namespace snag

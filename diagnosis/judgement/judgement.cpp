@@ -40,7 +40,7 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
       a.notes.push_back("The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
       a.weight[i] = a.weight[half] - behind;
       // What it is credited with beside its better half is what chance gives: nothing.
-      a.not_believed[i] = std::max(0.0, a.fits[i].log_evidence - a.fits[static_cast<std::size_t>(half)].log_evidence);
+      a.evidence_penalty[i] = std::max(0.0, a.fits[i].log_evidence - a.fits[static_cast<std::size_t>(half)].log_evidence);
     }
   }
 }
@@ -96,8 +96,8 @@ class Judge {
     for (const auto& [name, p] : v_.probability)
       for (const std::string& effect : split(name, '+'))
         if (effect != "none" && effect != "outside") v_.acts[effect] += p;
-    const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.first_effect();
-    for (const int i : std::set<int>{reported, a_.first_effect()}) note_parameters(i);
+    const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.best_with_effect();
+    for (const int i : std::set<int>{reported, a_.best_with_effect()}) note_parameters(i);
     note_inputs(a_.fits[first]);
     return reported;
   }
@@ -120,7 +120,7 @@ class Judge {
       const double kept = 0.05;
       for (auto& [name, p] : v_.probability) p = name == "outside" ? 1 - kept * (1 - p) : kept * p;
     }
-    const int best = a_.first_effect();
+    const int best = a_.best_with_effect();
     if (best == 0) return;
     v_.effects = effect_names(model_, a_.fits[best]);
     v_.notes.push_back(a_.names[best] + " describes the gap best among the effects of the library, but only in part; it is not the cause.");
@@ -132,7 +132,7 @@ class Judge {
     const double none = a_.fits.front().log_evidence;
     double against = a_.outside.log_evidence > none + speaks ? v_.probability.at("outside") : 0;
     for (std::size_t i = 1; i < a_.fits.size(); ++i)
-      if (a_.fits[i].log_evidence - a_.not_believed[i] > none + speaks) against += v_.probability.at(a_.names[i]);
+      if (a_.fits[i].log_evidence - a_.evidence_penalty[i] > none + speaks) against += v_.probability.at(a_.names[i]);
     if (against > v_.probability.at("none")) {
       tie(shared_verdict(a_));
       return;
@@ -143,7 +143,7 @@ class Judge {
 
   void tie(const std::vector<std::string>& shared) {
     v_.verdict = "tie", v_.wording = "undecided", v_.tie = shared;
-    const int best = a_.first_effect();
+    const int best = a_.best_with_effect();
     if (best > 0) v_.effects = effect_names(model_, a_.fits[best]);
   }
 

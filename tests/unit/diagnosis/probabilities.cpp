@@ -18,7 +18,7 @@ Attribution with_evidence(double none, double a, double b, double both, double o
     Fit fit;
     fit.log_evidence = log_evidence;
     attribution.fits.push_back(fit), attribution.names.emplace_back(name);
-    attribution.log_prior.push_back(std::log(prior)), attribution.not_believed.push_back(0);
+    attribution.log_prior.push_back(std::log(prior)), attribution.evidence_penalty.push_back(0);
   };
   add("none", none, prior_none), add("a", a, prior_effect), add("b", b, prior_effect);
   add("a+b", both, prior_effect * prior_effect / prior_none);
@@ -46,7 +46,7 @@ TEST(Probabilities, WeighEvidence) {
   const double T = calibration().temperature;
   EXPECT_NEAR(std::log(ratio("a", "b")), 8 / T, 1e-9);
   EXPECT_NEAR(std::log(ratio("a+b", "a")), 4 / T + std::log(prior_effect / prior_none), 1e-9);
-  attribution.not_believed.back() = 4;
+  attribution.evidence_penalty.back() = 4;
   set_probabilities(attribution);
   EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
 }
