@@ -17,7 +17,7 @@ class PiecesSeries final : public FieldSeries {
     const std::string stem = numbered(place_.name, time_step);
     std::vector<std::string> pieces;
     for (int r = 0; r < size; ++r) pieces.push_back(stem + "_" + std::to_string(r) + ".vtu");
-    together(comm_, [&] {
+    on_all_ranks(comm_, [&] {
       write_vtk(place_.folder / pieces[static_cast<std::size_t>(rank)], place_.kind, piece);
       if (rank != 0) return;
       write_parallel_vtk(place_.folder / (stem + ".pvtu"), place_.kind, piece, pieces);
