@@ -21,8 +21,8 @@ struct Flow {
 std::string flow_text(const Flow& flow, double viscosity) {
   return "[flow]\nkind = \"prescribed\"\ndensity_kg_m3 = 1000\nkinematic_viscosity_m2_s = " + toml_text(viscosity) +
          "\nvelocity_m_s = " + toml_text(flow.velocity) + "\ngradient_per_s = [[0.0, 0.0, " + toml_text(flow.shear) +
-         "], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\namplitude_m_s = " + toml_text(flow.amplitude) + "\nomega_per_s = " + toml_text(flow.omega) +
-         "\n";
+         "], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]\namplitude_m_s = " + toml_text(flow.amplitude) +
+         "\nangular_frequency_rad_s = " + toml_text(flow.omega) + "\n";
 }
 
 Flow flow_of(int kind, NormalNumbers& random, double speed) {

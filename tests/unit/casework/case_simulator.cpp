@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -28,7 +29,7 @@ density_kg_m3 = 1000
 kinematic_viscosity_m2_s = 1e-5
 velocity_m_s = [0.1, 0, 0]
 amplitude_m_s = [0.2, 0, 0]
-omega_per_s = [20, 0, 0]
+angular_frequency_rad_s = [20, 0, 0]
 [[particle]]
 diameter_m = 5e-3
 density_kg_m3 = 1150
@@ -283,6 +284,40 @@ TEST_F(CaseSimulatorTest, ForcesOfTheBase) {
   const PointCase base(folder_ / "other.toml");
   const auto overrides = base.change({}, {}, 7).overrides;
   EXPECT_EQ(overrides, (std::vector<std::string>{"coupling.turbulent_dispersion.seed=7"}));
+}
+
+/// Requirement: uncertain inputs are found by their former names; former and present name of one input at a point contradict each other.
+TEST_F(CaseSimulatorTest, ReadsFormerNamesOfInputs) {
+  for (OperatingPoint& point : experiment_.points) {
+    point.input_u.back().first = "drag_form";
+    point.input_u.emplace_back("flow.omega_per_s", 0.01);
+  }
+  std::set<std::string> names;
+  {
+    const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+    for (const Nuisance& nuisance : simulator.nuisances()) names.insert(nuisance.name);
+  }
+  for (const char* name : {"drag_law_uncertainty", "drag_law_uncertainty.slope", "flow.angular_frequency_rad_s"})
+    EXPECT_TRUE(names.contains(name)) << name;
+  EXPECT_FALSE(names.contains("drag_form") || names.contains("flow.omega_per_s"));
+  experiment_.points[0].input_u.emplace_back("drag_law_uncertainty", 0.05);
+  EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
+}
+
+/// Requirement: a table of runs names keys by their first names, so that runs of an earlier version are found; an alternative may state
+/// either name.
+TEST_F(CaseSimulatorTest, TablesOfRunsHaveTheFirstNames) {
+  const auto key_of = [&](const std::string& override_text, const std::filesystem::path& cache) {
+    experiment_.alternatives = {{.effect = "operating_point", .meaning = "another frequency", .set = {override_text}, .at = {}}};
+    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, cache);
+    values(simulator, with("operating_point", 1));
+    MPI_Barrier(MPI_COMM_WORLD);
+    return file_text(cache / "runs.tsv").value();
+  };
+  const std::string former = key_of("flow.omega_per_s=[30, 0, 0]", folder_ / "former"),
+                    present = key_of("flow.angular_frequency_rad_s=[30, 0, 0]", folder_ / "present");
+  EXPECT_NE(former.find("flow.omega_per_s=[30, 0, 0];"), std::string::npos) << former;
+  EXPECT_EQ(present, former);
 }
 
 /// Requirement: an uncertain input that is no number of the case is refused by name.
