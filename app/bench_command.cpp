@@ -21,7 +21,7 @@ Action add_bench(CLI::App& app) {
       "Time Snag on this machine, on the ranks it is started on; writes bench.json. flow: a sliding step of a pump; dem: "
       "particle-steps of cloth, on one rank and on all; coupling: steps of cloth in water, by kernel");
   command->add_option("WHAT", options->target, "What to time: flow, dem, coupling")->required();
-  command->add_option("--out", options->folder, "Output folder (default results/bench-WHAT); a mesh that is there is used again");
+  command->add_option("--out", options->folder, "Output folder (default results/bench-WHAT); a mesh in it is used again");
   command->add_flag(
       "--peer", options->peer,
       "Time another program too: OpenFOAM on the same mesh and ranks (Debian package openfoam), LAMMPS on a sheet of the same "

@@ -121,10 +121,10 @@ Action add_calibrate(CLI::App& app) {
   command->add_option("--radius", options->radii, "Particle radius, such as 1.5mm (the default); several make one passport");
   command->add_flag("--as-published", options->as_published,
                     "Count the clamps of the elongation test twice, as Jensen (2018) did: half of the measured force");
-  command->add_flag(
-      "--independence", options->independence,
-      "Show what ought not to matter, about the middle radius: particle radius, time step, dashpots and friction; some minutes more");
-  command->add_option("--seeds", options->n_seeds, "Drapes at the tangential stiffness that is chosen (default 4)")
+  command->add_flag("--independence", options->independence,
+                    "Show the independence of numerical parameters about the middle radius: particle radius, time step, dashpots, "
+                    "friction; some minutes more");
+  command->add_option("--seeds", options->n_seeds, "Number of drape simulations at the chosen tangential stiffness (default 4)")
       ->check(CLI::Range(2, 100));
   command->add_option("--out", options->out, "Output folder (default results/calibrate-NAME of the tests' file)");
   return [options] { return run_calibrate(*options); };

@@ -22,7 +22,8 @@ constexpr const char* about =
     "A first run:   snag run cases/rag-in-channel/case.toml --out results/first\n"
     "Look at it:    results/first/report.html in a browser, results/first/fields and rags in ParaView\n"
     "On 4 ranks:    mpirun -n 4 snag run CASE.toml\n\n"
-    "Exit codes: 0 ok, 2 usage or case file, 3 mesh, 4 diverged, 5 invariant broken, 6 input/output, 7 stopped on request (checkpoint "
+    "Exit codes: 0 ok, 2 usage or case file, 3 mesh, 4 diverged, 5 conserved quantity lost, 6 input/output, 7 stopped on request "
+    "(checkpoint "
     "written)";
 
 /// A misspelt subcommand gets the nearest known one.

@@ -48,16 +48,17 @@ Action add_diagnose(CLI::App& app) {
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "diagnose", "Where simulation and measurement differ, which unmodelled effect causes it, how far the gap shrinks once it is added");
+      "diagnose",
+      "Find where simulation and measurement differ, which missing effect explains the difference, and how much of it that effect removes");
   auto* file = command->add_option("DIAGNOSIS", options->one.file, "Experiment file (.toml)");
-  command->add_option("--out", options->one.out, "Output folder: verdict.json, report.html; runs that are there are used again")
+  command->add_option("--out", options->one.out, "Output folder: verdict.json, report.html; runs that are in it are used again")
       ->required();
-  auto* bench =
-      command->add_option("--bench", options->level, "Blind benchmark instead, on sets made here: L1 (other step) or L2 (other physics)");
+  auto* bench = command->add_option(
+      "--bench", options->level, "Blind benchmark instead of an experiment, on synthetic sets: L1 (other time step) or L2 (other physics)");
   bench->excludes(file);
-  command->add_option("--twin", options->bench.twin, "Of the benchmark: sphere (default), fibre or rag")->needs(bench);
-  command->add_option("--n", options->bench.n, "Of the benchmark: number of sets (default 60)")->needs(bench)->check(CLI::PositiveNumber);
-  command->add_option("--seed", options->bench.seed, "Of the benchmark: of all that is drawn (default 1)")->needs(bench);
+  command->add_option("--twin", options->bench.twin, "Benchmark: what moves, sphere (default), fibre or rag")->needs(bench);
+  command->add_option("--n", options->bench.n, "Benchmark: number of sets (default 60)")->needs(bench)->check(CLI::PositiveNumber);
+  command->add_option("--seed", options->bench.seed, "Benchmark: seed of all random draws (default 1)")->needs(bench);
   return [options] {
     if (!options->level.empty()) {
       options->bench.level = options->level, options->bench.out = options->one.out;

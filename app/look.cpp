@@ -101,7 +101,7 @@ Findings look_at_run(const std::filesystem::path& run, const Camera& camera, con
 Findings look_at_pictures(const std::filesystem::path& subject, const Camera& camera, const std::filesystem::path& folder) {
   if (camera.volute && camera.interval == 0)
     throw Error(ExitCode::usage, "[pump_in_picture] of the camera: how long a rag stays in " + subject.string() +
-                                     " cannot be told from pictures without a time; give [camera] interval");
+                                     " is unknown for pictures without a time; give [camera] interval");
   const std::vector<std::filesystem::path> files = picture_files(subject);
   if (camera.background.empty() && files.size() < 3)
     throw Error(ExitCode::usage, subject.string() + ": " + std::to_string(files.size()) +
@@ -125,10 +125,11 @@ Findings analyse(const std::filesystem::path& subject, const Camera* camera, con
   if (camera) findings = look_at_run(subject, *camera, folder, seed);
   findings.volute = volute_of_run(subject);
   if (!camera && findings.volute.n_rags() == 0)
-    throw Error(ExitCode::usage,
-                subject.string() +
-                    ": its summary.json tells of no volute (the run is still going, or its case has no [rag_passage]); give "
-                    "--camera CAMERA.toml for pictures of it");
+    throw Error(
+        ExitCode::usage,
+        subject.string() +
+            ": its summary.json has no residence times by volute angle (the run has not ended, or its case has no [rag_passage]); give "
+            "--camera CAMERA.toml for pictures of it");
   return findings;
 }
 

@@ -11,26 +11,26 @@ namespace snag {
 namespace {
 
 constexpr const char* about =
-    "What a camera sees of rags, in pictures or in a run: area, place, elongation ratio, orientation; where in the volute they stay; and "
-    "whether operating points differ";
+    "Measure rags in pictures or in a run: area, position, elongation ratio, orientation; residence time by volute angle; differences "
+    "between operating points";
 
 constexpr const char* examples =
     "One test:\n"
     "  snag observe results/mine --camera CAMERA.toml        pictures of a run by a virtual camera\n"
-    "  snag observe photographs/ --camera CAMERA.toml        photographs, seen by the same code\n"
-    "  Writes observations.csv, statistics.json, coverage.png (where cloth lies in the picture) and extent.png (how far it reaches about\n"
-    "  its centroid: contours at 10, 30, 50, 70, 90 % of the rags).\n"
-    "Where rags stay in the volute:\n"
-    "  snag observe results/rag_*                            runs with [rag_passage] tell it themselves: no camera needed\n"
-    "  Writes volute.html, and volute.csv: share of time, distance from the shaft and events in bins of 20 degrees from the tongue. A\n"
-    "  camera with [pump_in_picture] sees the same in pictures: volute_seen.csv.\n"
-    "Whether operating points differ:\n"
+    "  snag observe photographs/ --camera CAMERA.toml        photographs, analysed by the same code\n"
+    "  Writes observations.csv, statistics.json, coverage.png (where cloth lies in the picture) and extent.png (its extent about its\n"
+    "  centroid: contours at 10, 30, 50, 70, 90 % of the rags).\n"
+    "Residence of rags in the volute:\n"
+    "  snag observe results/rag_*                            runs with [rag_passage]: no camera needed\n"
+    "  Writes volute.html, and volute.csv: fraction of time, distance from the shaft and events in bins of 20 degrees from the tongue. A\n"
+    "  camera with [pump_in_picture] measures the same in pictures: volute_seen.csv.\n"
+    "Differences between operating points:\n"
     "  snag observe --camera CAMERA.toml --group 55 part_load/* --group 90 near_best/*\n"
     "  snag observe repeats.csv                              a table with the columns group,rag,area [m2], ...\n"
     "  Writes groups.csv (mean, sigma, n, n_eff) and anova.csv: p that all groups have one mean, as if all n samples were independent (p)\n"
     "  and with the n_eff that are (p_eff). Each SUBJECT is the test of one rag, and pictures of one rag resemble each other: trust "
     "p_eff.\n"
-    "The camera file is in docs/case-file.md, what is computed in docs/theory.md, Observing.";
+    "docs/case-file.md describes the camera file, docs/theory.md (Observing) the formulas.";
 
 /// --group NAME SUBJECT ... as often as it is given: the words of each, an empty one between them.
 std::vector<ObserveGroup> groups_of(const std::vector<std::string>& words) {
@@ -70,7 +70,7 @@ Action add_observe(CLI::App& app) {
   groups->inject_separator();  // an empty word between two of them
   command->add_option("--camera", options->observe.camera_file, "Camera file (.toml) with [camera], [cloth] and perhaps [pump_in_picture]");
   command->add_option("--out", options->observe.out, "Output folder (default results/observe-NAME)");
-  command->add_option("--seed", options->observe.seed, "Of the virtual camera's noise (default 1)");
+  command->add_option("--seed", options->observe.seed, "Seed of the noise of the virtual camera (default 1)");
   return [options, groups] {
     options->observe.groups = groups_of(groups->results());
     if (options->observe.groups.empty()) options->observe.groups = {{"", {options->subjects.begin(), options->subjects.end()}}};

@@ -26,12 +26,11 @@ namespace {
 const ObservableRecord& record_of(const std::string& name) {
   const ObservableRecord* record = find_observable(name);
   if (!record)
-    throw Error(ExitCode::usage,
-                "observable \"" + name + "\": a case without a mesh has no such number; there are: " + joined(observable_ids()));
+    throw Error(ExitCode::usage, "observable \"" + name + "\": is not available without a mesh; available are " + joined(observable_ids()));
   if (record->needs == Needs::pump)
     throw Error(ExitCode::usage, "observable \"" + name +
                                      "\": is defined by [rag_passage], the flanges and the tongue of a pump, which a run "
-                                     "in memory has not; leave it out");
+                                     "in memory does not have; leave it out");
   return *record;
 }
 
@@ -236,8 +235,7 @@ std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Observ
   Simulation run(file, MPI_COMM_SELF, {}, store);
   std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());
   if (!run.rags || (run.mesh && !run.frozen()))
-    throw Error(ExitCode::usage,
-                file.root().where() + ": must be a case of particles without a mesh or in frozen water, to be run in a moment");
+    throw Error(ExitCode::usage, file.root().where() + ": a run in memory must be a case without a mesh or with frozen flow");
   run.watches_rags = run.mesh != nullptr;
   run.start();
   run.insert_rags();

@@ -63,7 +63,7 @@ void check_observable(const PointCase& base, const std::filesystem::path& file, 
   const ObservableRecord* record = find_observable(id);
   if (!record && !base.is_whole_run())
     throw Error(ExitCode::usage,
-                file.string() + ": observable \"" + id + "\" is no number of a case without a mesh; there are " + joined(observable_ids()));
+                file.string() + ": observable \"" + id + "\" is not available without a mesh; available are " + joined(observable_ids()));
   const std::string reason = record ? base.reason_against(*record) : "";
   if (!reason.empty())
     throw Error(ExitCode::usage, file.string() + ": observable \"" + id + "\": " + reason + "; add it, or leave the observable out");
@@ -134,7 +134,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
     PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
     if (base.is_whole_run() && folder_.empty())
-      throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need a folder to be kept in");
+      throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need an output folder");
     for (const std::string& note : base.former_names()) log::warning_once(note);
     check_inputs(base, experiment.points[p]);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
@@ -324,7 +324,7 @@ void CaseSimulator::open_cache(const std::filesystem::path& file) {
 
 void CaseSimulator::import_runs(const std::filesystem::path& file) {
   const std::string text = shared_text(comm_, file);
-  if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs");
+  if (text.empty()) throw Error(ExitCode::io, file.string() + ": cannot be read, or is empty; check [budget] runs_table");
   for (StoredRun& run : run_table(text, file))
     if (cached_.emplace(run.key, std::move(run.result)).second) imported_.insert(run.key);
 }

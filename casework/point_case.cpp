@@ -137,7 +137,7 @@ void PointCase::check_nuisance(const std::string& key) const {
   if (!nodes_of(tree_->root, key).empty()) return;
   throw Error(ExitCode::usage,
               file_.string() + ": input_u names \"" + key +
-                  "\", which is no number of this case; give a key of the case with its unit such as "
+                  "\", which is not a numeric key of this case; give a key of the case with its unit such as "
                   "\"particle.density_kg_m3\" as snag run writes it to case.resolved.toml, \"flow.amplitude\" for the "
                   "whole flow field (of computed water: its set-points), \"drag_law_uncertainty\" or \"drag_law_uncertainty_per_point\"");
 }

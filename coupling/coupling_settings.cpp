@@ -56,7 +56,7 @@ Section CouplingSettings::section() {
   for (const ForceSet& set : force_sets()) sets += " \"" + set.name + "\": " + joined(set.forces) + " (" + set.meaning + ").";
   return {
       "coupling",
-      "How water and rags feel each other.",
+      "Forces between water and rags.",
       {setting("mode", &mode,
                "none: rags and water ignore each other; one_way: rags feel the water; two_way: and the water feels the rags.",
                {"none", "one_way", "two_way"}),
@@ -80,7 +80,8 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
   const Table table = root.table("coupling");
   table.read(settings.section().parameters);
   if (settings.two_way() && !two_way_possible)
-    throw Error(ExitCode::usage, table.where() + " mode is \"two_way\", but a prescribed flow feels nothing; write mode = \"one_way\"");
+    throw Error(ExitCode::usage,
+                table.where() + " mode is \"two_way\", but a prescribed flow takes no reaction of the rags; write mode = \"one_way\"");
 
   coupling.shape = kernel_shapes().make(settings.kernel, table.where() + " kernel");
   table.table(settings.kernel).read(coupling.shape->parameters());

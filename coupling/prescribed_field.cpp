@@ -15,24 +15,26 @@ using namespace sampled;
 }  // namespace
 
 Section PrescribedFlow::section() {
-  return {
-      "flow",
-      "A flow given as a formula, without a mesh: u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(omega_i t + phase_i).",
-      {setting("kind", &kind, "How the water is known.", {"prescribed"}),
-       {"density", &density, "kg/m3", 1e-3, 1e5, Basis::literature, "Density of the fluid; water at 20 degrees Celsius."},
-       {"dynamic_viscosity", &dynamic_viscosity, "Pa s", 1e-9, 1e4, Basis::literature, "Viscosity; water at 20 degrees if none is given."},
-       {"kinematic_viscosity", &kinematic_viscosity, "m2/s", 1e-12, 10, Basis::literature, "Viscosity over density, instead."},
-       {"velocity", &velocity, "m/s", -1e3, 1e3, Basis::assumed, "Uniform part of the velocity."},
-       {"gradient", &gradient, "1/s", -1e6, 1e6, Basis::assumed, "Velocity gradient, row i: du_i/dx, du_i/dy, du_i/dz."},
-       {"amplitude", &amplitude, "m/s", -1e3, 1e3, Basis::assumed, "Amplitude of the oscillating part."},
-       renamed({"angular_frequency", &omega, "rad/s", 0, 1e6, Basis::assumed, "Angular frequency omega_i of the oscillating part."},
-               {.key = "omega", .unit = "1/s"}),
-       {"phase", &phase, "rad", -10, 10, Basis::assumed, "Phase of the oscillating part at t = 0."},
-       {"turbulent_kinetic_energy", &turbulent_kinetic_energy, "m2/s2", 0, 1e4, Basis::assumed,
-        "k at the origin, of turbulence that the formula does not hold."},
-       {"turbulent_kinetic_energy_gradient", &turbulent_kinetic_energy_gradient, "m/s2", -1e4, 1e4, Basis::assumed,
-        "Gradient of k; where k would be negative it is zero."},
-       {"dissipation_rate", &dissipation_rate, "m2/s3", 0, 1e6, Basis::assumed, "epsilon of that turbulence."}}};
+  return {"flow",
+          "A flow given as a formula, without a mesh: u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(angular_frequency_i "
+          "t + phase_i).",
+          {setting("kind", &kind, "Kind of the flow.", {"prescribed"}),
+           {"density", &density, "kg/m3", 1e-3, 1e5, Basis::literature, "Density of the fluid; water at 20 degrees Celsius."},
+           {"dynamic_viscosity", &dynamic_viscosity, "Pa s", 1e-9, 1e4, Basis::literature,
+            "Dynamic viscosity; by default that of water at 20 degrees Celsius."},
+           {"kinematic_viscosity", &kinematic_viscosity, "m2/s", 1e-12, 10, Basis::literature,
+            "Kinematic viscosity, instead of dynamic_viscosity."},
+           {"velocity", &velocity, "m/s", -1e3, 1e3, Basis::assumed, "Uniform part of the velocity."},
+           {"gradient", &gradient, "1/s", -1e6, 1e6, Basis::assumed, "Velocity gradient, row i: du_i/dx, du_i/dy, du_i/dz."},
+           {"amplitude", &amplitude, "m/s", -1e3, 1e3, Basis::assumed, "Amplitude of the oscillating part."},
+           renamed({"angular_frequency", &omega, "rad/s", 0, 1e6, Basis::assumed, "Angular frequency of the oscillating part."},
+                   {.key = "omega", .unit = "1/s"}),
+           {"phase", &phase, "rad", -10, 10, Basis::assumed, "Phase of the oscillating part at t = 0."},
+           {"turbulent_kinetic_energy", &turbulent_kinetic_energy, "m2/s2", 0, 1e4, Basis::assumed,
+            "Turbulent kinetic energy k at the origin, in addition to the flow of the formula."},
+           {"turbulent_kinetic_energy_gradient", &turbulent_kinetic_energy_gradient, "m/s2", -1e4, 1e4, Basis::assumed,
+            "Gradient of k; k is zero where it would be negative."},
+           {"dissipation_rate", &dissipation_rate, "m2/s3", 0, 1e6, Basis::assumed, "Dissipation rate epsilon of this turbulence."}}};
 }
 
 double PrescribedFlow::viscosity() const {

@@ -63,7 +63,7 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
   if (const int taken = simulator.n_imported(); taken > 0)
-    verdict.notes.push_back(std::to_string(taken) + " runs were not made for this verdict but taken from [budget] runs = \"" +
+    verdict.notes.push_back(std::to_string(taken) + " runs were not made for this verdict but taken from [budget] runs_table = \"" +
                             experiment.runs.filename().string() + "\".");
   return verdict;
 }

@@ -28,23 +28,23 @@ std::vector<Section> Camera::sections() {
   size.required = true;
   Parameter levels = number("pixels", &pixels, "1", 1, "Width and height of a picture.");
   return {{"camera",
-           "A camera that looks at rags: of pictures that were taken, or of pictures of a run.",
+           "A camera that looks at rags, in recorded pictures or in pictures of a run.",
            {levels, size, number("centre", &centre, "m", -infinity, "Point of the object plane in the middle of the picture."),
             number("right", &right, "1", -infinity, "Direction to the right in the picture."),
             number("up", &up, "1", -infinity, "Direction up in the picture; the camera stands on the side of right x up."),
-            number("distance", &distance, "m", 0, "Of the camera from the object plane; 0: parallel projection."),
-            number("interval", &interval, "s", 0, "Time between two pictures that were taken; not given: times are numbers of pictures."),
-            number("blur", &blur, "1", 0, "Virtual camera: standard deviation of its blur, pixels."),
-            number("noise", &noise, "1", 0, "Virtual camera: standard deviation of its noise, grey levels of 255."),
+            number("distance", &distance, "m", 0, "Distance of the camera from the object plane; 0: parallel projection."),
+            number("interval", &interval, "s", 0, "Time between two recorded pictures; by default times are numbers of pictures."),
+            number("blur", &blur, "1", 0, "Virtual camera: standard deviation of the blur, pixels."),
+            number("noise", &noise, "1", 0, "Virtual camera: standard deviation of the noise, grey levels of 255."),
             number("background_level", &background_level, "1", 0, "Virtual camera: grey level without cloth."),
             number("cloth_level", &cloth_level, "1", 0, "Virtual camera: grey level of cloth.")}},
           {"cloth",
            "What counts as cloth in a picture.",
-           {file_setting("background", &background, "Picture without cloth; not given: the mean of all pictures."),
+           {file_setting("background", &background, "Picture without cloth; by default the mean of all pictures."),
             number("threshold", &threshold, "1", 0, "Difference of the grey level from the background; 0: by Otsu's method."),
             number("smoothing", &smoothing, "1", 0, "Standard deviation of the blur taken before the threshold, pixels."),
-            number("minimum_pixels", &minimum_pixels, "1", 0, "Smaller blobs are no cloth."),
-            setting("fill_holes", &fill_holes, "Holes of a blob belong to it.")}}};
+            number("minimum_pixels", &minimum_pixels, "1", 0, "Number of pixels; smaller blobs are not cloth."),
+            setting("fill_holes", &fill_holes, "true: the holes of a blob count as cloth.")}}};
 }
 
 void check_camera(Camera& camera, const std::string& where) {

@@ -59,7 +59,7 @@ class Reading {
     columns_ = fields;
     for (const std::string& column : columns_) {
       if (column.empty()) refuse("a column has no name");
-      if (std::count(columns_.begin(), columns_.end(), column) > 1) refuse("the column \"" + shortened(column) + "\" stands twice");
+      if (std::count(columns_.begin(), columns_.end(), column) > 1) refuse("the column \"" + shortened(column) + "\" is given twice");
       if (column == "group" || column == "rag") continue;
       repeats_.quantities.push_back(quantity_of(column));
       if (repeats_.quantities.back().is_axis() && repeats_.quantities.back().unit != "deg")

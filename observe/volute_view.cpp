@@ -14,19 +14,19 @@ Section VoluteView::section() {
   };
   return {
       "pump_in_picture",
-      "Where the pump is in the picture of a camera that looks along its shaft: with it the stay of rags over the angle of the volute is "
-      "counted in pictures. Points are column and row in pixels from the upper left corner. The casing fills the picture up to the "
-      "outlet; there is one rag at a time, the largest blob.",
-      {required("axis", &axis, "1", -infinity, "Where the shaft is seen."),
-       required("tongue", &tongue, "1", -infinity, "Where the nose of the tongue is seen: there the angle is zero."),
-       required("outlet", &outlet, "1", -infinity, "Middle of the outlet: what is beyond it is out."),
+      "Position of the pump in the picture of a camera that looks along the shaft; it is needed for the residence time of rags over the "
+      "volute angle. Points are column and row in pixels from the upper left corner. The casing fills the picture up to the outlet; the "
+      "largest blob is the rag, one at a time.",
+      {required("axis", &axis, "1", -infinity, "Point of the shaft in the picture."),
+       required("tongue", &tongue, "1", -infinity, "Point of the nose of the tongue in the picture; the volute angle is zero there."),
+       required("outlet", &outlet, "1", -infinity, "Middle of the outlet in the picture; cloth beyond it has left."),
        required("outlet_direction", &outlet_direction, "1", -infinity,
-                "Out of the casing: to the right and up in the picture, any length."),
+                "Direction out of the casing: components to the right and up in the picture, of any length."),
        required("outlet_radius", &outlet_radius, "m", 1e-6, "Half the width of the outlet."),
-       required("tongue_reach", &tongue_reach, "m", 0, "Cloth that is seen nearer than this to the tongue touches it."),
+       required("tongue_reach", &tongue_reach, "m", 0, "Distance from the tongue; cloth within it counts as contact with the tongue."),
        required("impeller_radius", &impeller_radius, "m", 1e-6, "Outer radius of the impeller."),
        setting("seen_from", &seen_from, "Side on which the camera stands.", {"inlet", "motor"}),
-       setting("impeller_turns", &impeller_turns, "As it is seen in the picture.", {"counter_clockwise", "clockwise"})},
+       setting("impeller_turns", &impeller_turns, "Sense of rotation of the impeller in the picture.", {"counter_clockwise", "clockwise"})},
       false,
       "volute"};
 }

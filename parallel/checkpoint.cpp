@@ -153,7 +153,7 @@ struct CheckpointReader::File {
 
   std::pair<std::int64_t, const StoredIds&> stored(hid_t dataset, const std::string& name) {
     const auto set = hdf5::integer_attribute(dataset, "ids");
-    if (!set) slot.fail(name + " has no ids; the file is spoilt, remove it to resume from the other slot");
+    if (!set) slot.fail(name + " has no ids, the file is damaged; remove it to resume from the other slot");
     if (!id_sets.contains(*set)) {
       const auto path = "/ids/" + std::to_string(*set);
       const Handle ids = slot.open(path);

@@ -137,7 +137,7 @@ struct CheckpointFile {
              [&] { return H5Dread(dataset, FileType<T>::memory(), spaces.first, spaces.second, collective, values.data()); });
     const auto written = hdf5::integer_attribute(dataset, "crc32");
     if (!written || checksum(values.data(), values.size() * sizeof(T)) != *written)
-      fail(name + " does not have the checksum it was written with, the file is spoilt; remove it to resume from the other slot");
+      fail(name + ": checksum mismatch, the file is damaged; remove it to resume from the other slot");
     return values;
   }
 

@@ -197,7 +197,7 @@ std::string calibration_page(const TextileTests& tests, const std::vector<Calibr
     page += section("Bending" + radius, bending_section(tests, c, drawings[i]));
     page += section("Drape" + radius, drape_section(tests, c, drawings[i]));
   }
-  if (independence) page += section("What ought not to matter", independence_section(tests, *independence));
+  if (independence) page += section("Independence of numerical parameters", independence_section(tests, *independence));
   return page + "</body>\n</html>\n";
 }
 

@@ -12,7 +12,7 @@ namespace snag {
 /// Strips over the edge, the drape from above and the outlines of all its seeds.
 std::vector<NamedDrawing> calibration_drawings(const TextileTests& tests, const Calibration& calibration);
 
-/// What ought not to matter, at the particle radius of one calibration.
+/// Independence of numerical parameters, at the particle radius of one calibration.
 struct IndependencePart {
   double radius = 0;  // m
   Independence found;

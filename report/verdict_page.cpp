@@ -67,7 +67,7 @@ std::string strengths(const Verdict& v) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, estimate] : v.parameters)
     rows.push_back(
-        {escaped(name) + (estimate.absorbing ? " (far from what is physically expected: it may take up something else)" : ""),
+        {escaped(name) + (estimate.absorbing ? " (far from its physically expected value: it may be compensating for another error)" : ""),
          html::number(estimate.mean) + " ± " + html::number(estimate.sd) + (estimate.unit == "1" ? "" : " " + escaped(estimate.unit)),
          html::number(estimate.cochran_p)});
   return rows.empty() ? "" : html::table({"Strength", "fitted", "p that the points agree on it"}, rows);

@@ -79,7 +79,7 @@ void expand_runs(Study& study) {
   for (const StudyRun& run : study.runs)
     if (!names.insert(run.name).second)
       throw Error(ExitCode::usage,
-                  where + ": two runs would be named \"" + run.name + "\"; remove the value that stands twice, or name the keys apart");
+                  where + ": two runs would be named \"" + run.name + "\"; remove the duplicate value, or give the keys different names");
 }
 
 /// Results and axes that no summary can hold would be empty columns after hours of runs.
@@ -179,33 +179,33 @@ ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem:
 Section StudySettings::section() {
   Parameter file = file_setting("case", &case_file, "Case file, relative to the study file.");
   file.required = true;
-  return {
-      "study",
-      "A case that is run again and again with other values, by `snag study STUDY.toml --out DIR`.",
-      {setting("name", &name, "Short name, used for the folder and the table."), setting("description", &description, "One sentence."),
-       file, setting("set", &set, "Values of the case that all runs replace, as for --set: \"time.end_s=0.2\"."),
-       setting("zip", &zip, "The first values of all [[vary]] make the first run, the second ones the second; false: all combinations."),
-       setting("results", &results, "Keys of summary.json for the table: \"pump.head_m\", \"rags.0.outcome\".")}};
+  return {"study",
+          "A case that is run with several values of its keys, by `snag study STUDY.toml --out DIR`.",
+          {setting("name", &name, "Short name, used for the folder and the table."), setting("description", &description, "One sentence."),
+           file, setting("set", &set, "Values that replace those of the case in all runs, as for --set: \"time.end_s=0.2\"."),
+           setting("zip", &zip,
+                   "true: the first values of all [[vary]] make the first run, the second values the second run. false: all combinations."),
+           setting("results", &results, "Keys of summary.json in the table of results: \"pump.head_m\", \"rags.0.outcome\".")}};
 }
 
 Section VarySettings::section() {
   Parameter required = setting("key", &key, "Key of the case as for --set: \"boundary.0.flow_rate_L_s\".");
   required.required = true;
   return {"vary",
-          "What differs from run to run.",
+          "A key of the case whose value differs between the runs.",
           {required,
-           setting("name", &name, "Its name in the table and in the names of the runs; the last word of the key if not given."),
-           {"values", &values, "1", -infinity, infinity, Basis::assumed, "Numbers, in the unit that the key has."},
-           setting("texts", &texts, "Or texts, numbers with a unit (\"12 mm\") among them.")},
+           setting("name", &name, "Name in the table and in the names of the runs; by default the last word of the key."),
+           {"values", &values, "1", -infinity, infinity, Basis::assumed, "Numbers, in the unit of the key."},
+           setting("texts", &texts, "Texts instead of numbers; a number with a unit (\"12 mm\") is a text.")},
           true};
 }
 
 Section StudyPlotSettings::section() {
   return {"plot",
-          "A plot of the results, a line for each of y over all runs in the order of x.",
-          {setting("title", &title, "Title."), setting("x", &x, "Name of what varies, or a key of summary.json."),
-           setting("y", &y, "Keys of summary.json."), setting("x_label", &x_label, "Label with the unit; x if not given."),
-           setting("y_label", &y_label, "The same; the first of y.")},
+          "A plot of the results: one line for each key of y, over all runs in the order of x.",
+          {setting("title", &title, "Title of the plot."), setting("x", &x, "Name of a [[vary]], or a key of summary.json."),
+           setting("y", &y, "Keys of summary.json."), setting("x_label", &x_label, "Label of the x axis with the unit; by default x."),
+           setting("y_label", &y_label, "Label of the y axis with the unit; by default the first key of y.")},
           true};
 }
 

@@ -29,14 +29,17 @@ double area_of(const Flow& flow, int patch, const std::optional<double>& diamete
 
 Section PumpSettings::section() {
   return {"pump",
-          "What is read off the pump, in cases with a rotating zone: head, torque, power and efficiency every step, and by revolution.",
+          "Patches of the pump, for head, torque, power and efficiency in every step and as means over each revolution. It needs "
+          "[rotating_zone].",
           {setting("inlet", &inlet, "Patch of the inlet flange."),
            setting("outlet", &outlet, "Patch of the outlet flange."),
            setting("walls", &walls, "Patches of the impeller: the torque of the water on them is that of the shaft."),
            {"inlet_diameter", &inlet_diameter, "m", 1e-6, 1e6, Basis::assumed,
-            "Of the inlet where its pressure is measured, for the velocity in the head; not given: the area of the patch."},
-           {"outlet_diameter", &outlet_diameter, "m", 1e-6, 1e6, Basis::assumed, "The same of the outlet."},
-           {"gravity", &gravity, "m/s2", 1e-6, 1e6, Basis::literature, "Turns pressure into head; acts on nothing."}}};
+            "Diameter of the pipe where the inlet pressure is measured, for the velocity head; by default from the area of the patch."},
+           {"outlet_diameter", &outlet_diameter, "m", 1e-6, 1e6, Basis::assumed,
+            "Diameter of the pipe where the outlet pressure is measured, for the velocity head; by default from the area of the patch."},
+           {"gravity", &gravity, "m/s2", 1e-6, 1e6, Basis::literature,
+            "Gravity for the conversion of pressure to head; no force follows from it."}}};
 }
 
 PumpMonitor::PumpMonitor(const Flow& flow, const PumpSettings& settings)

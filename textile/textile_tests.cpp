@@ -58,9 +58,9 @@ Table direction_of(const Table& test, int direction) {
 void read_cloth(const Table& root, TextileTests& t) {
   double dry_mass = 0;
   const Table rag = root.table("rag");
-  rag.read({setting("name", &t.name, "Of the cloth."), setting("source", &t.source, "Of the measurements."),
+  rag.read({setting("name", &t.name, "Name of the cloth."), setting("source", &t.source, "Source of the measurements."),
             number("length_lw", &t.length, "m", "Side of the cloth lengthwise."), number("length_cw", &t.width, "m", "Side crosswise."),
-            number("thickness", &t.thickness, "m", "Of the cloth."), noted("dry_mass_per_area", &dry_mass, "kg/m2")});
+            number("thickness", &t.thickness, "m", "Thickness of the cloth."), noted("dry_mass_per_area", &dry_mass, "kg/m2")});
 }
 
 void read_elongation(const Table& root, TextileTests& t) {
@@ -69,7 +69,7 @@ void read_elongation(const Table& root, TextileTests& t) {
   test.read({number("clamp_width", &t.clamp_width, "m", "Width of cloth that the clamps grip."),
              number("gauge_length", &t.gauge_length, "m", "Distance of the clamps at the start."), noted("rate", &rate, "m/s"),
              noted("rate_m_per_s", &rate, "1"),
-             number("wet_density", &t.elongation_density, "kg/m3", "Of the wet cloth, over its thickness.")});
+             number("wet_density", &t.elongation_density, "kg/m3", "Density of the wet cloth, over its thickness.")});
   for (int d = 0; d < 2; ++d) {
     const Table table = direction_of(test, d);
     ElongationResult& r = t.elongation[d];
@@ -95,7 +95,7 @@ void read_bending(const Table& root, TextileTests& t) {
               .minimum = 0.05,
               .maximum = 1.5,
               .basis = Basis::measured,
-              .meaning = "Of the plane below the horizontal.",
+              .meaning = "Angle of the plane below the horizontal.",
               .required = true},
              noted("strip_width", &width, "m"),
              noted("strip_total_length", &length, "m"),
@@ -104,7 +104,7 @@ void read_bending(const Table& root, TextileTests& t) {
     const Table table = direction_of(test, d);
     BendingResult& r = t.bending[d];
     table.read({number("overhang_mean", &r.overhang, "m", "Length over the edge at which the tip touches the plane, mean."),
-                number("mass_per_area", &r.mass_per_area, "kg/m2", "Of the strip as tested.", true, lightest, heaviest),
+                number("mass_per_area", &r.mass_per_area, "kg/m2", "Mass of the tested strip per area.", true, lightest, heaviest),
                 count(&r.repetitions)});
     r.overhang_range = read_range(table, "overhang_range", "m", r.overhang);
     if (length > 0 && r.overhang > length)
@@ -117,10 +117,10 @@ void read_drape(const Table& root, TextileTests& t) {
   const Table test = root.table("drape");
   DrapeResult& r = t.drape;
   double density = 0;
-  test.read({number("sample_diameter", &r.sample_diameter, "m", "Of the round sample."),
-             number("disc_diameter", &r.disc_diameter, "m", "Of the table it lies on."),
-             number("mass_per_area", &r.mass_per_area, "kg/m2", "Of the sample as tested.", true, lightest, heaviest),
-             number("area_mean", &r.area, "m2", "Of the draped sample seen from above, mean."),
+  test.read({number("sample_diameter", &r.sample_diameter, "m", "Diameter of the round sample."),
+             number("disc_diameter", &r.disc_diameter, "m", "Diameter of the table below the sample."),
+             number("mass_per_area", &r.mass_per_area, "kg/m2", "Mass of the tested sample per area.", true, lightest, heaviest),
+             number("area_mean", &r.area, "m2", "Mean area of the draped sample seen from above."),
              number("wave_size_mean", &r.wave_size, "m", "From the centre to the outline at its peaks, mean."),
              number("wave_count_mean", &r.wave_count, "1", "Peaks of the outline, mean."), noted("wet_density", &density, "kg/m3"),
              count(&r.repetitions)});
@@ -138,7 +138,7 @@ void read_drape(const Table& root, TextileTests& t) {
 
 void read_particles(const Table& root, TextileTests& t) {
   const auto value = [](const char* key, double* target, double minimum, double maximum, const char* unit = "1") {
-    return number(key, target, unit, "Of the model.", false, minimum, maximum);
+    return number(key, target, unit, "Property of the particles of the model.", false, minimum, maximum);
   };
   root.table("particles")
       .read({value("contact_radius_over_radius", &t.contact_radius_ratio, 1, 10),

@@ -28,8 +28,9 @@ struct DragExponent final : FluidForce {
                            .maximum = 1}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"exponent", &exponent, "1", -1, 1, Basis::assumed, "theta; 0: the drag law as it is."},
-            {"reference_reynolds", &reference_reynolds, "1", 1e-6, 1e7, Basis::assumed, "Re_ref, where the drag law is right."}};
+    return {
+        {"exponent", &exponent, "1", -1, 1, Basis::assumed, "Exponent theta of the factor on C_d; 0: the drag law unchanged."},
+        {"reference_reynolds", &reference_reynolds, "1", 1e-6, 1e7, Basis::assumed, "Re_ref: Reynolds number at which the factor is 1."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (exponent == 0) return;  // a power of zero is 1 only to the last digits

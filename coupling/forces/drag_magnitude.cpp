@@ -24,7 +24,7 @@ struct DragMagnitude final : FluidForce {
                            .maximum = 5}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"excess", &excess, "1", -0.9, 100, Basis::assumed, "theta; 0: the drag law as it is."}};
+    return {{"excess", &excess, "1", -0.9, 100, Basis::assumed, "Relative excess theta of the drag; 0: the drag law unchanged."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double f = 1 + excess;

@@ -73,8 +73,8 @@ struct History final : FluidForce {
   }
   std::vector<Parameter> parameters() override {
     return {
-        {"coefficient", &coefficient, "1", 0, 10, Basis::literature, "theta; 1 by theory."},
-        {"window", &window, "s", 1e-6, 1e6, Basis::assumed, "t_w of the form fading."},
+        {"coefficient", &coefficient, "1", 0, 10, Basis::literature, "Factor theta on the history force; 1 by theory."},
+        {"window", &window, "s", 1e-6, 1e6, Basis::assumed, "Time window t_w of the form fading."},
         setting("form", &form, "basset: memory as t^(-1/2); fading: lost after t_w; developed: as basset, the slip at the start not new.",
                 {"basset", "fading", "developed"})};
   }

@@ -23,8 +23,10 @@ struct HoelzerSommerfeld final : ShapeDrag {
   }
   std::vector<Parameter> parameters() override {
     auto records = ShapeDrag::parameters();
-    records.push_back({"lengthwise_sphericity", &lengthwise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_l."});
-    records.push_back({"crosswise_sphericity", &crosswise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_c."});
+    records.push_back(
+        {"lengthwise_sphericity", &lengthwise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_l: sphericity lengthwise to the flow."});
+    records.push_back(
+        {"crosswise_sphericity", &crosswise_sphericity, "1", 0.05, 20, Basis::assumed, "phi_c: sphericity crosswise to the flow."});
     return records;
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {

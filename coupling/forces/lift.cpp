@@ -41,7 +41,7 @@ struct Lift final : FluidForce {
                            .needs = {Need::gradient}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta."},
+    return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "Factor theta on the lift; 1 by theory."},
             {"rotation_coefficient", &rotation_coefficient, "1", 0, 10, Basis::literature, "Further factor on the lift by spin."},
             setting("form", &form, "saffman: creeping flow; mei: with its decay at finite Re; mei_free: as mei, without lift by spin.",
                     {"mei", "saffman", "mei_free"})};

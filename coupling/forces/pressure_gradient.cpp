@@ -41,7 +41,7 @@ struct PressureGradient final : FluidForce {
                            .maximum = 3}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"coefficient", &coefficient, "1", 0, 10, Basis::literature, "theta; 1 by theory."},
+    return {{"coefficient", &coefficient, "1", 0, 10, Basis::literature, "Factor theta on the force; 1 by theory."},
             setting("form", &form, "acceleration: rho Du/Dt; pressure: without the viscous stress; along_particle: rho du/dt on its way.",
                     {"acceleration", "pressure", "along_particle"})};
   }

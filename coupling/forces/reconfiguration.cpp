@@ -33,8 +33,8 @@ struct Reconfiguration final : FluidForce {
                            .needs = {Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"exponent", &exponent, "1", -2, 0, Basis::literature, "V, theta; 0: rigid."},
-            {"reference_speed", &reference_speed, "m/s", 1e-6, 100, Basis::assumed, "w_0, above which parts fold."},
+    return {{"exponent", &exponent, "1", -2, 0, Basis::literature, "Vogel exponent V (theta); 0: rigid parts."},
+            {"reference_speed", &reference_speed, "m/s", 1e-6, 100, Basis::assumed, "w_0: relative speed above which the parts fold."},
             setting("form", &form, "cauchy: smooth; power: with a corner at w_0.", {"cauchy", "power"})};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {

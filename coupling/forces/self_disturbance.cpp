@@ -39,7 +39,7 @@ struct SelfDisturbance final : FluidForce {
                            .acts_on_water = true}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"strength", &strength, "1", 0, 2, Basis::literature, "theta; 1 by theory, 0: none."}};
+    return {{"strength", &strength, "1", 0, 2, Basis::literature, "Strength theta of the correction; 1 by theory, 0: no correction."}};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (strength == 0) return;

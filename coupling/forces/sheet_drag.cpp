@@ -43,9 +43,10 @@ struct SheetDrag final : FluidForce {
                            .needs = {Need::sheet}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"share", &share, "1", 0, 1, Basis::assumed, "theta: 0 the drag of the particles, 1 that of the sheet."},
+    return {{"share", &share, "1", 0, 1, Basis::assumed, "Weight theta of the sheet law; 0: drag of the particles, 1: drag of the sheet."},
             {"normal_coefficient", &normal_coefficient, "1", 0, 1e6, Basis::literature,
-             "C_n: drag of a plate across the stream, chosen 1.17 (one-way); loss coefficient of the cloth, chosen 2 (two-way)."},
+             "C_n: one-way the drag coefficient of a plate normal to the flow, by default 1.17; two-way the loss coefficient of the cloth, "
+             "by default 2."},
             {"tangential_coefficient", &tangential_coefficient, "1", 0, 10, Basis::assumed, "C_t: friction coefficient of one side."},
             setting("form", &form, "quadratic: constant coefficients; viscous: with the terms of slow flow.", {"quadratic", "viscous"})};
   }

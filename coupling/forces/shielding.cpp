@@ -32,7 +32,7 @@ struct Shielding final : FluidForce {
                            .needs = {Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"shelter", &shelter, "1", 0, 1, Basis::assumed, "theta: share of drag that a particle in full shelter loses."},
+    return {{"shelter", &shelter, "1", 0, 1, Basis::assumed, "theta: fraction of the drag that a fully sheltered particle loses."},
             setting("form", &form, "bonded: by the number of neighbours; wake: by a neighbour upstream.", {"bonded", "wake"})};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {

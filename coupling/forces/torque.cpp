@@ -35,7 +35,7 @@ struct Torque final : FluidForce {
                            .needs = {Need::gradient, Need::bonds}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta."},
+    return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "Factor theta on the torque; 1 by theory."},
             setting("form", &form, "stokes: creeping flow; dennis: more at finite Re.", {"stokes", "dennis"})};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {

@@ -50,9 +50,9 @@ struct TurbulentDispersion final : FluidForce {
                            .needs = {Need::turbulence}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"intensity", &intensity, "1", 0, 10, Basis::literature, "theta; 1: the fluctuations of k, 0: none."},
+    return {{"intensity", &intensity, "1", 0, 10, Basis::literature, "Factor theta on the fluctuations; 1: those of k, 0: none."},
             {"time_constant", &time_constant, "1", 1e-3, 10, Basis::literature, "C_T; published values from 0.15 to 0.6."},
-            {.key = "seed", .target = &seed, .minimum = 0, .meaning = "Of the random numbers: another seed is another realisation."},
+            {.key = "seed", .target = &seed, .minimum = 0, .meaning = "Seed of the random numbers; each seed gives another realisation."},
             setting("form", &form, "Correlation in time: lagrangian, crossing (of trajectories), or eddy (constant for a lifetime).",
                     {"lagrangian", "crossing", "eddy"})};
   }

@@ -36,7 +36,7 @@ struct VolumeFraction final : FluidForce {
                            .needs = {Need::solid_fraction, Need::several}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"exponent", &exponent, "1", 0, 10, Basis::literature, "theta; 0: single particles."},
+    return {{"exponent", &exponent, "1", 0, 10, Basis::literature, "Exponent theta; 0: drag of single particles."},
             setting("form", &form, "power: of the void fraction; linear: its leading order.", {"power", "linear"})};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {

@@ -42,7 +42,7 @@ struct Wall final : FluidForce {
                            .needs = {Need::wall}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"strength", &strength, "1", 0, 10, Basis::literature, "theta; 1 by theory."},
+    return {{"strength", &strength, "1", 0, 10, Basis::literature, "Strength theta of the wall correction; 1 by theory."},
             {"least_gap", &least_gap, "1", 1e-6, 1, Basis::assumed, "Least gap over radius: roughness keeps lubrication finite."},
             setting("form", &form, "leading: first order in a/h; series: to contact.", {"series", "leading"})};
   }

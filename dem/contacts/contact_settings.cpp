@@ -7,10 +7,10 @@ std::vector<Parameter> ContactSettings::parameters() {
     return Parameter{.key = key, .target = target, .minimum = minimum, .maximum = maximum, .basis = basis, .meaning = meaning};
   };
   return {
-      setting("law", &law_name, "Law of contact; its own keys are in a table of its name.", contact_laws().names()),
-      setting("self_contact", &self_contact, "Contacts between the particles of one piece; without, its folds pass through each other."),
+      setting("law", &law_name, "Law of contact; the keys of the law are in a table of its name.", contact_laws().names()),
+      setting("self_contact", &self_contact, "Contacts between the particles of one piece; false: its folds pass through each other."),
       setting("mutual_contact", &mutual_contact,
-              "Contacts between particles of different pieces; without, one piece passes through another."),
+              "Contacts between particles of different pieces; false: one piece passes through another."),
       number("restitution", &restitution, 1e-6, 1, Basis::literature,
              "Speed after a normal impact over speed before, between particles (Jensen 2018, Table 3.2)."),
       number("static_friction", &static_friction, 0, 10, Basis::literature,
@@ -18,22 +18,23 @@ std::vector<Parameter> ContactSettings::parameters() {
       number("rolling_friction", &rolling_friction, 0, 1, Basis::literature,
              "Rolling torque over normal force and equivalent radius, between particles (Jensen 2018, Table 3.2)."),
       number("wall_restitution", &wall_restitution, 1e-6, 1, Basis::literature,
-             "The same as restitution, with walls (Jensen 2018, Table 3.2)."),
+             "Speed after a normal impact over speed before, with walls (Jensen 2018, Table 3.2)."),
       number("wall_friction", &wall_friction, 0, 10, Basis::literature, "Coulomb coefficient with walls (Jensen 2018, Table 3.2)."),
       number("wall_rolling_friction", &wall_rolling_friction, 0, 1, Basis::literature,
-             "Rolling friction with walls; none is published, Table 3.2 of Jensen (2018) has it between particles only."),
+             "Rolling torque over normal force and radius, with walls; no value is published, Table 3.2 of Jensen (2018) has it between "
+             "particles only."),
       number("wall_stiffness_factor", &wall_stiffness_factor, 1e-3, 1e4, Basis::assumed,
-             "Multiplies the contact moduli E* and G* with walls, of two bodies of the particle's material at 1; stiffer walls need "
-             "shorter steps."),
+             "Factor on the contact moduli E* and G* with walls; 1: the wall has the material of the particle. Stiffer walls need shorter "
+             "steps."),
       number("skin_over_radius", &skin_over_radius, 1e-3, 10, Basis::assumed,
-             "Margin of the lists of near particles over the largest radius; changes the speed of the program, never a result."),
+             "Margin of the lists of near particles over the largest radius. It changes the speed of the program, never a result."),
       Parameter{.key = "impact_speed",
                 .target = &impact_speed,
                 .unit = "m/s",
                 .minimum = 1e-6,
                 .maximum = 1000,
                 .basis = Basis::assumed,
-                .meaning = "Fastest impact that the step must resolve: sets the Hertz impact time."},
+                .meaning = "Fastest impact that the sub-step must resolve: it sets the Hertz impact time."},
   };
 }
 

@@ -42,7 +42,7 @@ void read_bond(const Table& table, Passport& passport, std::array<std::vector<do
                      .unit = unit,
                      .minimum = required ? 1e-12 : 0,
                      .basis = Basis::calibrated,
-                     .meaning = "Of the bonds.",
+                     .meaning = "Property of the bonds.",
                      .required = required};
   };
   std::vector<double> range;
@@ -84,9 +84,9 @@ void read_record(const Table& root) {
   const auto noted_list = [&](const char* key, const char* unit) {
     return Parameter{.key = key, .target = &values, .unit = unit, .meaning = "For the record."};
   };
-  root.table("textile").read({setting("name", &text, "Of the cloth."), setting("source", &text, "Of the measurements."),
+  root.table("textile").read({setting("name", &text, "Name of the cloth."), setting("source", &text, "Source of the measurements."),
                               setting("tests", &text, "File of the measurements."), setting("clamps", &text, "How they were counted."),
-                              setting("pictures", &pictures, "Of the calibration."), noted("thickness", "m"),
+                              setting("pictures", &pictures, "Pictures of the calibration."), noted("thickness", "m"),
                               noted("contact_radius_over_radius", "1")});
   for (const Table& table : root.tables("check"))
     table.read({noted("radius", "m"), setting("direction", &text, "LW or CW."), noted("grab_force", "N"),

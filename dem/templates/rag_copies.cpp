@@ -9,19 +9,22 @@ namespace snag {
 
 std::vector<Parameter> RagCopies::parameters() {
   return {
-      {.key = "copies", .target = &count, .minimum = 1, .maximum = 1e6, .meaning = "Number of equal pieces that this table gives."},
-      {"copy_step", &step, "m", -infinity, infinity, Basis::assumed, "From the centre of one copy to that of the next."},
-      {"copy_interval", &interval, "s", 0, infinity, Basis::assumed, "Each copy is put in this much later than the one before."},
+      {.key = "copies", .target = &count, .minimum = 1, .maximum = 1e6, .meaning = "Number of equal pieces of this table."},
+      {"copy_step", &step, "m", -infinity, infinity, Basis::assumed, "Vector from the centre of one copy to that of the next."},
+      {"copy_interval", &interval, "s", 0, infinity, Basis::assumed, "Time between the insertion of one copy and that of the next."},
       {.key = "copy_poses",
        .target = &poses,
        .minimum = 1,
        .maximum = 1e6,
-       .meaning = "Crumpled copies: how many different poses there are, by seeds that count up from `seed`; taken in turn."},
-      setting("release_patch", &release.patch, "Patch of the mesh at which the pieces are put in; centre then counts from there."),
-      {"release_depth", &release.depth, "m", 0, infinity, Basis::assumed, "Of the centre below the patch, into the water."},
+       .meaning = "Crumpled copies: number of different poses, with seeds that count up from `seed`; the copies take them in turn."},
+      setting("release_patch", &release.patch, "Patch of the mesh at which the pieces are put in; centre is then relative to that point."),
+      {"release_depth", &release.depth, "m", 0, infinity, Basis::assumed, "Distance of the centre from the patch, into the water."},
       {"release_spread", &release.spread, "1", 0, 1, Basis::assumed,
-       "0: all at the middle of the patch; 1: anywhere on it; in between: so much of the way from its middle."},
-      {.key = "release_seed", .target = &release.seed, .minimum = 0, .meaning = "Each seed gives other places on the patch."},
+       "Spread over the patch: 0 all pieces at its middle, 1 anywhere on it; in between: the fraction of the distance from the middle."},
+      {.key = "release_seed",
+       .target = &release.seed,
+       .minimum = 0,
+       .meaning = "Seed of the positions on the patch; each seed gives other positions."},
   };
 }
 

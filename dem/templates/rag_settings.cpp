@@ -35,29 +35,30 @@ void add_size(RagSettings& s, Records& r) {
     r.push_back({.key = "n_points",
                  .target = &s.n_points,
                  .minimum = 0,
-                 .meaning = "Particles; 0: length over particle diameter. Given, the particle radius follows from the length."});
+                 .meaning = "Number of particles; the particle radius then follows from the length. 0: length over particle diameter."});
     r.push_back(number("diameter", &s.diameter, "m", 0, Basis::assumed,
-                       "Of the fibre, for mass, drag and stiffness as a beam; 0: particle diameter."));
+                       "Diameter of the fibre for mass, drag and stiffness as a beam; 0: the particle diameter."));
   }
-  if (s.shape == Shape::disc) r.push_back(number("diameter", &s.diameter, "m", 1e-6, Basis::measured, "Of the disc."));
+  if (s.shape == Shape::disc) r.push_back(number("diameter", &s.diameter, "m", 1e-6, Basis::measured, "Diameter of the disc."));
   if (s.shape == Shape::particle) {
-    r.push_back(number("diameter", &s.diameter, "m", 1e-9, Basis::assumed, "Of the sphere."));
-    r.push_back(number("density", &s.density, "kg/m3", 1e-3, Basis::assumed, "Of the sphere."));
+    r.push_back(number("diameter", &s.diameter, "m", 1e-9, Basis::assumed, "Diameter of the sphere."));
+    r.push_back(number("density", &s.density, "kg/m3", 1e-3, Basis::assumed, "Density of the sphere."));
   } else {
-    r.push_back(number("radius", &s.radius, "m", 1e-7, Basis::literature, "Of a particle (r_p); lattice spacing is twice that."));
+    r.push_back(number("radius", &s.radius, "m", 1e-7, Basis::literature, "Radius r_p of a particle; the lattice spacing is twice that."));
   }
 }
 
 void add_mass(RagSettings& s, Records& r) {
   if (s.shape == Shape::particle) return;
   if (s.shape == Shape::fibre) {
-    r.push_back(number("density", &s.density, "kg/m3", 1e-3, Basis::literature, "Of the fibre (polyester)."));
+    r.push_back(number("density", &s.density, "kg/m3", 1e-3, Basis::literature, "Density of the fibre; the default is that of polyester."));
     return;
   }
-  r.push_back(number("thickness", &s.thickness, "m", 1e-7, Basis::measured,
-                     "Of the cloth; times (2 r_p)^2 the volume in which a particle feels buoyancy, added mass and pressure gradient."));
+  r.push_back(
+      number("thickness", &s.thickness, "m", 1e-7, Basis::measured,
+             "Thickness of the cloth; times (2 r_p)^2 it is the volume of a particle for buoyancy, added mass and pressure gradient."));
   r.push_back(number("mass_per_area", &s.mass_per_area, "kg/m2", 1e-4, Basis::measured,
-                     "Of the soaked cloth: 0.060 kg/m2 of polyester and water in the rest of the thickness."));
+                     "Mass of the soaked cloth per area: 0.060 kg/m2 of polyester, and water in the rest of the thickness."));
   r.push_back(renamed(setting("density_model", &s.density_model,
                               "mass_per_area: the mass of the particles follows from that key. jensen_2018: the density of the spheres is "
                               "538 (1 mm/r_p) kg/m3, as in the coupled simulations of Jensen (2018).",
@@ -75,49 +76,50 @@ void add_plan(PosePlan& p, Records& r) {
     r.push_back({.key = key, .target = target, .minimum = 0, .maximum = 1e6, .meaning = meaning});
   };
   folds("folds_lengthwise", &p.folds_lengthwise, "folded: number of folds, which shorten the length; layers are 4 r_p apart.");
-  folds("folds_crosswise", &p.folds_crosswise, "folded: the same for the width; cloth is folded in one of the two directions.");
+  folds("folds_crosswise", &p.folds_crosswise,
+        "folded: number of folds, which shorten the width; cloth is folded in one of the two directions only.");
   r.push_back(number("confine_radius", &p.confine_radius, "m", 0, Basis::assumed,
                      "confined, hopper: radius of the pipe, whose axis goes through centre."));
   r.push_back(number("confine_length", &p.confine_length, "m", 0, Basis::assumed,
-                     "confined: length of the pipe, between two ends that close in too; 0: without ends, and the mean of the particles "
-                     "along the axis is at centre."));
+                     "confined: length of the pipe between two ends, which close in too; 0: the pipe has no ends, and the mean of the "
+                     "particles along the axis is at centre."));
   r.push_back(number("confine_axis", &p.confine_axis, "1", -infinity, Basis::assumed,
-                     "confined, hopper: direction of the pipe, any length; that of gravity for a hopper."));
+                     "confined, hopper: direction of the pipe, a vector of any length; for a hopper the direction of gravity."));
   r.push_back({.key = "hopper_angle",
                .target = &p.hopper_angle,
                .unit = "rad",
                .minimum = 0.05,
                .maximum = 1.5,
-               .meaning = "hopper: of the cone's side to its axis."});
+               .meaning = "hopper: angle between the side of the cone and its axis."});
   r.push_back({.key = "seed",
                .target = &p.seed,
                .minimum = 0,
-               .meaning = "confined, hopper: of the slow waves that the sheet begins with; each seed gives another pose."});
+               .meaning = "confined, hopper: seed of the slow waves that the sheet begins with; each seed gives another pose."});
 }
 
 void add_pose(RagSettings& s, Records& r) {
   const bool point = s.shape == Shape::particle;
   r.push_back(number(point ? "position" : "centre", &s.position, "m", -infinity, Basis::assumed,
-                     point ? "Of the centre." : "Centre of the lattice."));
-  r.push_back(number("velocity", &s.velocity, "m/s", -infinity, Basis::assumed, "At the start."));
-  r.push_back(
-      number("spin", &s.spin, "rad/s", -infinity, Basis::assumed, "Angular velocity of the whole piece about its centre at the start."));
+                     point ? "Centre of the sphere." : "Centre of the lattice."));
+  r.push_back(number("velocity", &s.velocity, "m/s", -infinity, Basis::assumed, "Velocity of the piece at its insertion."));
+  r.push_back(number("spin", &s.spin, "rad/s", -infinity, Basis::assumed,
+                     "Angular velocity of the whole piece about its centre at its insertion."));
   r.push_back(number("insert_time", &s.insert_time, "s", 0, Basis::assumed,
-                     "When it is put into the run, into water that has developed by then; walls that turn are where they are then."));
+                     "Time at which the piece is put into the flow; walls that turn have their position at that time."));
   r.push_back(renamed(setting("match_flow_velocity", &s.match_flow_velocity,
                               "The mean velocity of the water at the particles is added to `velocity` when the piece is put in."),
                       {.key = "with_water"}));
   for (const Parameter& parameter : s.copies.parameters()) r.push_back(parameter);
   if (point) return;
-  r.push_back(number("lengthwise", &s.lengthwise, "1", -infinity, Basis::assumed, "Direction of the rows, any length."));
+  r.push_back(number("lengthwise", &s.lengthwise, "1", -infinity, Basis::assumed, "Direction of the rows, a vector of any length."));
   if (s.shape != Shape::fibre)
     r.push_back(number("crosswise", &s.crosswise, "1", -infinity, Basis::assumed,
-                       "Direction across the rows; its part along `lengthwise` is taken off."));
+                       "Direction across the rows; its component along `lengthwise` is removed."));
   if (s.shape != Shape::fibre) add_plan(s.plan, r);
-  r.push_back(file_setting(
-      "pose_file", &s.pose_file,
-      "Places of all particles about centre, instead of directions and pose, such as rags/pose_<n>.csv of another run: CSV with a "
-      "header and rows id,x,y,z,qw,qx,qy,qz in m; id = row * n_columns + column."));
+  r.push_back(
+      file_setting("pose_file", &s.pose_file,
+                   "File with the positions of all particles relative to centre, instead of directions and pose, such as rags/pose_<n>.csv "
+                   "of another run: CSV with a header and rows id,x,y,z,qw,qx,qy,qz in m; id = row * n_columns + column."));
 }
 
 void add_bond_direction(const std::string& direction, BondProperties& p, Records& r) {
@@ -125,20 +127,19 @@ void add_bond_direction(const std::string& direction, BondProperties& p, Records
     r.push_back(number((key + direction).c_str(), target, unit, 0, Basis::calibrated, meaning));
   };
   add("normal_stiffness_", &p.normal_stiffness, "N/m3", "S_n: normal stiffness per unit area of the bond, for properties = \"custom\".");
-  add("tangential_stiffness_", &p.tangential_stiffness, "N/m3", "S_t, shear and torsion.");
-  add("bending_stiffness_", &p.bending_stiffness, "N/m3", "S_nb.");
-  add("normal_strength_", &p.normal_strength, "Pa", "Tensile stress at which a bond breaks; 0: never.");
-  add("shear_strength_", &p.shear_strength, "Pa", "Shear stress at which a bond breaks; 0: never.");
+  add("tangential_stiffness_", &p.tangential_stiffness, "N/m3", "S_t: stiffness in shear and torsion per unit area of the bond.");
+  add("bending_stiffness_", &p.bending_stiffness, "N/m3", "S_nb: stiffness in bending per unit area of the bond.");
+  add("normal_strength_", &p.normal_strength, "Pa", "Tensile stress at which a bond breaks; 0: it never breaks in tension.");
+  add("shear_strength_", &p.shear_strength, "Pa", "Shear stress at which a bond breaks; 0: it never breaks in shear.");
 }
 
 void add_bonds(RagSettings& s, Records& r) {
   if (s.shape == Shape::particle) return;
-  r.push_back(setting("bond_law", &s.bond_law, "Law of the bonds; its own keys are in a table of its name.", bond_laws().names()));
-  r.push_back(
-      file_setting("passport", &s.passport,
-                   "Bonds as calibrated from tests of the cloth (`snag calibrate`), instead of `properties`: a textile passport such "
-                   "as cases/textile-aro/passport.toml, interpolated in the logarithms between its radii. A fibre takes those "
-                   "lengthwise."));
+  r.push_back(setting("bond_law", &s.bond_law, "Law of the bonds; the keys of the law are in a table of its name.", bond_laws().names()));
+  r.push_back(file_setting(
+      "passport", &s.passport,
+      "Textile passport with the bonds that `snag calibrate` found from tests of the cloth, instead of `properties`, such as "
+      "cases/textile-aro/passport.toml; between its radii the logarithms are interpolated. A fibre takes the lengthwise bonds."));
   std::vector<std::string> choices{"published", "custom"};
   if (s.shape == Shape::fibre) choices.insert(choices.begin(), "beam");
   r.push_back(renamed(setting("properties", &s.properties,
@@ -147,7 +148,9 @@ void add_bonds(RagSettings& s, Records& r) {
                               "those of a round elastic beam of the fibre's diameter.",
                               choices),
                       {.values = {{"\"given\"", "\"custom\""}}}));
-  if (s.shape == Shape::fibre) r.push_back(number("youngs_modulus", &s.youngs_modulus, "Pa", 1, Basis::assumed, "Of a fibre as a beam."));
+  if (s.shape == Shape::fibre)
+    r.push_back(
+        number("youngs_modulus", &s.youngs_modulus, "Pa", 1, Basis::assumed, "Young's modulus of a fibre, for properties = \"beam\"."));
   add_bond_direction("lengthwise", s.along, r);
   if (s.shape != Shape::fibre) add_bond_direction("crosswise", s.across, r);
   r.push_back(number("bond_damping", &s.bond_damping, "1", 0, Basis::literature,
@@ -157,7 +160,7 @@ void add_bonds(RagSettings& s, Records& r) {
              "c_r: moment against relative rotation of bonded particles over normal bond force and radius; Jensen (2018) App. 1.4."));
   r.push_back(
       number("contact_radius_ratio", &s.contact_radius_ratio, "1", 1, Basis::literature, "r_c/r_p: a bond longer than 2 r_c breaks."));
-  r.push_back(setting("breakage", &s.breakage, "Whether bonds break, by strength and length."));
+  r.push_back(setting("breakage", &s.breakage, "true: bonds break by strength and by length."));
 }
 
 }  // namespace
@@ -170,17 +173,17 @@ RagSettings::RagSettings(Shape piece_shape) : shape(piece_shape) {
 
 Section RagSettings::section() {
   const ShapeText& text = shape_texts[static_cast<std::size_t>(shape)];
-  Records r{setting("name", &name, "Name in outputs; not given: the table and its number.")};
+  Records r{setting("name", &name, "Name in outputs; by default the table and the number of the piece.")};
   add_size(*this, r), add_mass(*this, r), add_pose(*this, r), add_bonds(*this, r);
   r.push_back(number("shear_modulus", &shear_modulus, "Pa", 1, Basis::literature,
-                     "G of a particle in contacts; not given: 1 MPa (Jensen 2018, Table 3.1), and of a fibre as a beam no more than its "
-                     "own, E/(2 (1 + nu))."));
+                     "Shear modulus G of a particle in contacts; by default 1 MPa (Jensen 2018, Table 3.1), for a fibre as a beam at most "
+                     "its own, E/(2 (1 + nu))."));
   r.push_back({.key = "poisson_ratio",
                .target = &poisson_ratio,
                .minimum = 0,
                .maximum = 0.5,
                .basis = Basis::assumed,
-               .meaning = "Of a particle in contacts."});
+               .meaning = "Poisson ratio of a particle in contacts."});
   return {text.table, text.meaning, r, true};
 }
 
@@ -188,13 +191,13 @@ Section DemSettings::section() {
   return {"dem",
           "Motion of the rags within a step of the water.",
           {number("step", &step, "s", 1e-12, Basis::assumed,
-                  "Sub-step; not given: safety times the stable one. Above the stable one the run is refused."),
+                  "Sub-step of the rags; by default safety times the stable one. A larger one than the stable one is refused."),
            {.key = "safety",
             .target = &safety,
             .minimum = 0.01,
             .maximum = 1,
             .basis = Basis::assumed,
-            .meaning = "Share of the stable step that is taken."}}};
+            .meaning = "Sub-step over the stable sub-step."}}};
 }
 
 namespace {

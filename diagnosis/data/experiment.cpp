@@ -86,7 +86,7 @@ void reject_repeated_ids(const std::vector<Item>& items, const std::string& sect
   std::set<std::string> seen;
   for (const Item& item : items) {
     if (!seen.insert(item.id).second)
-      throw Error(ExitCode::usage, file + ": [[" + section + "]] \"" + item.id + "\" stands twice" +
+      throw Error(ExitCode::usage, file + ": [[" + section + "]] \"" + item.id + "\" is given twice" +
                                        (section == "point" ? "; a point serves for training or is withheld, never both" : "") +
                                        "; keep one of them");
   }
@@ -142,7 +142,8 @@ void check_columns(const Experiment& experiment, const std::string& file) {
       minimum = std::min(minimum, column.minimum), maximum = std::max(maximum, column.maximum);
       const std::string at = where + " at point \"" + experiment.points[p].id + "\"";
       if (column.scalar && column.series) throw Error(ExitCode::usage, at + " has rows with and without t_s; make them two observables");
-      if (!continuous && column.series) throw Error(ExitCode::usage, at + " is a count or an event of a replicate; leave t_s empty");
+      if (!continuous && column.series)
+        throw Error(ExitCode::usage, at + " is a count or an event, which has one value per replicate; leave t_s empty");
     }
     if (!continuous || observable.noise_u > 0) continue;
     if (minimum == maximum)

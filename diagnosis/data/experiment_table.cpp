@@ -86,7 +86,7 @@ class Reading {
       if (k == known.size())
         throw wrong("unknown column \"" + shortened(columns_.back()) +
                     "\"; the columns are point,replicate,t_s,observable,value and perhaps censored, n, sd");
-      if (column_[k] >= 0) throw wrong("the column \"" + shortened(columns_.back()) + "\" stands twice");
+      if (column_[k] >= 0) throw wrong("the column \"" + shortened(columns_.back()) + "\" is given twice");
       column_[k] = static_cast<int>(columns_.size()) - 1;
     }
     for (int k = 0; k < 5; ++k)

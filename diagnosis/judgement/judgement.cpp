@@ -216,7 +216,7 @@ class Judge {
       const std::string& name = v_.effects[e];
       if (all[e].absorbing)
         v_.notes.push_back("The strength of " + name + ", " + words(all[e].mean) +
-                           ", is more than 3 standard deviations off what is expected: it may take up something else."),
+                           ", is more than 3 standard deviations from its expected value: it may be compensating for another error."),
             hold = false;
       if (all[e].cochran_p < constancy_limit)
         v_.notes.push_back("The strength of " + name + " differs between operating points (Cochran p = " + words(all[e].cochran_p) + ")."),

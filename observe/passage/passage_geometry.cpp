@@ -36,25 +36,28 @@ Vec3 across(const Vec3& v, const Vec3& n) { return v - dot(v, n) * n; }
 }  // namespace
 
 Section PassageSettings::section() {
-  return {
-      "rag_passage",
-      "What a rag's way through a pump is told by: where the casing begins and ends, and where the tongue is. Angles are about the axis "
-      "of [rotating_zone], zero at the tongue, counter-clockwise positive seen from the inlet. Without this table a rag has left when "
-      "it is beyond a patch of kind pressure_outlet.",
-      {point("inlet_flange", &inlet_flange, "Centre of the plane where the casing begins."),
-       required({"inlet_normal", &inlet_normal, "1", -infinity, infinity, Basis::assumed, "Into the casing, of any length."}),
-       length("inlet_radius", &inlet_radius,
-              "Radius of what lies before that plane, a pipe or a tank; a particle behind the plane and within 1.5 of it from its axis is "
-              "upstream."),
-       point("outlet_flange", &outlet_flange, "Centre of the plane where the casing ends."),
-       required({"outlet_normal", &outlet_normal, "1", -infinity, infinity, Basis::assumed, "Out of the casing, of any length."}),
-       length("outlet_radius", &outlet_radius, "Radius of the outlet; a particle within 1.5 of it from its axis goes out by it."),
-       point("tongue", &tongue, "Middle of the tongue's nose."),
-       length("tongue_reach", &tongue_reach,
-              "Contact with a standing wall nearer than this to the line through the tongue along the axis is contact with the tongue."),
-       length("impeller_radius", &impeller_radius, "Outer radius of the impeller; what is further from the axis is in the volute.")},
-      false,
-      "passage"};
+  return {"rag_passage",
+          "Geometry that defines when a rag enters the pump, recirculates, is stuck and leaves: two flange planes and the tongue. Angles "
+          "are about the axis of [rotating_zone], zero at the tongue, counter-clockwise positive seen from the inlet. Without this table a "
+          "rag has left when it is beyond a patch of kind pressure_outlet.",
+          {point("inlet_flange", &inlet_flange, "Centre of the plane where the casing begins."),
+           required({"inlet_normal", &inlet_normal, "1", -infinity, infinity, Basis::assumed,
+                     "Normal of the inlet plane into the casing, a vector of any length."}),
+           length("inlet_radius", &inlet_radius,
+                  "Radius of the pipe or tank in front of the inlet plane; a particle in front of the plane and within 1.5 radii of its "
+                  "axis is upstream."),
+           point("outlet_flange", &outlet_flange, "Centre of the plane where the casing ends."),
+           required({"outlet_normal", &outlet_normal, "1", -infinity, infinity, Basis::assumed,
+                     "Normal of the outlet plane out of the casing, a vector of any length."}),
+           length("outlet_radius", &outlet_radius,
+                  "Radius of the outlet; a particle beyond the plane and within 1.5 radii of its axis has left."),
+           point("tongue", &tongue, "Middle of the nose of the tongue."),
+           length("tongue_reach", &tongue_reach,
+                  "Distance from the line through the tongue along the axis; contact with a stationary wall within it counts as contact "
+                  "with the tongue."),
+           length("impeller_radius", &impeller_radius, "Outer radius of the impeller; a particle further from the axis is in the volute.")},
+          false,
+          "passage"};
 }
 
 PassageGeometry::PassageGeometry(const PassageSettings& s, const Vec3& origin, const Vec3& axis, double speed, const std::string& where)

@@ -21,7 +21,7 @@ void refuse_results(const fs::path& folder, bool resume, bool overwrite) {
   for (const char* name : {"summary.json", "checkpoint", "monitors"}) {
     if (fs::exists(folder / name, ignored))
       throw Error(ExitCode::usage, folder.string() + ": holds the results of a run already (" + name +
-                                       "), which are never overwritten unasked; choose another --out, or --resume, or --overwrite");
+                                       "), which will not be overwritten; choose another --out, or give --resume or --overwrite");
   }
 }
 

@@ -10,15 +10,16 @@ Section ObserveSettings::section() {
   };
   return {
       "virtual_camera",
-      "What a diagnosis measures on a run: the camera's picture, a window in which it looks, and a plane behind which a piece has left.",
-      {vector("right", &right, "1", "Direction to the right in the picture, any length."),
-       vector("up", &up, "1", "Direction up in the picture; its part along `right` is taken off. The camera looks along up x right."),
-       vector("exit_point", &exit_point, "m", "A point of the exit plane."),
+      "What a diagnosis measures in a run: the directions of the picture, a window, and a plane behind which a piece has left.",
+      {vector("right", &right, "1", "Direction to the right in the picture, a vector of any length."),
+       vector("up", &up, "1", "Direction up in the picture; its component along `right` is removed. The camera looks along up x right."),
+       vector("exit_point", &exit_point, "m", "A point on the exit plane."),
        vector("exit_normal", &exit_normal, "1",
-              "Direction out of the exit plane; a piece has left once its centre is beyond. Not given: there is no exit."),
+              "Normal of the exit plane in the direction of the exit; a piece has left as soon as its centre is beyond the plane. By "
+              "default there is no exit."),
        vector("window_lower", &window_lower, "m",
-              "Lower corner of the window: numbers that are asked without a time are means over the time that the centre is in it."),
-       vector("window_upper", &window_upper, "m", "Upper corner of the window. Not given: there is no window.")},
+              "Lower corner of the window; an observable without a time is the mean over the time that the centre is in the window."),
+       vector("window_upper", &window_upper, "m", "Upper corner of the window; by default there is no window.")},
       false,
       "observe"};
 }

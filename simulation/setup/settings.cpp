@@ -20,16 +20,17 @@ Section MeshSettings::section() {
           "The mesh of the water: a file with named volumes and surfaces. Without it there is no water.",
           {file_setting("file", &file, "Mesh file, relative to the case file: " + readable_mesh_formats() + "."),
            {"scale", &scale, "1", 1e-9, 1e9, Basis::assumed, "Metres in one unit of length of the file (0.001 for millimetres)."},
-           setting("geometry", &geometry, "Instead of a file: the mesh is made for this run, as by `snag mesh`.",
+           setting("geometry", &geometry, "Parametric geometry instead of a file: the mesh is generated for this run, as by `snag mesh`.",
                    {"", "pump", "pipe", "channel", "box", "tank"}),
-           file_setting("parameters", &parameters, "Parameter file of the geometry, relative to the case file; not given: its defaults.")}};
+           file_setting("parameters", &parameters,
+                        "Parameter file of the geometry, relative to the case file; by default the parameters have their defaults.")}};
 }
 
 Section PeriodicSettings::section() {
   return {"periodic",
-          "Two patches that are one surface: what leaves through one enters through the other.",
-          {setting("first", &pair.first, "Patch."),
-           setting("second", &pair.second, "Patch on which the first one falls."),
+          "A pair of periodic patches: water that leaves through one enters through the other.",
+          {setting("first", &pair.first, "First patch of the pair."),
+           setting("second", &pair.second, "The matching patch."),
            {"translation", &pair.translation, "m", -1e6, 1e6, Basis::assumed, "Shift from the first patch to the second."}},
           true};
 }
@@ -37,7 +38,7 @@ Section PeriodicSettings::section() {
 Section TimeSettings::section() {
   return {
       "time",
-      "Start is at zero; the rags take as many smaller steps within one step as they need.",
+      "Time begins at zero; the rags take sub-steps within each step.",
       {{.key = "end",
         .target = &end,
         .unit = "s",
@@ -46,10 +47,9 @@ Section TimeSettings::section() {
         .meaning = "Time to simulate.",
         .may_differ_on_resume = true},
        {"step", &step, "s", 1e-12, 1e6, Basis::assumed, "Step of the water and of the coupling."},
-       setting("end_when_rags_left", &end_when_rags_left, "End earlier, as soon as every rag has gone out through an outlet."),
+       setting("end_when_rags_left", &end_when_rags_left, "true: the run ends as soon as every rag has left through an outlet."),
        {"run_on", &run_on, "s", 0, 1e9, Basis::assumed,
-        "With end_when_rags_left: time that the run goes on after the last rag has gone out; a revolution or more gives the head after the "
-        "passage."}}};
+        "With end_when_rags_left: simulated time after the last rag has left; one revolution or more gives the head after the passage."}}};
 }
 
 std::int64_t TimeSettings::n_steps() const {
@@ -77,9 +77,10 @@ Section OutputSettings::section() {
 
 Section CheckpointSettings::section() {
   return {"checkpoint",
-          "Two alternating slots; one more is written when the run is told to stop (SIGTERM, SIGINT, SIGUSR1, or a file named stop in the "
-          "output folder).",
-          {{"interval", &interval, "s", 0, 1e9, Basis::assumed, "Simulated time between checkpoints; not given: by wall clock only."},
+          "Checkpoints in two alternating slots; one more is written on a request to stop (SIGTERM, SIGINT, SIGUSR1, or a file named stop "
+          "in the output folder).",
+          {{"interval", &interval, "s", 0, 1e9, Basis::assumed,
+            "Simulated time between checkpoints; by default they follow the wall clock only."},
            {"wall_interval", &wall_interval, "s", 0, 1e9, Basis::assumed, "Wall-clock time between checkpoints."}}};
 }
 

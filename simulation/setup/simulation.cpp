@@ -122,7 +122,8 @@ void Simulation::build_water(const CaseFile& file) {
   const auto gap_picture = std::filesystem::path(file.file()).replace_extension(".interface_gap.vtp");
   auto zone = read_rotating_zone(file.root(), *mesh, gap_picture);
   if (start_settings_.frozen && zone)
-    throw Error(ExitCode::usage, "[initial_flow] frozen with [rotating_zone]: a field that turns cannot stand; remove one of them");
+    throw Error(ExitCode::usage,
+                "[initial_flow] frozen = true with [rotating_zone]: frozen flow is not possible with a rotating zone; remove one of them");
   auto boundaries = read_boundaries(file.root());
   auto turbulence = read_turbulence(file.root());
   laminar_asked_ = file.root().table("turbulence").has("model");
@@ -144,8 +145,7 @@ void Simulation::read_pump(const Table& root) {
   if (!root.has("pump")) return;
   read(root, pump.emplace());
   if (!water || !water->flow.rotating_zone)
-    throw Error(ExitCode::usage,
-                root.table("pump").where() + " is read off a rotor, and nothing turns here; add [rotating_zone], or remove [pump]");
+    throw Error(ExitCode::usage, root.table("pump").where() + " needs [rotating_zone], which the case lacks; add it, or remove [pump]");
 }
 
 void Simulation::build_rags(const CaseFile& file) {
@@ -165,7 +165,7 @@ void Simulation::build_rags(const CaseFile& file) {
   if (pieces.empty()) return;
   if (zone && !zone->slides())
     throw Error(ExitCode::usage,
-                "[rotating_zone] motion = \"frame\" with rags: the mesh would stand while the walls turn; use \"sliding\"");
+                "[rotating_zone] motion = \"frame\" with rags: rags need a rotor mesh that turns with its walls; use \"sliding\"");
   place_at_patches(mesh.get(), pieces);
   poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
@@ -182,8 +182,9 @@ void Simulation::couple(const CaseFile& file) {
     const bool frozen = start_settings_.frozen;
     Coupling coupling = read_coupling(file.root());
     if (frozen && coupling.settings.two_way())
-      throw Error(ExitCode::usage,
-                  "[initial_flow] frozen with [coupling] mode = \"two_way\": water that stands cannot feel the rags; use \"one_way\"");
+      throw Error(
+          ExitCode::usage,
+          "[initial_flow] frozen = true with [coupling] mode = \"two_way\": frozen flow allows one-way coupling only; use \"one_way\"");
     coupled = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
   } else if (prescribed_) {
     coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
@@ -291,7 +292,7 @@ void Simulation::check_inside() {
   if (periodic_)
     throw Error(ExitCode::invariant,
                 found + "; particles are not carried through periodic patches yet: shorten the run, or make the domain longer");
-  log::warning(found + "; they feel the water of the nearest cell: is a [[wall]] missing?");
+  log::warning(found + "; their forces are those of the water in the nearest cell: is a [[wall]] missing?");
   warned_of_particles_outside_ = true;
 }
 
@@ -299,7 +300,8 @@ std::string Simulation::start() {
   const bool frozen = start_settings_.frozen;
   if (start_settings_.from.empty()) {
     if (frozen)
-      throw Error(ExitCode::usage, "[initial_flow] frozen: there is no water to stand still; give from, the output folder of a run");
+      throw Error(ExitCode::usage,
+                  "[initial_flow] frozen = true without from: there is no flow to freeze; give from, the output folder of a run");
     return {};
   }
   if (!water) throw Error(ExitCode::usage, "[initial_flow] from: this case computes no water; remove it, or give [mesh]");

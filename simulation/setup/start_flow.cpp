@@ -80,8 +80,7 @@ void search(const std::vector<std::int64_t>& ids, const std::vector<Vec3>& centr
 /// Of each owned cell the number of the nearest cell of the checkpoint: the ranks' shares of the stored centres go round one after another.
 std::vector<std::int64_t> nearest_ids(CheckpointReader& reader, const Mesh& mesh, const std::string& where, double& farthest) {
   if (!reader.has(centre_name))
-    throw Error(ExitCode::usage,
-                where + ": that checkpoint does not tell where its cells are, which map_nearest_cell = true needs; repeat that run");
+    throw Error(ExitCode::usage, where + ": that checkpoint has no cell centres, which map_nearest_cell = true needs; repeat that run");
   const std::vector<std::int64_t> mine = reader.ids(centre_name);
   const std::vector<Vec3> my_centres = centres_of(reader, mine);
   std::vector<Nearest> nearest(static_cast<std::size_t>(mesh.n_cells));
@@ -104,22 +103,21 @@ std::vector<std::int64_t> nearest_ids(CheckpointReader& reader, const Mesh& mesh
 }  // namespace
 
 Section StartSettings::section() {
-  return {
-      .name = "initial_flow",
-      .meaning = "Water to start from instead of the initial velocity: that of another run, as of a steady one. Time begins at 0.",
-      .parameters = {file_setting("from", &from,
-                                  "Output folder of the other run, relative to the case file; its newest checkpoint gives velocity, "
-                                  "pressure, k and epsilon. The mesh must be the same, unless map_nearest_cell is true."),
-                     renamed(setting("map_nearest_cell", &map_nearest_cell,
-                                     "Each cell takes the values of the nearest cell of the other run, whose mesh may be another one."),
-                             {.key = "map"}),
-                     setting("frozen", &frozen,
-                             "The water stays as it starts and carries the rags, which it does not feel (one_way): many rags through one "
-                             "flow in a moment. Not with a rotating zone."),
-                     {"velocity_factor", &velocity_factor, "1", 0, 100, Basis::assumed,
-                      "frozen: the velocities of the other run times this, k with its square, epsilon with its cube: the same flow at "
-                      "another rate, as long as the Reynolds number hardly matters."}},
-      .former_name = "start"};
+  return {.name = "initial_flow",
+          .meaning = "Flow of another run, such as a steady one, as the initial flow instead of a uniform velocity. Time begins at 0.",
+          .parameters = {file_setting("from", &from,
+                                      "Output folder of the other run, relative to the case file; its newest checkpoint gives velocity, "
+                                      "pressure, k and epsilon. The mesh must be the same, unless map_nearest_cell is true."),
+                         renamed(setting("map_nearest_cell", &map_nearest_cell,
+                                         "Each cell takes the values of the nearest cell of the other run, whose mesh may be another one."),
+                                 {.key = "map"}),
+                         setting("frozen", &frozen,
+                                 "true: the flow does not change in time and carries the rags (one_way coupling): many rags use one flow. "
+                                 "Not possible with a rotating zone."),
+                         {"velocity_factor", &velocity_factor, "1", 0, 100, Basis::assumed,
+                          "frozen: factor on the velocities of the other run; k has its square, epsilon its cube. This is the same flow at "
+                          "another rate, if the Reynolds number has little influence."}},
+          .former_name = "start"};
 }
 
 void scale_flow(Flow& flow, const Flow& as_started, double factor) {

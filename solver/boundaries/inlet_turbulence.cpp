@@ -15,13 +15,13 @@ constexpr double length_over_diameter = 0.07;  // mixing length of developed pip
 
 std::vector<Parameter> InletTurbulence::parameters() {
   return {{"turbulence_intensity", &intensity, "1", 0, 10, Basis::assumed,
-           "Of fluid that enters: root of the mean square of a velocity component's fluctuation over the speed; 0.05 if not given."},
+           "Turbulence intensity of entering fluid: rms fluctuation of a velocity component over the speed; by default 0.05."},
           {"turbulence_length_scale", &length_scale, "m", 1e-12, infinity, Basis::literature,
-           "Of fluid that enters: size of the eddies; 0.07 of the diameter of a circle as large as the patch if not given."},
+           "Length scale of the eddies of entering fluid; by default 0.07 of the diameter of a circle with the area of the patch."},
           {"turbulence_k", &k, "m2/s2", 0, infinity, Basis::assumed,
-           "Turbulent kinetic energy of fluid that enters, instead; with turbulence_epsilon."},
+           "Turbulent kinetic energy of entering fluid, instead of the intensity; with turbulence_epsilon."},
           {"turbulence_epsilon", &epsilon, "m2/s3", 0, infinity, Basis::assumed,
-           "Dissipation rate of fluid that enters, instead; with turbulence_k."}};
+           "Dissipation rate of entering fluid, instead of the length scale; with turbulence_k."}};
 }
 
 bool InletTurbulence::given() const { return intensity || length_scale || k || epsilon; }

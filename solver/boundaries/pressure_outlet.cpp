@@ -34,12 +34,12 @@ struct PressureOutlet final : Boundary {
         .meaning = "Static pressure; fluid leaves with zero normal gradient and enters along the normal.",
         .parameters = {
             {"pressure", &pressure, "Pa", -infinity, infinity, Basis::assumed,
-             "Static pressure, relative; with target_flow_rate its level at the start, unless the initial field has a pressure."},
+             "Static pressure, relative; with target_flow_rate the initial level, unless the initial field has a pressure."},
             {"target_flow_rate", &target_flow_rate, "m3/s", -infinity, infinity, Basis::assumed,
-             "Volume flow out of the domain that the level of the pressure is to bring about; another patch must give the pressure."},
+             "Volume flow out of the domain; a controller sets the pressure level for it. Another patch must prescribe the pressure."},
             {"response_time", &response_time, "s", 0, infinity, Basis::assumed,
-             "Time in which the level answers to a wrong flow; 20 time steps if not given. Longer than the period of fluctuations, it lets "
-             "the flow fluctuate."}}};
+             "Time constant of the flow controller; by default 20 time steps. If it is longer than the period of the fluctuations, the "
+             "flow may fluctuate."}}};
     course.add_keys(section, "pressure (with target_flow_rate: the target)");
     return section;
   }

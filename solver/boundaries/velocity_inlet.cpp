@@ -24,8 +24,10 @@ struct VelocityInlet final : Boundary {
         .meaning = "Velocity, uniform or with the profile of a developed flow.",
         .parameters = {
             {"velocity", &velocity, "m/s", -infinity, infinity, Basis::assumed, "Velocity of the fluid."},
-            {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed, "Speed into the domain along the normal, instead."},
-            setting("profile", &profile, "Of the speed over the patch, slower towards its rim; velocity is then the mean.",
+            {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed,
+             "Speed into the domain along the normal, instead of velocity."},
+            setting("profile", &profile,
+                    "Profile of the speed over the patch; laminar and turbulent: slower towards the rim, and velocity is the mean.",
                     {"uniform", "laminar", "turbulent"})}};
     course.add_keys(section, "velocity");
     return section;

@@ -9,30 +9,29 @@
 namespace snag {
 
 Section RotatingZoneSettings::section() {
-  Parameter name = setting("zone", &zone, "Physical volume that turns.");
+  Parameter name = setting("zone", &zone, "Physical volume of the rotor.");
   name.required = true;
-  return {
-      .name = "rotating_zone",
-      .meaning =
-          "A zone of the mesh that turns: it slides past the rest, or is computed in a turning frame for a steady start. Its walls "
-          "(kind = \"wall\") turn with it.",
-      .parameters = {
-          name,
-          setting("motion", &motion,
-                  "sliding: the mesh turns step by step. frame: it stands at start_angle and the flow is that seen with the rotor in this "
-                  "position (multiple reference frame).",
-                  {"sliding", "frame"}),
-          setting("rotor_patch", &rotor_patch, "Surface of the turning zone that touches the standing one."),
-          setting("stator_patch", &stator_patch, "Surface of the standing zone that touches the turning one."),
-          {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis."},
-          {"axis", &axis, "1", -infinity, infinity, Basis::assumed,
-           "Direction of the axis, any length; right-handed about it is positive."},
-          renamed(
-              {"rotation_speed", &speed, "rad/s", -infinity, infinity, Basis::assumed, "Speed of rotation; \"1200 rpm\" is understood."},
-              {.key = "speed"}),
-          {"ramp", &ramp, "s", 0, infinity, Basis::assumed, "Time in which the speed grows linearly from zero to its full value."},
-          {"start_angle", &start_angle, "rad", -infinity, infinity, Basis::assumed,
-           "Angle of the zone at the start, from where the mesh file has it; \"90 deg\" is understood."}}};
+  return {.name = "rotating_zone",
+          .meaning =
+              "A zone of the mesh that turns: it slides past the rest, or is computed in a turning frame for a steady start. Its walls "
+              "(kind = \"wall\") turn with it.",
+          .parameters = {
+              name,
+              setting("motion", &motion,
+                      "sliding: the mesh turns in every step. frame: multiple reference frame, the mesh stays at start_angle and the flow "
+                      "is that of this rotor position.",
+                      {"sliding", "frame"}),
+              setting("rotor_patch", &rotor_patch, "Sliding interface on the side of the rotor."),
+              setting("stator_patch", &stator_patch, "Sliding interface on the side of the stator."),
+              {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis."},
+              {"axis", &axis, "1", -infinity, infinity, Basis::assumed,
+               "Direction of the axis, a vector of any length; rotation is positive in the right-handed sense."},
+              renamed({"rotation_speed", &speed, "rad/s", -infinity, infinity, Basis::assumed,
+                       "Speed of rotation; \"1200 rpm\" is understood."},
+                      {.key = "speed"}),
+              {"ramp", &ramp, "s", 0, infinity, Basis::assumed, "Time in which the speed grows linearly from zero to its full value."},
+              {"start_angle", &start_angle, "rad", -infinity, infinity, Basis::assumed,
+               "Angle of the rotor at the start relative to its position in the mesh file; \"90 deg\" is understood."}}};
 }
 
 namespace {

@@ -1,7 +1,7 @@
 # labels: long
 # timeout: 1800
 # processors: 2
-"""Requirement: calibrate.py; the dust cloth drapes as measured, and what ought not to matter is written and does not change the passport."""
+"""Requirement: calibrate.py; the dust cloth drapes as measured, and the independence of numerical parameters is written and does not change the passport."""
 import tomllib
 
 import calibrate
@@ -13,7 +13,7 @@ class LongCalibrate(calibrate.Calibrate):
         """The dust cloth at 5 mm drapes as measured; then a case takes the passport."""
         text = self.calibrate("5mm", 1, "one")
         self.assertEqual(text, self.calibrate("5mm", 2, "two", "--independence"), "the number of ranks must not matter")
-        self.assertIn("What ought not to matter", (self.work / "two/calibration.html").read_text())
+        self.assertIn("Independence of numerical parameters", (self.work / "two/calibration.html").read_text())
         for name in ("strip_LW", "strip_CW", "damping", "friction"):
             self.assertTrue((self.work / f"two/pictures/independence_{name}.svg").read_text().startswith("<svg"))
         passport = tomllib.loads(text)

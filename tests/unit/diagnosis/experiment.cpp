@@ -179,7 +179,7 @@ TEST_F(ReadExperiment, Regions) {
   EXPECT_DOUBLE_EQ(e.regions[0].upper.x, 5e-3);
   EXPECT_LT(e.regions[0].lower.z, -1e6);
   EXPECT_TOLD(message(head + x_mm + A + near + "lower_mm = [0, 1, 0]\n", rows), "not below upper along y");
-  EXPECT_TOLD(message(head + x_mm + A + near + near, rows), "stands twice");
+  EXPECT_TOLD(message(head + x_mm + A + near + near, rows), "is given twice");
 }
 
 // A million rows are read in some seconds of one processor.

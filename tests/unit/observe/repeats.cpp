@@ -118,7 +118,7 @@ TEST(Repeats, Refused) {
   refused("point,area [m2]\na,1\n", "no column \"group\"");
   refused("group,rag\na,1\n", "no column of values");
   refused("group,orientation [rad]\na,1\n", "in degrees");
-  refused("group,area,area\na,1,2\n", "stands twice");
+  refused("group,area,area\na,1,2\n", "is given twice");
   refused("", "is empty");
   Repeats unseen = Table("group,v\na,1\na,2\nb,1\nb,2\n").read();
   unseen.rows[2].values[0] = std::nan("");
