@@ -5,7 +5,7 @@
 
 namespace snag::log {
 
-/// Called once after MPI has started; quiet: warnings and errors only on the terminal (the file keeps everything).
+/// Called once after MPI has started; quiet: warnings and errors only on the terminal (the file has all messages).
 void start(int rank, bool quiet = false);
 /// Also write to this file from now on (appends after a resume).
 void open(const std::filesystem::path& file, bool append);
@@ -16,7 +16,7 @@ void warning_once(const std::string& message);
 void error(const std::string& message);
 void flush();
 
-/// As long as it lives nothing but errors is told: a run in memory that is one of many.
+/// While an object of this class lives, only errors are logged: for a run in memory that is one of many.
 class Silence {
  public:
   Silence();

@@ -51,7 +51,7 @@ inline Parameter setting(std::string key, ParameterTarget target, std::string me
   return {.key = std::move(key), .target = target, .unit = "", .meaning = std::move(meaning), .choices = std::move(choices)};
 }
 
-/// The same for a file beside the case file.
+/// The same for a file, relative to the case file.
 inline Parameter file_setting(std::string key, std::string* target, std::string meaning) {
   Parameter parameter = setting(std::move(key), target, std::move(meaning));
   parameter.is_file = true;

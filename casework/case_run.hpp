@@ -1,5 +1,5 @@
 #pragma once
-// One run of a case for what a measurement would tell of it: no output, no files, on this rank alone.
+// One run of a case for the observables of a measurement: no output, no files, on this rank alone.
 #include <functional>
 #include <limits>
 #include <string>
@@ -27,7 +27,7 @@ struct LatticePosition {
   Vec3 normal;                // of the piece, here: lengthwise x crosswise, turned with it
 };
 
-/// Acceleration of a particle beside all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
+/// Acceleration of a particle in addition to all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
 using UnmodelledForce = std::function<Vec3(double time, const LatticePosition& place)>;
 
 /// Runs a case in a prescribed flow or in frozen water of a mesh, up to the last time that is asked for (its end, if a number of the whole

@@ -2,8 +2,8 @@
 // The simulator of a diagnosis over real runs: each request is a run of the point's case with other values, as `snag run` would do it.
 //
 // Cases without a mesh run in memory, each on one rank, the requests of a batch spread over the ranks. Cases with a mesh are whole runs,
-// one after the other on all ranks, each in a folder of its own. Runs are kept: equal ones are done once, and with a folder they are there
-// again when the diagnosis is started anew.
+// one after the other on all ranks, each in a folder of its own. Runs are cached: equal ones are done once, and with a folder they are
+// there again when the diagnosis is started anew.
 #include <mpi.h>
 
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace snag {
 class CaseSimulator final : public Simulator {
  public:
   /// `folder`: holds the runs that were done before by the same program, in runs.tsv and runs/, and takes those to come; empty: nothing is
-  /// kept on disk, and cases with a mesh are refused. Runs of the table that the experiment names count whatever program made them.
+  /// stored on disk, and cases with a mesh are refused. Runs of the table that the experiment names count whatever program made them.
   /// Collective over all ranks of the program; throws Error(usage, io) that names the case.
   CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder = {});
 
@@ -67,7 +67,7 @@ class CaseSimulator final : public Simulator {
   std::vector<Point> points_;
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;
-  std::string program_;  // its fingerprint; empty: nothing is kept on disk
+  std::string program_;  // its fingerprint; empty: nothing is stored on disk
   std::unordered_map<std::string, RunResult> cached_;
   std::unordered_set<std::string> used_;      // keys of the runs that were asked for
   std::unordered_set<std::string> imported_;  // of those of the table that the experiment names

@@ -14,7 +14,7 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
 
 /// Answers from a finished run, of its first rag: places, velocities and pictures from its monitors, retention_time, recirculations, stuck,
 /// exited from its summary; any other name is a column of a monitor (head, torque ...): at a time, or, without one, its mean over the last
-/// half of the run. NaN where the run does not tell. Throws Error(usage) for a name that no monitor has, Error(io).
+/// half of the run. NaN where the run has no such value. Throws Error(usage) for a name that no monitor has, Error(io).
 std::vector<double> read_observables(const std::filesystem::path& folder, const std::vector<ObservableRequest>& asked);
 
 }  // namespace snag

@@ -27,7 +27,7 @@ struct CaseChange {
 
 class PointCase {
  public:
-  /// Reads the base case and builds it once, so that what is wrong with it is told at once. Throws Error.
+  /// Reads the base case and builds it once, so that an error in it is reported at once. Throws Error.
   /// `overrides`: values of the case that this point replaces; `store`: holds meshes and water of several cases.
   explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, FlowCache* store = nullptr);
   ~PointCase();
@@ -64,7 +64,7 @@ class PointCase {
   /// Time at which a run ends, s.
   double end() const;
   const std::string& resolved() const { return resolved_; }
-  /// The same overrides for a copy of the case in another folder: files that they name lie beside the case.
+  /// The same overrides for a copy of the case in another folder: paths are relative to the case file.
   std::vector<std::string> from_elsewhere(std::vector<std::string> overrides) const;
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;

@@ -29,7 +29,7 @@ struct VectorSum {
   void add(int k, const Vec3& v) const { x[k] += v.x, y[k] += v.y, z[k] += v.z; }
 };
 
-/// Fields that a force needs at the particles beside the velocity; what nobody needs is not averaged.
+/// Fields that a force needs at the particles in addition to the velocity; what nobody needs is not averaged.
 struct SampleSet {
   bool velocity_gradient = false, pressure_gradient = false, material_acceleration = false;
   bool turbulence = false, solid_fraction = false, wall = false, disturbance = false;
@@ -107,7 +107,7 @@ struct Card {
   SampleSet samples = {};
   bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
   Role role = Role::force;
-  int memory = 0;                   // numbers kept for each particle
+  int memory = 0;                   // numbers stored for each particle
   std::optional<Prior> prior = {};  // of a candidate of the diagnosis
 };
 

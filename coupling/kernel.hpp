@@ -56,7 +56,7 @@ class Kernel {
   std::array<double, 2> width_over_cell_size() const;
 
  private:
-  /// What the cells of this rank give to the particles it was told of.
+  /// Contributions of the cells of this rank to the listed particles.
   struct Stencils {
     explicit Stencils(MPI_Comm comm) : router(comm) {}
     ParticleRouter router;

@@ -10,7 +10,7 @@
 
 namespace snag {
 
-/// Rows first .. end of a tile, which is told by its number, or by its place in a list.
+/// Rows first .. end of a tile, which is identified by its number, or by its index in a list.
 struct TileRows {
   int tile = 0, first = 0, end = 0;
   bool operator==(const TileRows&) const = default;

@@ -19,7 +19,7 @@ struct Camera {
   double pixel = 0;                       // side of a pixel in the object plane, m
   Vec3 centre, right{1, 0, 0}, up{0, 1, 0};
   double distance = 0;                              // D, m; 0: parallel
-  double interval = 0;                              // between pictures that were taken, s; 0: not told
+  double interval = 0;                              // between recorded pictures, s; 0: unknown
   double blur = 0, noise = 0;                       // virtual: standard deviations, pixels and grey levels
   double background_level = 200, cloth_level = 60;  // virtual
 
@@ -28,7 +28,7 @@ struct Camera {
   double smoothing = 0;       // of the difference before the threshold, pixels
   double minimum_pixels = 0;  // smaller blobs are dropped
   bool fill_holes = true;
-  std::string background;  // picture, beside the camera file; empty: mean of all pictures
+  std::string background;  // picture, relative to the camera file; empty: mean of all pictures
 
   std::optional<VoluteView> volute;  // where the pump is in the picture
 

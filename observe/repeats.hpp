@@ -1,5 +1,5 @@
 #pragma once
-// Repeats of an observation in several groups (operating points): a table of samples, and what it tells about the groups.
+// Repeats of an observation in several groups (operating points): a table of samples, and the comparison of the groups.
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -6,7 +6,7 @@
 //   share    time in the bin over the time in all bins, of all rags
 //   radius   sum r dt/sum dt of all rags in the bin; its sigma is that of the rags' own means (Fig. B.8: mean distance to the impeller's
 //            centre over the angle)
-//   events   counted in the bin in which the centroid was when they were told
+//   events   counted in the bin in which the centroid was when they were reported
 #include <array>
 #include <string>
 #include <vector>

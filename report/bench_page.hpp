@@ -9,7 +9,7 @@ namespace snag {
 
 /// Lines for the terminal.
 std::string card_text(const ScoreCard& card);
-/// report.html: scores beside their targets, reliability diagram, confusion matrix, hits over the size of the gap.
+/// report.html: scores with their targets, reliability diagram, confusion matrix, hits over the size of the gap.
 std::string bench_page(const std::string& title, const std::vector<ScoreRow>& rows, const ScoreCard& card);
 
 }  // namespace snag

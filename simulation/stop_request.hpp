@@ -1,5 +1,5 @@
 #pragma once
-// A run may be told to stop: by a signal (SIGTERM, SIGINT, SIGUSR1 of batch systems, SIGHUP of a terminal that closes) or by a file named
+// A run can be asked to stop: by a signal (SIGTERM, SIGINT, SIGUSR1 of batch systems, SIGHUP of a terminal that closes) or by a file named
 // `stop` in its output folder. Under nohup SIGHUP stays ignored.
 #include <mpi.h>
 
@@ -15,9 +15,9 @@ class StopRequest {
   ~StopRequest();
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
-  /// True on all ranks as soon as one was told. Collective.
+  /// True on all ranks as soon as one rank has a request. Collective.
   bool asked() const;
-  /// What told it: "signal 15", "file stop".
+  /// Source of the request: "signal 15", "file stop".
   std::string reason() const;
 
  private:

@@ -30,7 +30,7 @@ inline constexpr const char* open_exit = "@exit@";
 
 /// Conditions drawn at random within what such an experiment would choose. Throws Error(usage) for an unknown twin.
 TwinExperiment twin_experiment(const std::string& twin, NormalNumbers& random);
-/// Whether a subset of observables has this one: all; what one picture in the x-z plane tells; the passage of the exit.
+/// Whether a subset of observables has this one: all; what one picture in the x-z plane shows; the passage of the exit.
 bool in_subset(const std::string& subset, const std::string& observable);
 
 }  // namespace snag

@@ -9,7 +9,7 @@ namespace snag {
 struct CouplingBenchOptions {
   std::filesystem::path out = "results/bench-coupling";
   int n_steps = 8;    // timed, of each kernel
-  bool peer = false;  // there is none: told in a warning
+  bool peer = false;  // there is none, which a warning says
 };
 
 /// Writes bench.json to the output folder and prints it as a table. Collective; throws Error.

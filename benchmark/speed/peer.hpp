@@ -9,7 +9,7 @@
 
 namespace snag {
 
-/// What both programs are told: SI units, rad/s.
+/// Settings of both programs: SI units, rad/s.
 struct PeerFlowCase {
   std::filesystem::path mesh, folder;
   int ranks = 1, n_warm_up = 2, n_steps = 8;

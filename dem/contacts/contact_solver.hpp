@@ -99,7 +99,7 @@ class ContactSolver {
   void unpack(const Tile& tile, std::span<const double> values);
 
   const ContactMeasures& measures() const;
-  /// Contacts with walls at rest near this line are told apart from now on.
+  /// From now on contacts with walls at rest near this line are counted separately.
   void mark_line(const MarkedLine& line);
   /// [n_rags][n_wall_places], row by row; empty without walls.
   const std::vector<WallTouch>& wall_touches() const;

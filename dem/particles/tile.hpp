@@ -68,7 +68,7 @@ struct Tile {
   // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
   AlignedDoubles bond_x, bond_y;
   int n_breaks = 0;  // grows whenever a bond mark is taken away: lists that know of bonds are out of date
-  // [n][(ny + 2) * stride] what a force from outside keeps for each particle: moved and stored with it; empty if none
+  // [n][(ny + 2) * stride] numbers that an external force stores for each particle: moved and stored with it; empty if none
   AlignedDoubles memory;
 
   /// Sizes the arrays for nx x ny particles: everything zero, unit quaternions, nothing exists.

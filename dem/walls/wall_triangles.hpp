@@ -2,7 +2,7 @@
 // Triangles of one wall in the frame of the wall: nearest points with the side they are seen from, and a search grid that never has to be
 // rebuilt.
 //
-// The nearest point of a triangle lies on its face, an edge or a corner. Whether the centre is in the fluid there is told by the normal
+// The nearest point of a triangle lies on its face, an edge or a corner. Whether the centre is in the fluid there follows from the normal
 // into the fluid of the face, by the sum of the two normals at an edge, and by the angle-weighted sum at a corner (Baerentzen and Aanaes
 // 2005). Edges where the surface ends, or where more than two triangles meet, have no inside: from there a centre always counts as in the
 // fluid.

@@ -45,7 +45,7 @@ Attribution attribute(Responses& model, Fitter& fitter, const std::function<void
 /// Probabilities of all hypotheses from evidence, tempered by the calibration, and prior.
 void set_probabilities(Attribution& attribution);
 
-/// Probability that all of these effects act, alone or beside others.
+/// Probability that all of these effects act, alone or with others.
 double probability_of(const Attribution& attribution, const std::vector<std::string>& effects);
 
 /// Log predictive density of each training point given the others, summed.

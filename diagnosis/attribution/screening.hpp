@@ -1,6 +1,6 @@
 #pragma once
 // Screening by signatures: what each effect adds to the base model at its probe strength, with the same seeds. Linear in the strength, so
-// good to choose what is worth re-simulating and to tell before any data what could be seen; never the verdict.
+// used to choose what is worth re-simulating and to estimate before any data what is detectable; never for the verdict.
 #include <map>
 #include <optional>
 #include <string>

@@ -37,7 +37,7 @@ struct OperatingPoint {
   std::string where{};                                    // "DIAGNOSIS.toml:12: [point]", for messages
 };
 
-/// A box in which cells of a path are told apart from those elsewhere, by where it was measured.
+/// A box in which cells of a path are treated separately from those elsewhere, by where it was measured.
 struct Region {
   std::string id;
   Vec3 lower{-1e9, -1e9, -1e9}, upper{1e9, 1e9, 1e9};  // m

@@ -75,11 +75,11 @@ class Simulator {
   virtual double run_end(int) const { return std::numeric_limits<double>::quiet_NaN(); }
   /// Whether runs of a point can go on from a measured state.
   virtual bool restarts(int) const { return false; }
-  /// Runs all of them, in parallel where it can; equal requests are run once and kept.
+  /// Runs all of them, in parallel where it can; equal requests are run once and cached.
   virtual std::vector<RunResult> run(std::span<const RunRequest> requests) = 0;
-  /// Runs done so far, without those that were kept.
+  /// Runs done so far, without those from the cache.
   virtual int n_runs() const = 0;
-  /// Distinct runs asked for so far, those that were kept among them: what a budget counts, the same after a new start.
+  /// Distinct runs asked for so far, those from the cache among them: what a budget counts, the same after a new start.
   virtual int n_used() const { return n_runs(); }
   /// Those of them that were taken from a table of runs of whatever program.
   virtual int n_imported() const { return 0; }

@@ -57,7 +57,7 @@ struct GapBars {
   double before = 0, after = 0, floor = 0, remainder = 0;
 };
 
-/// What the experiment could tell before any data were looked at.
+/// What the experiment can detect, before any data are used.
 struct Identifiability {
   std::map<std::string, double> detectability{};                   // d_k: prior-mean signature over its uncertainty; below 3 it is blind
   std::map<std::string, std::map<std::string, double>> cosines{};  // between nuisance-projected signatures
@@ -76,11 +76,11 @@ struct Verdict {
   std::string name;                    // of the experiment
   std::string verdict;                 // effects | none | outside | tie | blind
   std::vector<std::string> effects{};  // of the first hypothesis that names effects; for outside: the best effect, partial and no cause
-  double p_effects = 0;                // that all of them act, alone or beside others
+  double p_effects = 0;                // that all of them act, alone or with others
   std::string wording;                 // attributed | suspected | undecided | outside | blind | no gap beyond u_val
   std::vector<std::string> tie{};      // hypotheses that share the verdict of a tie
   std::map<std::string, double> probability{};    // of each hypothesis
-  std::map<std::string, double> acts{};           // of each effect: that it acts, alone or beside another
+  std::map<std::string, double> acts{};           // of each effect: that it acts, alone or with another
   std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, nats, relative to none
   std::map<std::string, double> screening{};      // the same by signatures only
   std::map<std::string, double> weak_form{};      // of single effects by the accelerations of the paths only, relative to none

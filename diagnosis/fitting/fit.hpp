@@ -38,7 +38,7 @@ struct Linearization {
 
 /// Shares of an effect's contribution that its law may be wrong by, at one standard deviation; which of them holds is part of a
 /// hypothesis. Laws of forces on particles differ by about a tenth between authors in the ranges where they are used; an operating point
-/// or a scale is exact. Without it a surplus second effect mops up the error of form of the first.
+/// or a scale is exact. Without it a spurious second effect absorbs the form error of the first.
 inline constexpr std::array form_errors{0.0, 0.03, 0.1};
 inline constexpr double widest_form_error = form_errors.back();
 

@@ -11,7 +11,7 @@
 
 namespace snag {
 
-/// What was said of one set beside what is true.
+/// Verdict on one set and its truth.
 struct ScoreRow {
   int number = 0, replicates = 1, runs = 0;
   std::string kind, truth, subset, verdict, named, wording;  // named: the effects of the verdict, "a+b"
@@ -32,7 +32,7 @@ std::string score_line(const ScoreRow& row);
 /// Throws Error(io) on a line that is none.
 ScoreRow score_row(const std::string& line);
 
-/// A share with its 95 % interval (Clopper-Pearson) beside the target.
+/// A share with its 95 % interval (Clopper-Pearson), with its target.
 struct Score {
   std::string name, target;
   int hits = 0, n = 0;
@@ -43,7 +43,7 @@ struct Score {
   double share() const;
 };
 
-/// A number that is no share of sets beside its target.
+/// A number that is not a fraction of sets, with its target.
 struct Measure {
   std::string name, target;
   double value = 0, least = 0, largest = 0;  // the value; the range of the target

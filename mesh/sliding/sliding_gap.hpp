@@ -1,5 +1,5 @@
 #pragma once
-// Where the two sides of a sliding interface do not cover each other: told in the message of the error, and drawn.
+// Where the two sides of a sliding interface do not cover each other: for the message of the error and a picture.
 #include <mpi.h>
 
 #include <filesystem>
@@ -14,9 +14,9 @@ struct FacetCover {
   std::vector<double> rotor, stator;
 };
 
-/// Throws Error(mesh) if facets with the rotor turned by `turn` leave a face open; it tells where, and names the picture. `picture`: a .vtp
-/// that rank 0 writes with the open faces of all ranks (cell arrays: covered share, turning or standing side, cell); none if empty. The
-/// same error on every rank. Collective.
+/// Throws Error(mesh) if facets with the rotor turned by `turn` leave a face open; the message says where, and names the picture.
+/// `picture`: a .vtp that rank 0 writes with the open faces of all ranks (cell arrays: covered share, turning or standing side, cell); none
+/// if empty. The same error on every rank. Collective.
 void require_cover(const RevolvedSurface& surface, MPI_Comm comm, Angle turn, const FacetCover& cover,
                    const std::filesystem::path& picture);
 

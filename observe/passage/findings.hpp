@@ -39,7 +39,7 @@ class PictureFindings {
 
 struct Findings {
   std::optional<PictureFindings> pictures;  // with a camera
-  VoluteHistogram volute, volute_seen;      // as runs tell it; as it is seen in pictures
+  VoluteHistogram volute, volute_seen;      // from the summaries of runs; from pictures
 
   void add(const Findings& other);
   /// What there is of statistics.json, coverage.png, extent.png, volute.csv, volute_seen.csv. Throws Error(io).

@@ -1,16 +1,17 @@
 #pragma once
-// What becomes of one rag in a pump, told from what is seen of it at the end of each step: events, times, outcome. No particles, no ranks.
+// Passage of one rag through a pump, from its state at the end of each step: events, times, outcome. No particles, no ranks.
 //
 //   entered            the first particle is past the plane of the inlet flange
 //   wholly in the casing   no particle is upstream any more; what is out already counts as inside
-//   tongue passed      more than half of its particles are in the discharge: told again only after it recirculated
+//   tongue passed      more than half of its particles are in the discharge: reported again only after it recirculated
 //   recirculated       its centroid passes the tongue's angle in the sense of rotation while more than half of its particles are outside
 //                      the impeller, and gets 20 degrees further on the shaft's side of the tongue (of the particles within a quarter
 //                      turn past that angle most are not in the discharge): back into the volute. So one that hangs on the tongue and
 //                      then goes out did not recirculate. A pass counts once the centroid was more than a quarter turn away from the
 //                      tongue since the last one, and not if it went back in between: nor is swinging at the tongue a recirculation, or
 //                      turning in the eye of the impeller
-//   stuck on ...       it touches the tongue, or the impeller, for more than 1 s without a gap longer than 50 ms; told once each time. Who
+//   stuck on ...       it touches the tongue, or the impeller, for more than 1 s without a gap longer than 50 ms; reported once each time.
+//   Who
 //                      recirculates and has gone round past the wall since the contact began, a full turn or more, is not stuck on it:
 //                      the contact begins anew
 //   reached the outlet the first particle is out;      exited   all of them are

@@ -1,5 +1,5 @@
 #pragma once
-// A rag's way through the volute: as the summary of a run tells it, and as pictures show it, by the same rules
+// Passage of a rag through the volute: from the summary of a run, and from pictures, by the same rules
 // (observe/passage/passage_tracker.hpp).
 //
 // In a picture a pixel of cloth counts as a particle. The rag is in the casing as soon as it is seen; it touches the tongue when cloth is

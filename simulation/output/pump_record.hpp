@@ -23,7 +23,7 @@ struct PumpPassage {
   std::optional<double> change(double PumpMeans::*value) const;
 };
 
-/// The pump over the time of a run: an instant's head tells little where a single vane makes it swing, a revolution's mean does.
+/// The pump over the time of a run: the head of one instant says little where a single vane makes it swing, a revolution's mean does.
 class PumpRecord {
  public:
   /// Empty if there is no pump.csv. Throws Error(io).

@@ -1,5 +1,5 @@
 #pragma once
-// Poses that are made for a run: made once, told in the log, and kept beside the results for other runs and for a resume.
+// Poses that are made for a run: made once, described in the log, and stored with the results for other runs and for a resume.
 #include <mpi.h>
 
 #include <filesystem>

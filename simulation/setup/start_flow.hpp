@@ -37,7 +37,7 @@ struct StartedFlow {
 /// where its cells are not those of this mesh.
 StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder);
 
-/// What such a start needs of a checkpoint beside the fields: where the cells are. Collective.
+/// What such a start needs of a checkpoint in addition to the fields: where the cells are. Collective.
 void save_cell_centres(CheckpointWriter& checkpoint, const Mesh& mesh);
 
 }  // namespace snag

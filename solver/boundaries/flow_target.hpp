@@ -23,7 +23,7 @@ class FlowTarget {
   };
   /// The level for the step's end.
   void advance(const Measured& measured, double target, double density, double response_time);
-  /// The level at the start where an initial field tells it.
+  /// The level at the start where an initial field gives it.
   void set_level(double level) { level_ = holding_ = level; }
   /// p, Pa.
   double level() const { return level_; }
