@@ -52,7 +52,8 @@ class Kills(harness.CaseTest):
         for kills in range(1000):
             run = self.start(case, ranks, folder)
             try:
-                stdout, stderr = run.communicate(timeout=random.uniform(0, longest))
+                # Longer and longer, so that the run ends on a machine that has become busy, too.
+                stdout, stderr = run.communicate(timeout=random.uniform(0, longest * 1.1**kills))
             except subprocess.TimeoutExpired:
                 self.kill(run)
                 continue
