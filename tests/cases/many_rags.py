@@ -31,7 +31,7 @@ PILE = """
 [case]
 name = "pile"
 [time]
-end_s = 0.24
+end_s = 0.18
 step_ms = 4
 [gravity]
 acceleration_m_s2 = [0, 0, -9.81]
@@ -43,7 +43,7 @@ lower_m = [-0.08, -0.08, 0]
 upper_m = [0.08, 0.08, 0.5]
 [output]
 report = false
-rags_interval_ms = 80
+rags_interval_ms = 60
 """
 PILE_COLUMN = """
 [[rag]]
