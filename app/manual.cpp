@@ -5,6 +5,7 @@
 
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
+#include "diagnosis/data/experiment.hpp"
 #include "observe/camera.hpp"
 #include "simulation/setup/sections.hpp"
 #include "simulation/study.hpp"
@@ -22,7 +23,7 @@ std::string number(double value) {
 
 std::string default_text(const Parameter& p) {
   const std::string text = toml_text(p.target, number);
-  return text.empty() ? "automatic" : text;
+  return text.empty() || text == "nan" ? "automatic" : text;
 }
 
 std::string range(const Parameter& p) {
@@ -84,6 +85,10 @@ std::string case_file_manual() {
       "# The study file\n\n"
       "A file of its own for `snag study`: a case, what varies, what is kept of each run.\n\n";
   for (const Section& section : study_sections()) add(section);
+  text +=
+      "# The experiment file\n\n"
+      "A file of its own for `snag diagnose`: what was measured, the cases that simulate it, which effects are examined.\n\n";
+  for (const Section& section : experiment_sections()) add(section);
   text +=
       "# The camera file\n\n"
       "A file of its own for `snag observe --camera`: how pixels and metres belong together, what counts as cloth, where the pump is.\n\n";

@@ -7,21 +7,50 @@
 
 namespace snag {
 
+namespace {
+
+Section alternative_section(Alternative& one) {
+  Parameter effect = setting("effect", &one.effect, "Name of the effect that this table stands for.");
+  effect.required = true;
+  return {"alternative",
+          "A change of the case that stands for an effect, instead of the change that the diagnosis would make.",
+          {effect, setting("meaning", &one.meaning, "What it is, in words."),
+           setting("set", &one.set, "Values of the case, as for --set, at every point.")},
+          true};
+}
+
+struct AtTable {
+  std::string point;
+  std::vector<std::string> values;
+
+  Section section() {
+    return {"alternative.at",
+            "Values of an alternative that differ between operating points.",
+            {setting("point", &point, "Name of the operating point."), setting("set", &values, "Values of its case, as for --set.")},
+            true};
+  }
+};
+
+}  // namespace
+
+std::vector<Section> alternative_sections() {
+  static Alternative alternative;
+  static AtTable at;
+  return {alternative_section(alternative), at.section()};
+}
+
 std::vector<Alternative> read_alternatives(const Table& root, const std::vector<std::string>& points) {
   std::vector<Alternative> all;
   for (const Table& table : root.tables("alternative")) {
     Alternative one;
-    Parameter effect = setting("effect", &one.effect, "Candidate that this stands for.");
-    effect.required = true;
-    table.read({effect, setting("meaning", &one.meaning, "What it is, in words."),
-                setting("set", &one.set, "Values of the case, as for --set, at every point.")});
+    table.read(alternative_section(one).parameters);
     for (const Table& at : table.tables("at")) {
-      std::string point;
-      std::vector<std::string> values;
-      at.read({setting("point", &point, "Operating point."), setting("set", &values, "Values of its case, as for --set.")});
+      AtTable keys;
+      at.read(keys.section().parameters);
+      const std::string& point = keys.point;
       if (std::find(points.begin(), points.end(), point) == points.end())
         throw Error(ExitCode::usage, at.where() + " point \"" + point + "\" is no [[point]]; there are " + joined(points));
-      one.at[point] = values;
+      one.at[point] = keys.values;
     }
     if (one.set.empty() && one.at.empty())
       throw Error(ExitCode::usage, table.where() + " " + one.effect +

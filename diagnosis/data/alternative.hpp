@@ -19,6 +19,8 @@ struct Alternative {
 
 /// [[alternative]] of DIAGNOSIS.toml. `points`: names of the operating points. Throws Error(usage).
 std::vector<Alternative> read_alternatives(const Table& root, const std::vector<std::string>& points);
+/// Its tables, for the manual.
+std::vector<Section> alternative_sections();
 
 /// What the cases take of it at a point.
 std::vector<std::string> overrides_at(const Alternative& alternative, const std::string& point);

@@ -22,22 +22,51 @@ namespace {
 
 constexpr const char* kinds[] = {"gaussian", "lognormal", "count", "event", "angle"};
 
-Observable read_observable(const Table& table) {
+struct ObservableTable {
   Observable observable;
   std::string kind = "gaussian";
-  table.read(
-      {{.key = "id", .target = &observable.id, .unit = "", .meaning = "name of the measured quantity", .required = true},
-       {.key = "unit", .target = &observable.unit, .unit = "", .meaning = "unit of the values and of noise_u", .required = true},
-       setting("kind", &kind, "How it scatters.", {std::begin(kinds), std::end(kinds)}),
-       {.key = "noise_u", .target = &observable.noise_u, .minimum = 0, .meaning = "Standard uncertainty of one sample."},
-       {.key = "bias_u", .target = &observable.bias_u, .minimum = 0, .meaning = "Uncertainty shared by the calibration group."},
-       {.key = "numerics_u",
-        .target = &observable.numerics_u,
-        .minimum = 0,
-        .meaning =
-            "Of the runs, by grid and step, from a study of your own; where all observables have it no run is made with another step."},
-       setting("calibration_group", &observable.calibration_group, "Samples that share one bias.")});
-  observable.kind = static_cast<Observable::Kind>(std::find(std::begin(kinds), std::end(kinds), kind) - std::begin(kinds));
+
+  Section section() {
+    return {
+        "observable",
+        "A measured quantity; its values are in the data file.",
+        {{.key = "id",
+          .target = &observable.id,
+          .unit = "",
+          .meaning = "Name of the measured quantity, one that the simulation also gives.",
+          .required = true},
+         {.key = "unit",
+          .target = &observable.unit,
+          .unit = "",
+          .meaning = "Unit of the values and of the uncertainties.",
+          .required = true},
+         setting("kind", &kind,
+                 "Distribution of repeats. Uncertainties of a lognormal quantity are relative, all others have the unit of the quantity.",
+                 {std::begin(kinds), std::end(kinds)}),
+         {.key = "noise_u",
+          .target = &observable.noise_u,
+          .minimum = 0,
+          .meaning = "Standard uncertainty of one sample; 0: from the scatter of the repeats."},
+         {.key = "bias_u",
+          .target = &observable.bias_u,
+          .minimum = 0,
+          .meaning = "Standard uncertainty that all samples of the calibration group share."},
+         {.key = "numerics_u",
+          .target = &observable.numerics_u,
+          .minimum = 0,
+          .meaning =
+              "Standard uncertainty of the simulated value by grid and step, from your own study. Where all observables have it, no run "
+              "is repeated with another step."},
+         setting("calibration_group", &observable.calibration_group, "Name of the group of observables that share one bias.")},
+        true};
+  }
+};
+
+Observable read_observable(const Table& table) {
+  ObservableTable keys;
+  table.read(keys.section().parameters);
+  Observable& observable = keys.observable;
+  observable.kind = static_cast<Observable::Kind>(std::find(std::begin(kinds), std::end(kinds), keys.kind) - std::begin(kinds));
   const auto unit = parse_unit(observable.unit);
   if (!unit || observable.unit.empty())
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": unknown unit \"" + observable.unit +
@@ -47,17 +76,32 @@ Observable read_observable(const Table& table) {
   return observable;
 }
 
-OperatingPoint read_point(const Table& table, const CaseFile& file) {
+struct PointTable {
   OperatingPoint point;
   std::string case_file, role = "train";
-  Parameter case_setting = file_setting("case", &case_file, "the base model of this operating point");
-  case_setting.required = true;
-  table.read({{.key = "id", .target = &point.id, .unit = "", .meaning = "name of the operating point", .required = true},
-              case_setting,
-              setting("set", &point.set, "Values of the case that this point replaces, as for --set: \"time.end_s=0.2\"."),
-              setting("role", &role, "train, or withheld: used for \"how far\" only.", {"train", "withheld"})});
-  point.case_file = file.path(case_file);
-  point.withheld = role == "withheld";
+
+  Section section() {
+    Parameter case_setting = file_setting("case", &case_file, "Case file of the base model at this operating point.");
+    case_setting.required = true;
+    return {
+        "point",
+        "An operating point: a case file and the data measured there. The table [point.input_u] states relative standard uncertainties of "
+        "numbers of the case, by their names in case.resolved.toml, and of the drag law (drag_law_uncertainty).",
+        {{.key = "id", .target = &point.id, .unit = "", .meaning = "Name of the operating point.", .required = true},
+         case_setting,
+         setting("set", &point.set, "Values of the case that this point replaces, as for --set: \"time.end_s=0.2\"."),
+         setting("role", &role, "train: the data are fitted; withheld: the data only test how far the gap shrinks.",
+                 {"train", "withheld"})},
+        true};
+  }
+};
+
+OperatingPoint read_point(const Table& table, const CaseFile& file) {
+  PointTable keys;
+  table.read(keys.section().parameters);
+  OperatingPoint& point = keys.point;
+  point.case_file = file.path(keys.case_file);
+  point.withheld = keys.role == "withheld";
   point.where = table.where();
   point.input_u = table.table("input_u").numbers();
   for (const auto& [key, u] : point.input_u) {
@@ -68,12 +112,19 @@ OperatingPoint read_point(const Table& table, const CaseFile& file) {
   return point;
 }
 
+Section region_section(Region& region) {
+  constexpr double far = 1e9;
+  return {"region",
+          "A box in which the gap is looked for, besides those that the diagnosis makes itself.",
+          {{.key = "id", .target = &region.id, .unit = "", .meaning = "Name of the region.", .required = true},
+           {"lower", &region.lower, "m", -far, far, Basis::assumed, "Lowest corner; without it the region has no lower end."},
+           {"upper", &region.upper, "m", -far, far, Basis::assumed, "Highest corner; without it the region has no upper end."}},
+          true};
+}
+
 Region read_region(const Table& table) {
   Region region;
-  constexpr double far = 1e9;
-  table.read({{.key = "id", .target = &region.id, .unit = "", .meaning = "name of the region", .required = true},
-              {"lower", &region.lower, "m", -far, far, Basis::assumed, "Lowest corner; without it the region has no lower end."},
-              {"upper", &region.upper, "m", -far, far, Basis::assumed, "Highest corner; without it the region has no upper end."}});
+  table.read(region_section(region).parameters);
   for (int axis = 0; axis < 3; ++axis) {
     if (region.lower[axis] < region.upper[axis]) continue;
     throw Error(ExitCode::usage, table.where() + " " + region.id + ": lower is not below upper along " + "xyz"[axis] + "; swap them");
@@ -181,6 +232,31 @@ void check_points(const Experiment& experiment, const std::string& file) {
   if (!train) throw Error(ExitCode::usage, file + ": every point is withheld; at least one must have role = \"train\"");
 }
 
+/// Tables that stand once.
+struct SingleTables {
+  std::string data, runs;
+  int seed = 1;
+
+  std::vector<Section> sections(Experiment& experiment) {
+    Parameter data_file = file_setting("data", &data, "CSV file with the measurements.");
+    data_file.required = true;
+    return {{"experiment",
+             "The measurements.",
+             {setting("name", &experiment.name, "Name of the experiment; by default that of the file."), data_file}},
+            {"model",
+             "Effects that may cause the gap.",
+             {setting("candidates", &experiment.candidates,
+                      "Names of the effects that are examined, or \"all\"; by default all that fit the case."),
+              setting("pairs", &experiment.pairs, "Whether pairs of effects are examined, too.")}},
+            {"budget",
+             "Effort of the diagnosis.",
+             {{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Largest number of runs of the model."},
+              {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Seed of the random numbers."},
+              renamed(file_setting("runs_table", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv."),
+                      {.key = "runs"})}}};
+  }
+};
+
 // candidates = "all" or a list of names: the only key that is a text or a list.
 std::vector<std::string> overrides_of_candidates(const std::string& text) {
   try {
@@ -197,33 +273,35 @@ std::string calibration_of(const Observable& observable) {
   return observable.calibration_group.empty() ? "bias of " + observable.id : observable.calibration_group;
 }
 
+std::vector<Section> experiment_sections() {
+  // The records point into these.
+  static Experiment experiment;
+  static SingleTables single;
+  static ObservableTable observable;
+  static PointTable point;
+  static Region region;
+  std::vector<Section> all = single.sections(experiment);
+  for (Section section : {observable.section(), point.section(), region_section(region)}) all.push_back(std::move(section));
+  for (Section& section : alternative_sections()) all.push_back(std::move(section));
+  return all;
+}
+
 Experiment read_experiment(const std::filesystem::path& path) {
   const auto text = file_text(path);
   if (!text) throw Error(ExitCode::io, path.string() + ": cannot be read; check the path");
   const CaseFile file = CaseFile::read(path, overrides_of_candidates(*text));
   const Table root = file.root();
   Experiment experiment;
-  std::string data;
-  Parameter data_file = file_setting("data", &data, "the CSV of the measurements");
-  data_file.required = true;
-  root.table("experiment").read({setting("name", &experiment.name, "Name of the experiment."), data_file});
+  SingleTables keys;
+  for (const Section& section : keys.sections(experiment)) root.table(section).read(section.parameters);
   for (const Table& table : root.tables("observable")) experiment.observables.push_back(read_observable(table));
   for (const Table& table : root.tables("point")) experiment.points.push_back(read_point(table, file));
   for (const Table& table : root.tables("region")) experiment.regions.push_back(read_region(table));
   std::vector<std::string> points;
   for (const OperatingPoint& point : experiment.points) points.push_back(point.id);
   experiment.alternatives = read_alternatives(root, points);
-  root.table("model").read(
-      {setting("candidates", &experiment.candidates, "\"all\" or names."), setting("pairs", &experiment.pairs, "Pairs of effects.")});
-  int seed = 1;
-  std::string runs;
-  root.table("budget").read(
-      {{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Most runs of the model."},
-       {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Of random numbers."},
-       renamed(file_setting("runs_table", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv."),
-               {.key = "runs"})});
-  if (!runs.empty()) experiment.runs = file.path(runs);
-  experiment.seed = static_cast<std::uint64_t>(seed);
+  if (!keys.runs.empty()) experiment.runs = file.path(keys.runs);
+  experiment.seed = static_cast<std::uint64_t>(keys.seed);
   file.reject_unread();
   if (experiment.name.empty()) experiment.name = path.stem().string();
   const std::string name = path.string();
@@ -233,7 +311,7 @@ Experiment read_experiment(const std::filesystem::path& path) {
   reject_repeated_ids(experiment.points, "point", name);
   reject_repeated_ids(experiment.regions, "region", name);
 
-  const std::string data_name = file.path(data).string();
+  const std::string data_name = file.path(keys.data).string();
   const auto data_text = file_text(data_name);
   if (!data_text) throw Error(ExitCode::io, data_name + ": the data cannot be read; check [experiment] data of " + name);
   DataTable table = read_data_table(*data_text, data_name, experiment);
