@@ -48,7 +48,7 @@ class HeldParticle {
       const double t = largest_eigenvalue(normal + across), r = q * largest_eigenvalue(across);
       return 0.5 * (t + r) + std::sqrt(0.25 * (t - r) * (t - r) + q * arm.squaredNorm());
     }
-    double coarse_bound() const { return std::max(normal.trace(), turning_sphere * tangential.trace()); }
+    double coarse_bound() const { return normal.trace() + turning_sphere * tangential.trace(); }
   };
   Sums stiffness_, damping_, share_;
 };
