@@ -132,18 +132,21 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     : comm_(comm), folder_(folder), observables_(experiment.observables), picture_size_(picture_size_of(experiment)) {
   if (!folder_.empty()) program_ = program_fingerprint(comm_);
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
-    PointCase base(experiment.points[p].case_file, experiment.points[p].set, &store_);
+    const OperatingPoint& point = experiment.points[p];
+    if (!file_text(point.case_file))
+      throw Error(ExitCode::io, point.where + " case \"" + point.case_file.string() + "\" cannot be read; check the path");
+    PointCase base(point.case_file, point.set, &store_);
     if (base.is_whole_run() && folder_.empty())
-      throw Error(ExitCode::usage, experiment.points[p].case_file.string() + ": has a mesh; its runs need an output folder");
+      throw Error(ExitCode::usage, point.case_file.string() + ": has a mesh; its runs need an output folder");
     for (const std::string& note : base.former_names()) log::warning_once(note);
-    check_inputs(base, experiment.points[p]);
+    check_inputs(base, point);
     std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
     std::vector<ObservableRequest> asked;
     const std::string of_case = base.sha256() + program_;
     std::string fingerprint = base.sha256();
     for (const Slot& slot : slots) {
       const std::string& id = observables_[static_cast<std::size_t>(slot.observable)].id;
-      check_observable(base, experiment.points[p].case_file, id);
+      check_observable(base, point.case_file, id);
       asked.push_back({id, slot.time});
       fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }

@@ -229,6 +229,8 @@ Study read_study(const std::filesystem::path& file) {
   for (const Table& table : root.tables("plot")) table.read(study.plots.emplace_back().section().parameters);
   text.reject_unread();
   study.case_file = text.path(study.settings.case_file);
+  if (!file_text(study.case_file))
+    throw Error(ExitCode::io, file.string() + ": [study] case \"" + study.case_file.string() + "\" cannot be read; check the path");
   expand_runs(study);
   check_keys(study, file);
   return study;

@@ -115,6 +115,8 @@ class Study(harness.CaseTest):
             (("values = [1, 1.25]", "values = [1, 1]"), "two runs would be named"),
         ):
             self.assertIn(words, self.study(STUDY.replace(*change).format(zip=""), code=2, ranks=1).stderr)
+        lost = self.study(STUDY.replace('case = "case.toml"', 'case = "-inf"').format(zip=""), code=6, ranks=1)
+        self.assertIn("study.toml: [study] case", lost.stderr)
         unknown = self.study(STUDY.replace("rags.1.outcome", "rags.1.outcom").format(zip=""), code=2, ranks=1)
         self.assertIn('"rags.1.outcom", which is no key of summary.json; did you mean "rags.0.outcome"', unknown.stderr)
         self.assertIn("pump.head_m", unknown.stderr, "the known keys are named")
