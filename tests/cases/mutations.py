@@ -128,7 +128,7 @@ class Mutations(harness.CaseTest):
             return (None, "") if kind.computes else (-9, f"more than {TIME_LIMIT} s")
         return process.returncode, stderr.decode(errors="replace")
 
-    def finding(self, kind, code, stderr):
+    def finding(self, kind, content, code, stderr):
         """What is wrong with the end of a run; "" if nothing is."""
         if code is None:
             return ""
@@ -144,7 +144,8 @@ class Mutations(harness.CaseTest):
         errors = [line for line in lines if line.startswith("error: ")]
         if len(errors) != 1:
             return f"{len(errors)} errors"
-        named = kind.file in errors[0] or re.search(r"\[\w+\]|\w+\.\w+|\w+/\w+|\w+_\w+|\"|\brag \d", errors[0])
+        path = errors[0].removeprefix("error: ").split(": ")[0].encode(errors="replace")  # of another file, as this one has it
+        named = kind.file in errors[0] or path in content or re.search(r"\[\w+\]|\w+\.\w+|\w+/\w+|\w+_\w+|\"|\brag \d", errors[0])
         return "" if named else "the message names neither file nor key"
 
     def test_damaged_files(self):
@@ -161,10 +162,11 @@ class Mutations(harness.CaseTest):
             kind = kinds[number % len(kinds)]
             folder = self.work / "one"
             shutil.copytree(sound, folder)
-            (folder / kind.file).write_bytes(mutated((sound / kind.file).read_bytes(), number))
+            content = mutated((sound / kind.file).read_bytes(), number)
+            (folder / kind.file).write_bytes(content)
             code, stderr = self.run_in(folder, kind)
             codes[kind.arguments[0], kind.file, "stopped" if code is None else code] += 1
-            if found := self.finding(kind, code, stderr):
+            if found := self.finding(kind, content, code, stderr):
                 shutil.copy(folder / kind.file, kept / f"{number}_{kind.file}")
                 with self.subTest(number=number, command=" ".join(kind.arguments), file=kind.file):
                     self.fail(f"{found}\n{stderr[:2000]}")
