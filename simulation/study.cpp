@@ -229,8 +229,6 @@ Study read_study(const std::filesystem::path& file) {
   for (const Table& table : root.tables("plot")) table.read(study.plots.emplace_back().section().parameters);
   text.reject_unread();
   study.case_file = text.path(study.settings.case_file);
-  if (!file_text(study.case_file))
-    throw Error(ExitCode::io, file.string() + ": [study] case \"" + study.case_file.string() + "\" cannot be read; check the path");
   expand_runs(study);
   check_keys(study, file);
   return study;
@@ -238,6 +236,9 @@ Study read_study(const std::filesystem::path& file) {
 
 ExitCode run_study(const StudyOptions& options) {
   Study study = read_study(options.study_file);
+  if (!file_text(study.case_file))
+    throw Error(ExitCode::io,
+                options.study_file.string() + ": [study] case \"" + study.case_file.string() + "\" cannot be read; check the path");
   const auto folder = options.out.empty() ? std::filesystem::path("results") / folder_word(study.settings.name) : options.out;
   std::optional<FolderLock> lock;
   on_all_ranks(world, [&] {
