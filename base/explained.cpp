@@ -18,8 +18,12 @@ Error explained(const std::exception& failure) {
                 " GB) does not hold what the input asks for; take a smaller mesh, fewer particles or smaller pictures, or more "
                 "machines (" +
                 text + ")"};
-  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&failure))
-    return {ExitCode::io, file->path1().string() + ": cannot be used (" + file->code().message() + "); check the path and its permissions"};
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&failure)) {
+    constexpr std::size_t longest_path = 400;  // bytes; a longer one is no path that someone wrote
+    const std::string path = file->path1().string();
+    return {ExitCode::io, (path.size() > longest_path ? shortened(path) : path) + ": cannot be used (" + file->code().message() +
+                              "); check the path and its permissions"};
+  }
   return {ExitCode::io,
           "an input that Snag does not foresee has stopped it; this is a defect of the program: please report it with the "
           "input (" +

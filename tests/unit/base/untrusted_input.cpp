@@ -1,6 +1,7 @@
 // Whatever an input holds, its message is short and in a user's words; what has no end is not read.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <new>
 
 #include "base/atomic_file.hpp"
@@ -45,6 +46,10 @@ TEST(UntrustedInput, LongValuesAreCut) {
     EXPECT_NE(message, "no error");
     EXPECT_LT(message.size(), 600U) << message;
   }
+  const auto too_long = std::make_error_code(std::errc::filename_too_long);
+  EXPECT_LT(message_of([&] { throw std::filesystem::filesystem_error("status", huge, too_long); }).size(), 300u);
+  const std::string path = "results/" + std::string(200, 'x');
+  EXPECT_NE(message_of([&] { throw std::filesystem::filesystem_error("status", path, too_long); }).find(path), std::string::npos);
 }
 
 TEST(UntrustedInput, DevicesAreNoFiles) { EXPECT_FALSE(file_text("/dev/zero")); }
