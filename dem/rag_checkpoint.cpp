@@ -116,7 +116,9 @@ void RagSystem::load(CheckpointReader& reader) {
   for (std::size_t r = 0; r < rags_.size(); ++r) broken_[r] = rank_of(comm_) == 0 ? counters[r] : 0;
   n_sub_steps_ = counters.back();
   const std::vector<double> times = reader.shared("rags/time");
-  time_ = times.at(0), pressed_limit_ = times.at(1);
+  if (times.size() != 2)
+    throw Error(ExitCode::io, "checkpoint: written by an earlier version, without the limit of the sub-step; start the run anew");
+  time_ = times[0], pressed_limit_ = times[1];
   set_pointers();
   find_ghosts();
   halo_->exchange();

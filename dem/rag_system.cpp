@@ -143,7 +143,7 @@ void RagSystem::advance(double dt, TileForce* force) {
     evaluate_contacts(step, moved, k % pressed_interval == 0);
     --n_left, left -= step;
     double next = step;
-    if (n_left > 0 && (step > pressed_step() || 2 * step < std::min(stable_step(), pressed_step()))) {
+    if (contacts_ && n_left > 0 && (step > pressed_step() || 2 * step < std::min(stable_step(), pressed_step()))) {
       n_left = n_of(left), next = left / n_left;
       contacts_->set_time(time_ + dt - left + next / 2);
     }

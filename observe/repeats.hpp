@@ -10,6 +10,8 @@
 
 namespace snag {
 
+inline constexpr double largest_measured = 1e30;  // of a measured value in its unit: statistics take its square
+
 struct Quantity {
   std::string name, unit;
   /// An orientation: the direction of an axis in degrees, so that 89 and -89 lie 2 apart.

@@ -89,8 +89,9 @@ class Reading {
   double value(const std::string& column, const std::string& field) const {
     double number = 0;
     const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), number);
-    if (code != std::errc() || end != field.data() + field.size() || !std::isfinite(number))
-      refuse(shortened(column) + " \"" + shortened(field) + "\" must be a finite number; leave out rows without one");
+    if (code != std::errc() || end != field.data() + field.size() || !(std::abs(number) <= largest_measured))
+      refuse(shortened(column) + " \"" + shortened(field) + "\" must be a finite number of at most " + words(largest_measured) +
+             " in size; leave out rows without one");
     return number;
   }
 

@@ -98,9 +98,10 @@ class PairLaw {
 inline constexpr double impact_steps = 8;      // sub-steps that resolve an impact: restitution then holds to some percent
 inline constexpr double turning_sphere = 3.5;  // 1 + m r^2/I of a solid sphere, which also turns under a tangential force
 
-// A tangential dashpot acts on the rotation of the spheres, too: it alone would set the step, for each contact that a particle has. It is
-// eased as an implicit step would, for up to eight contacts:  c_t' = c_t/(1 + N q c_t dt/(2 m*)),  N = 8, q = turning_sphere.
-// It is c_t for short steps (an error of first order, as that of the lagging velocity), and dt/2 q c_t'/m* stays below 1/N.
+// A tangential dashpot also acts on the rotation of the spheres: it alone would determine the step, in proportion to the number of
+// contacts of a particle. It is reduced as an implicit step would do, for up to eight contacts:
+//   c_t' = c_t/(1 + N q c_t dt/(2 m*)),  N = 8,  q = turning_sphere
+// For short steps this is c_t (an error of first order, as that of the lagging velocity), and dt/2 q c_t'/m* stays below 1/N.
 inline constexpr double easing_contacts = 8;
 
 /// q N/(2 m*), 1/kg.

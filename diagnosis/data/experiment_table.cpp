@@ -10,12 +10,11 @@
 #include "base/quotation.hpp"
 #include "base/sha256.hpp"
 #include "base/words.hpp"
+#include "observe/repeats.hpp"
 
 namespace snag {
 
 namespace {
-
-constexpr double largest = 1e30;  // of a measured value in its unit: it is squared later, over uncertainties below 1
 
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
@@ -121,9 +120,9 @@ class Reading {
       d.time = *time;
     }
     const auto value = number<double>(field(4));
-    if (!value || !(std::abs(*value) <= largest))
+    if (!value || !(std::abs(*value) <= largest_measured))
       throw wrong("value \"" + shortened(field(4)) + "\" of " + shortened(field(3)) + " must be a finite number of at most " +
-                  words(largest) + " in size; leave out rows without one");
+                  words(largest_measured) + " in size; leave out rows without one");
     d.value = *value;
     const std::string_view censored = field(5);
     if (censored == "1" || censored == "true")
@@ -142,8 +141,8 @@ class Reading {
     }
     if (field(7).empty()) return;
     const auto sd = number<double>(field(7));
-    if (!sd || !(*sd >= 0 && *sd <= largest))
-      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 to " + words(largest));
+    if (!sd || !(*sd >= 0 && *sd <= largest_measured))
+      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 to " + words(largest_measured));
     if (row.n == 1) throw wrong("sd is given for one repeat, which has none; give their number n, or leave sd empty");
     row.sd = *sd;
   }

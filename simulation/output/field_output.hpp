@@ -11,7 +11,8 @@ namespace snag {
 
 class FieldOutput {
  public:
-  /// place: its folder and what is kept of a resumed run. Collective.
+  /// `place`: folder of the files, and the time up to which a resumed run keeps the entries of the run before.
+  /// Collective.
   FieldOutput(const FieldWriter& writer, SeriesPlace place, const Mesh& mesh, bool single_precision);
   /// The cells where they are now, with velocity, pressure, solid fraction, reaction, rank, skew cells and those in corners, what turns,
   /// and k, epsilon, nu_t of a turbulence model, at the flow's time. Collective; throws Error(io).
@@ -29,7 +30,8 @@ class FieldOutput {
 /// with the pressure and y+ at each time.
 class WallOutput {
  public:
-  /// place: its folder and what is kept of a resumed run. Collective; throws Error(io).
+  /// `place`: folder of the files, and the time up to which a resumed run keeps the entries of the run before.
+  /// Collective; throws Error(io).
   WallOutput(std::shared_ptr<const FieldWriter> writer, SeriesPlace place, const Flow& flow);
   /// The walls at the start of a run. Collective; throws Error(io).
   void initial(const Flow& flow);

@@ -13,7 +13,8 @@ namespace snag {
 
 class RagOutput {
  public:
-  /// place: its folder and what is kept of a resumed run. Rank 0 writes.
+  /// `place`: folder of the files, and the time up to which a resumed run keeps the entries of the run before. Rank 0
+  /// writes.
   RagOutput(const FieldWriter& writer, SeriesPlace place);
   /// Collective; throws Error(io).
   void write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time);

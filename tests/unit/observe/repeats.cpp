@@ -113,6 +113,7 @@ TEST(Repeats, Refused) {
   refused("group,area [m2]\na,0.1\na,0.1\nb,0.1\nb,0.1\n", "does not vary");
   refused("group,area [m2]\na,1\na,1\nb,2\nb,2\n", "does not vary");
   refused("group,area [m2]\na,1\na,nan\nb,3\nb,4\n", ":3: area [m2] \"nan\" must be a finite number");
+  refused("group,area [m2]\na,1\na,-1e308\nb,3\nb,4\n", ":3: area [m2] \"-1e308\" must be a finite number of at most 1e+30 in size");
   refused("group,area [m2]\na,1\na,\nb,3\nb,4\n", ":3: area [m2] \"\" must be a finite number");
   refused("group,area [m2]\na,1\na,2,3\n", ":3: 3 fields");
   refused("point,area [m2]\na,1\n", "no column \"group\"");
