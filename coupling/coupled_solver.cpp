@@ -24,15 +24,17 @@ void CoupledSolver::step(double dt) {
   timed(seconds_.coupling, [&] {
     if (owner_) rags_.migrate([this](const std::vector<Vec3>& centres) { return owner_->owner_of(centres); });
     if (prescribed_field_) prescribed_field_->set_time(rags_.time());
+    if (response_) response_->begin_step(dt);
     load_->begin_step(rags_.tiles(), rags_.time());  // weights w_bc; fluid -> particles, consistent
   });
   timed(seconds_.rags, [&] { rags_.advance(dt, load_.get()); });  // in sub-steps; sums the impulse of the fluid on each particle
   if (prescribed_field_) return timed(seconds_.coupling, [&] { give(dt), write_report(dt); });
-  timed(seconds_.coupling, [&] { give(dt); });  // particles -> fluid, conservative: solid fraction, reaction, drag
+  timed(seconds_.coupling, [&] { give(dt); });  // particles -> fluid, conservative: solid fraction, reaction
   timed(seconds_.flow, [&] { advance_flow_(dt); });
   timed(seconds_.coupling, [&] {
-    if (flow_ && flow_->mesh.turning.zone >= 0) mesh_moved();
-    settle(dt);  // the implicit part of the drag back to the particles; momentum is checked
+    if (flow_->mesh.turning.zone >= 0) mesh_moved();
+    kernel_field_->set_last_step(dt);
+    if (response_) response_->end_step();
     write_report(dt);
   });
 }
@@ -41,7 +43,8 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
-  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), coupling_.settings.two_way());
+  if (coupling_.settings.two_way()) response_ = std::make_unique<WaterResponse>(flow);
+  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), response_.get());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
   exchange_ = std::make_unique<Exchange>(*kernel_, flow);
 }
@@ -72,34 +75,19 @@ void CoupledSolver::give(double dt) {
   impulses_ = load_->impulses(rags_.tiles());
   if (!flow_) return;
   const ParticleList& particles = kernel_field_->particles();
-  std::vector<double> volume(particles.size()), sensitivity(particles.size());
-  for (std::size_t b = 0; b < particles.size(); ++b) {
-    const int t = particles.tile(b), k = particles.place(b);
-    volume[b] = rags_.rags()[rags_.tiles()[t].rag].hydrodynamic_volume;
-    sensitivity[b] = load_->sensitivity(t, k);
-  }
+  std::vector<double> volume(particles.size());
+  for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
   report_.max_solid_fraction = exchange_->give_volumes(volume);
-  if (coupling_.settings.two_way()) exchange_->give(impulses_, sensitivity, dt);
-}
-
-void CoupledSolver::settle(double dt) {
-  if (!flow_) return;
-  kernel_field_->set_last_step(dt);
-  if (!coupling_.settings.two_way()) return;
-  const std::vector<Vec3> settled = exchange_->settle();
-  const ParticleList& particles = kernel_field_->particles();
-  for (std::size_t b = 0; b < particles.size(); ++b) {
-    Tile& tile = rags_.tiles()[particles.tile(b)];
-    const int k = particles.place(b);
-    impulses_[b] += settled[b];
-    if (tile.free[k] > 0) tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + settled[b] / rags_.rags()[tile.rag].mass);
-  }
-  const ExchangeBalance balance = exchange_->balance();
+  if (!response_) return;
+  const ExchangeBalance balance = exchange_->give(impulses_, dt);
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;
   report_.force_on_water = balance.on_water / dt;
   report_.momentum_exchange = balance.relative();
-  report_.max_drag_number = exchange_->max_drag_number();
+  double largest = 0;
+  for (std::size_t b = 0; b < particles.size(); ++b)
+    largest = std::max(largest, load_->slope(particles.tile(b), particles.place(b)) * kernel_field_->response(b));
+  report_.max_drag_number = maximum(rags_.comm(), largest);
 }
 
 void CoupledSolver::write_report(double dt) {
@@ -131,6 +119,7 @@ std::vector<Column<CouplingReport>> CoupledSolver::columns() {
 void CoupledSolver::save(CheckpointWriter& writer) const {
   const double last_step = kernel_field_ ? kernel_field_->last_step() : 0;
   writer.shared("coupling/last_step", std::span(&last_step, 1));
+  if (response_) response_->save(writer);
   const int n = load_->memory();
   if (n == 0) return;
   std::vector<std::int64_t> ids;
@@ -146,6 +135,7 @@ void CoupledSolver::save(CheckpointWriter& writer) const {
 void CoupledSolver::load(CheckpointReader& reader) {
   const double last_step = reader.shared("coupling/last_step").at(0);
   if (kernel_field_) kernel_field_->set_last_step(last_step);
+  if (response_) response_->load(reader);
   if (const int n = load_->memory(); n > 0) {
     std::vector<std::int64_t> ids;
     for (const Tile& tile : rags_.tiles())

@@ -19,7 +19,7 @@ struct CouplingReport {
   Vec3 force_on_rags, force_on_water;  // means over the step, N
   double momentum_exchange = 0;        // lost of what was exchanged, 1
   double max_solid_fraction = 0;       // 1; above 1 rags are folded closer than the kernel resolves
-  double max_drag_number = 0;          // beta dt/rho
+  double max_drag_number = 0;          // dt K d, d: answer of the water to the particle, 1/kg
   double max_stiffness = 0;            // dt K/m
   double width_over_cell_least = 0, width_over_cell_largest = 0;
   std::int64_t particles_outside = 0;  // held by no cell
@@ -32,7 +32,7 @@ struct CouplingSeconds {
 
 class CoupledSolver {
  public:
-  /// `advance_flow` takes the water from t to t + dt with flow.reaction and flow.drag. Arguments by reference must outlive the solver.
+  /// `advance_flow` takes the water from t to t + dt with flow.reaction. Arguments by reference must outlive the solver.
   /// Collective.
   CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double dt)> advance_flow);
   /// Rags in a prescribed flow, one-way.
@@ -40,8 +40,8 @@ class CoupledSolver {
 
   /// Walls for forces that need them; `walls` must outlive the solver.
   void set_walls(const WallSet& walls) { load_->set_walls(walls); }
-  /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit on both sides. Collective.
-  /// Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost.
+  /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit in the velocities of particles and water together.
+  /// Collective. Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost.
   void step(double dt);
   /// Mean velocity of the water at the particles of a rag, m/s; none in a prescribed flow. Collective.
   std::optional<Vec3> water_velocity(int rag);
@@ -64,7 +64,6 @@ class CoupledSolver {
  private:
   void mesh_moved();
   void give(double dt);
-  void settle(double dt);
   void write_report(double dt);
 
   Coupling coupling_;
@@ -73,6 +72,7 @@ class CoupledSolver {
   std::function<void(double)> advance_flow_;
   std::unique_ptr<CellOwner> owner_;
   std::unique_ptr<Kernel> kernel_;
+  std::unique_ptr<WaterResponse> response_;  // two-way
   std::unique_ptr<KernelField> kernel_field_;
   std::unique_ptr<PrescribedField> prescribed_field_;
   std::unique_ptr<FluidLoad> load_;

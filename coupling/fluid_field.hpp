@@ -20,7 +20,10 @@ enum Array {
   k_gradient = 20,
   solid = 23,
   width = 24,
-  n_fields = 25
+  change = 25,
+  response = 28,
+  coverage = 29,
+  n_fields = 30
 };
 inline constexpr double undisturbed = 1e9;  // disturbance width where the particle's own force is not in the fluid, m
 }  // namespace sampled
@@ -30,7 +33,8 @@ class FluidField {
   virtual ~FluidField() = default;
   /// The fluid for the step that begins, with the particles where they are now. Collective.
   virtual void sample(std::span<const Tile> tiles, const SampleSet& needed) = 0;
-  /// Fluid at the particles of tile `index`, `elapsed` seconds into the step. Valid until the next call.
+  /// Fluid at the particles of tile `index`, `elapsed` seconds into the step, without the answer to their forces in this step. Valid until
+  /// the next call.
   virtual FluidSamples at(std::size_t index, const Tile& tile, double elapsed) = 0;
 };
 

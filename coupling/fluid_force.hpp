@@ -32,7 +32,7 @@ struct VectorSum {
 /// Fields that a force needs at the particles in addition to the velocity; what nobody needs is not averaged.
 struct SampleSet {
   bool velocity_gradient = false, pressure_gradient = false, material_acceleration = false;
-  bool turbulence = false, solid_fraction = false, wall = false, disturbance = false;
+  bool turbulence = false, solid_fraction = false, wall = false, disturbance = false, coverage = false;
   SampleSet operator|(const SampleSet& b) const {
     return {velocity_gradient || b.velocity_gradient,
             pressure_gradient || b.pressure_gradient,
@@ -40,7 +40,8 @@ struct SampleSet {
             turbulence || b.turbulence,
             solid_fraction || b.solid_fraction,
             wall || b.wall,
-            disturbance || b.disturbance};
+            disturbance || b.disturbance,
+            coverage || b.coverage};
   }
 };
 
@@ -49,16 +50,19 @@ struct SampleSet {
 struct FluidSamples {
   double density = 0;                                  // rho, kg/m3
   double dynamic_viscosity = 0;                        // mu, Pa s
-  VectorArray velocity;                                // u, m/s
-  std::array<VectorArray, 3> velocity_gradient;        // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
-  VectorArray pressure_gradient;                       // Pa/m
-  VectorArray material_acceleration;                   // Du/Dt, m/s2
+  VectorArray velocity = {};                           // u, m/s
+  VectorArray velocity_rate = {};                      // of u in this step but for the answer to the rags' forces, m/s2; null: zero
+  const double* response = nullptr;                    // velocity that u loses per impulse of the particle, 1/kg; null: zero
+  std::array<VectorArray, 3> velocity_gradient = {};   // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
+  VectorArray pressure_gradient = {};                  // Pa/m
+  VectorArray material_acceleration = {};              // Du/Dt, m/s2
   const double* turbulent_kinetic_energy = nullptr;    // k, m2/s2
   const double* dissipation_rate = nullptr;            // epsilon, m2/s3
   VectorArray turbulent_kinetic_energy_gradient = {};  // m/s2
   const double* solid_fraction = nullptr;              // volume of particles over volume, 1
   const double* disturbance_width =
-      nullptr;                            // over which the particle's own force is smeared in these samples, m; 1e9 where it is not in them
+      nullptr;                       // over which the particle's own force is smeared in these samples, m; 1e9 where it is not in them
+  const double* coverage = nullptr;  // share of the kernel that the cloth around the particle fills: 1 inside a flat sheet, 1/2 at an edge
   const double* wall_distance = nullptr;  // of the particle's centre from the nearest wall, m; far away a large number
   VectorArray wall_normal = {};           // unit, from that wall to the particle
 };

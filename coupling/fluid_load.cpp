@@ -6,7 +6,7 @@
 namespace snag {
 
 namespace {
-enum Sum { impulse_x, impulse_y, impulse_z, sensitivity_sum, n_sums };
+enum Sum { impulse_x, impulse_y, impulse_z, slope_integral, n_sums };
 enum Array {
   two_way_force = 0,
   slope_sum = 3,
@@ -18,7 +18,9 @@ enum Array {
   seen_velocity = 13,
   wall_distance = 16,
   wall_normal = 17,
-  n_arrays = 20
+  zero = 20,
+  chi = 21,
+  n_arrays = 22
 };
 
 /// Mean of the relaxation over a sub-step.
@@ -56,27 +58,34 @@ void FluidLoad::begin_step(std::span<const Tile> tiles, double time) {
 
 void FluidLoad::add(std::size_t index, Tile& tile, double step) {
   const Rag& rag = rags_[tile.rag];
-  evaluate(index, tile, step);
+  const FluidSamples fluid = evaluate(index, tile, step);
   elapsed_[index] += step;
 
   const double m = rag.mass;
   const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(slope_sum), *added_mass = array(added_mass_sum);
-  double *phi = array(relaxation), *Q = sums_.field(index, sensitivity_sum);
+  const double *none = array(zero), *d = fluid.response ? fluid.response : none;
+  const double* rate[] = {d == none ? none : fluid.velocity_rate.x, d == none ? none : fluid.velocity_rate.y,
+                          d == none ? none : fluid.velocity_rate.z};
+  double *phi = array(relaxation), *driven = array(chi), *slopes = sums_.field(index, slope_integral);
   for (int j = 0; j < tile.ny; ++j) {
     const int first = tile.index(0, j), end = first + tile.nx;
 #pragma omp simd
     for (int k = first; k < end; ++k) {
-      const double mean = mean_relaxation(step * slope[k] / (m + added_mass[k]));
-      phi[k] = free[k] > 0 ? mean * m / (m + added_mass[k]) : 1;  // m a over the sum of all forces
-      Q[k] += exists[k] * step * slope[k] * phi[k];
+      const double hK = step * slope[k], theta = hK * ((free[k] > 0 ? 1 / (m + added_mass[k]) : 0) + d[k]);
+      const double over = 1 / (1 + theta * (2.0 / 3 + theta / 6));
+      phi[k] = (1 + theta / 6) * over;
+      driven[k] = hK * (0.5 + theta / 6) * over;
+      slopes[k] += exists[k] * hK;
     }
     for (int i = 0; i < 3; ++i) {
-      const double *R = array(two_way_force + i), *N = array(one_way_force + i);
+      const double *R = array(two_way_force + i), *N = array(one_way_force + i), *r = rate[i];
       double *f = tile.field(Tile::fx + i), *J = sums_.field(index, impulse_x + i);
 #pragma omp simd
       for (int k = first; k < end; ++k) {
-        const double total = (f[k] + R[k] + N[k]) * phi[k];  // m a
-        J[k] += exists[k] > 0 ? step * (total - f[k] - N[k]) : 0;
+        const double other = f[k] + N[k], M = m + added_mass[k];
+        const double mean = phi[k] * R[k] + driven[k] * (r[k] - (free[k] > 0 ? other / M : 0));
+        const double total = (other + mean) * (free[k] > 0 ? m / M : 1);  // m a
+        J[k] += exists[k] > 0 ? step * (total - other) : 0;
         f[k] = exists[k] > 0 ? total : f[k];
       }
     }
@@ -85,7 +94,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
 }
 
 /// All forces on the particles of a tile.
-void FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
+FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   Particles particles(rags_[tile.rag], tile);
   particles.step = step;
   particles.memory_stride = tile.exists.size();
@@ -103,12 +112,8 @@ void FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   silent.force = vector(one_way_force);
   // The middle of the sub-step is where the integrator evaluates forces.
   FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
-  if (changes_fluid_) {
-    reacting.fluid_velocity = vector(seen_velocity);
-    const double* from[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
-    for (int i = 0; i < 3; ++i) std::copy(from[i] + particles.begin, from[i] + particles.end, array(seen_velocity + i) + particles.begin);
-    fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
-  }
+  if (fluid.response || changes_fluid_) answer(fluid, index, particles);
+  if (changes_fluid_) reacting.fluid_velocity = vector(seen_velocity);
   if (needed_.wall) {
     if (nearest_wall_)
       nearest_wall_->find(particles, time_ + elapsed_[index] + 0.5 * step, array(wall_distance), vector(wall_normal));
@@ -121,6 +126,23 @@ void FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
     particles.memory = tile.memory.data() + member.memory_begin * particles.memory_stride;
     member.force->add(fluid, particles, member.reacts ? reacting : silent);
   }
+  return fluid;
+}
+
+/// The velocity of the water at the start of the sub-step, where the particles' velocities are: into an array that forces may change.
+void FluidLoad::answer(FluidSamples& fluid, std::size_t index, const Particles& particles) {
+  const double* u[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
+  const double* r[] = {fluid.velocity_rate.x, fluid.velocity_rate.y, fluid.velocity_rate.z};
+  const double elapsed = elapsed_[index], *d = fluid.response;
+  for (int i = 0; i < 3; ++i) {
+    double* seen = array(seen_velocity + i);
+    std::copy(u[i] + particles.begin, u[i] + particles.end, seen + particles.begin);
+    if (!d) continue;
+    const double* J = sums_.field(index, impulse_x + i);
+#pragma omp simd
+    for (int k = particles.begin; k < particles.end; ++k) seen[k] += elapsed * r[i][k] - d[k] * J[k];
+  }
+  fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
 }
 
 void FluidLoad::add_torque(Tile& tile, double step) {
@@ -142,7 +164,7 @@ Vec3 FluidLoad::impulse(std::size_t index, int k) const {
   return {sums_.field(index, impulse_x)[k], sums_.field(index, impulse_y)[k], sums_.field(index, impulse_z)[k]};
 }
 
-double FluidLoad::sensitivity(std::size_t index, int k) const { return sums_.field(index, sensitivity_sum)[k]; }
+double FluidLoad::slope(std::size_t index, int k) const { return sums_.field(index, slope_integral)[k]; }
 
 std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
   const ParticleList particles(tiles);
@@ -154,7 +176,7 @@ std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
 double FluidLoad::max_stiffness(std::span<const Tile> tiles) const {
   double largest = 0;
   for (std::size_t t = 0; t < tiles.size(); ++t) {
-    const double* Q = sums_.field(t, sensitivity_sum);
+    const double* Q = sums_.field(t, slope_integral);
     largest = std::max(largest, *std::max_element(Q, Q + tiles[t].exists.size()) / rags_[tiles[t].rag].mass);
   }
   return largest;

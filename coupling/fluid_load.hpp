@@ -1,16 +1,17 @@
 #pragma once
 // The fluid's forces on the particles, sub-step by sub-step, and what they sum to.
 //
-//   M a = (F_other + F(u, v)) phi(theta)      M = m + m_a,  theta = h K/M;  K = dF/dw (secant), m_a added mass, h sub-step
-//   phi = (1 + theta/6) / (1 + 2 theta/3 + theta^2/6) = (1 - exp(-theta))/theta + O(theta^3)
-//   F_fluid = m a - F_other                   what the integrator adds to the other forces so that it kicks by a
-//   J += h F_fluid                            impulse on each particle, N s
-//   Q += h K phi m/M                          its sensitivity dJ/du, kg, for the implicit drag of the flow
+//   M dv/dt = F_other + F,   du/dt = r - d (F - m_a dv/dt),   F = F_0 + K (w - w_0),   w = u - v
+//   F -> phi F_0 + h K chi (r - F_other/M),  theta = h K (1/M + d)         mean over a sub-step h
+//   phi = (1 + theta/6)/(1 + 2 theta/3 + theta^2/6) = (1 - exp(-theta))/theta + O(theta^3),   chi = (1 - phi)/theta
+//   J += h (m dv/dt - F_other)                                            impulse of the water on each particle, N s
 //
-// phi is the mean of the relaxation towards the fluid over a sub-step: third order in theta for a linear drag, and L-stable: a particle
-// much lighter than its drag takes the fluid's velocity within one sub-step, without ringing. F_other must be complete: bonds, contacts and
-// walls come before the fluid. Particles that a clamp holds (Tile::free = 0) feel the force without relaxing: phi = 1. Forces that do not
-// react on the fluid (weight, buoyancy, pressure gradient) act on the particle and are left out of J.
+// K = dF/dw (secant), m_a added mass, M = m + m_a; r and d: how the water at the particle goes on and answers to the particle within the
+// step (coupling/water_response.hpp), zero one-way. phi is the mean of the relaxation of water and particle towards each other: third
+// order in theta for a linear drag, and L-stable: a particle much lighter than its drag takes the fluid's velocity within one sub-step,
+// without ringing. F_other must be complete: bonds, contacts and walls come before the fluid. Particles that a clamp holds
+// (Tile::free = 0) count as infinitely heavy. Forces that do not react on the fluid (weight, buoyancy, pressure gradient) act on the
+// particle and are left out of J.
 // Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I).
 // Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
 #include <memory>
@@ -42,15 +43,16 @@ class FluidLoad final : public TileForce {
 
   /// J of the particle at place k of a tile, N s.
   Vec3 impulse(std::size_t index, int k) const;
-  /// Q of that particle, kg: divided by the step, the mean slope K.
-  double sensitivity(std::size_t index, int k) const;
+  /// Integral of the slope K of that particle over the step, kg.
+  double slope(std::size_t index, int k) const;
   /// J of all particles of this rank, N s.
   std::vector<Vec3> impulses(std::span<const Tile> tiles) const;
-  /// Largest Q/m of this rank's particles: above 1 the particle would follow the water within one step of the flow.
+  /// Largest dt K/m of this rank's particles: above 1 a particle follows the water within one step of the flow.
   double max_stiffness(std::span<const Tile> tiles) const;
 
  private:
-  void evaluate(std::size_t index, Tile& tile, double step);
+  FluidSamples evaluate(std::size_t index, Tile& tile, double step);
+  void answer(FluidSamples& fluid, std::size_t index, const Particles& particles);
   void add_torque(Tile& tile, double step);
   double* array(int f) { return scratch_.data() + f * scratch_size_; }
 
@@ -70,7 +72,7 @@ class FluidLoad final : public TileForce {
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s
-  TileArrays sums_;               // J, Q
+  TileArrays sums_;               // J, integral of K
   AlignedDoubles scratch_;        // [n_arrays][scratch_size_]; fields that no force writes stay zero
   std::size_t scratch_size_ = 0;  // places of the largest tile
 };

@@ -1,6 +1,7 @@
 #include "coupling/kernel_field.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -33,6 +34,8 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   }
   if (needed.solid_fraction) set_solid_fraction(tiles), add(solid_.data(), 1, solid);
   if (needed.disturbance) set_width(), add(width_.data(), 1, width);
+  if (needed.coverage) set_coverage(tiles), add(covered_.data(), 1, coverage);
+  if (response_) add(response_->change().data(), 3, change);
   const std::vector<double> values = kernel_.average(fields);
 
   arrays_.reset(tiles, n_fields);
@@ -40,6 +43,17 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   for (std::size_t b = 0; b < particles_.size(); ++b)
     for (std::size_t j = 0; j < components; ++j)
       arrays_.field(particles_.tile(b), field_of_component[j])[particles_.place(b)] = values[b * components + j];
+  if (response_) set_response();
+}
+
+/// Rates from changes over the step, and the answer to impulses.
+void KernelField::set_response() {
+  const std::vector<double> answers = response_->response(kernel_);
+  for (std::size_t b = 0; b < particles_.size(); ++b) {
+    const int t = particles_.tile(b), k = particles_.place(b);
+    for (int i = 0; i < 3; ++i) arrays_.field(t, change + i)[k] /= response_->dt();
+    arrays_.field(t, sampled::response)[k] = answers[b];
+  }
 }
 
 void KernelField::set_acceleration() {
@@ -81,7 +95,7 @@ void KernelField::set_width() {
   constexpr double width_over_side = 0.178;
   const double own = kernel_.has_width() ? kernel_.width() : 0;
   width_.assign(flow_.mesh.n_cells, undisturbed);
-  if (!two_way_) return;
+  if (!response_) return;
   for (int c = 0; c < flow_.mesh.n_cells; ++c) {
     const double side = std::cbrt(flow_.mesh.cell_volume[c]);
     width_[c] = std::hypot(own, width_over_side * side);
@@ -95,11 +109,27 @@ void KernelField::set_solid_fraction(std::span<const Tile> tiles) {
   kernel_.spread(volume, 1, solid_);
 }
 
+/// Areas spread by the kernel, times the thickness that a flat sheet is smeared over: averaged back they are 1 inside a flat sheet. A cell
+/// adds its own size to the kernel's.
+void KernelField::set_coverage(std::span<const Tile> tiles) {
+  const double own = kernel_.has_width() ? 2 * std::sqrt(std::numbers::pi) * kernel_.width() : 0;
+  std::vector<double> area(particles_.size());
+  for (std::size_t b = 0; b < area.size(); ++b) {
+    const double side = 2 * rags_[tiles[particles_.tile(b)].rag].radius;
+    area[b] = side * side;
+  }
+  covered_.assign(flow_.mesh.n_cells, 0.0);
+  kernel_.spread(area, 1, covered_);
+  for (int c = 0; c < flow_.mesh.n_cells; ++c) covered_[c] *= std::hypot(own, std::cbrt(flow_.mesh.cell_volume[c]));
+}
+
 FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
   const auto vector = [&](int f) { return VectorArray{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
   return {.density = flow_.density,
           .dynamic_viscosity = flow_.dynamic_viscosity,
           .velocity = vector(velocity),
+          .velocity_rate = vector(change),
+          .response = response_ ? arrays_.field(index, sampled::response) : nullptr,
           .velocity_gradient = {vector(gradient), vector(gradient + 3), vector(gradient + 6)},
           .pressure_gradient = vector(pressure_gradient),
           .material_acceleration = vector(acceleration),
@@ -107,7 +137,8 @@ FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
           .dissipation_rate = arrays_.field(index, epsilon),
           .turbulent_kinetic_energy_gradient = vector(k_gradient),
           .solid_fraction = arrays_.field(index, solid),
-          .disturbance_width = arrays_.field(index, width)};
+          .disturbance_width = arrays_.field(index, width),
+          .coverage = arrays_.field(index, coverage)};
 }
 
 }  // namespace snag

@@ -10,15 +10,16 @@
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"
+#include "coupling/water_response.hpp"
 #include "solver/fields/flow.hpp"
 
 namespace snag {
 
 class KernelField final : public FluidField {
  public:
-  /// `rags`: those that Tile::rag counts; `two_way`: the flow feels them.
-  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, bool two_way)
-      : flow_(flow), kernel_(kernel), rags_(rags), two_way_(two_way) {}
+  /// `rags`: those that Tile::rag counts; `response` of the flow to them, null one-way.
+  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, const WaterResponse* response)
+      : flow_(flow), kernel_(kernel), rags_(rags), response_(response) {}
   /// Length of the step that led to the present state, s; 0: none yet.
   void set_last_step(double dt) { last_step_ = dt; }
   double last_step() const { return last_step_; }
@@ -26,23 +27,28 @@ class KernelField final : public FluidField {
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
   /// The particles of the last sample(), in the order of the kernel.
   const ParticleList& particles() const { return particles_; }
+  /// Of the water to particle b of the list, 1/kg. Two-way.
+  double response(std::size_t b) const { return arrays_.field(particles_.tile(b), sampled::response)[particles_.place(b)]; }
 
  private:
   void set_acceleration();
   void set_turbulence_gradient();
   void set_width();
   void set_solid_fraction(std::span<const Tile> tiles);
+  void set_coverage(std::span<const Tile> tiles);
+  void set_response();
 
   const Flow& flow_;
   Kernel& kernel_;
   const std::vector<Rag>& rags_;
-  bool two_way_;
+  const WaterResponse* response_;
   double last_step_ = 0;
   ParticleList particles_;
   std::vector<Vec3> acceleration_;  // Du/Dt of the owned cells, m/s2
   std::vector<Vec3> k_gradient_;    // of the owned cells, m/s2
   std::vector<double> width_;       // of kernel and cell, of the owned cells, m
   std::vector<double> solid_;       // of the owned cells
+  std::vector<double> covered_;     // area of cloth per volume over that within a flat sheet, of the owned cells
   TileArrays arrays_;
 };
 

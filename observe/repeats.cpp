@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/quotation.hpp"
 #include "base/words.hpp"
 #include "observe/observables.hpp"
 
@@ -27,8 +28,9 @@ double mean_axis(const std::vector<double>& values) {
 
 double checked(double value, const Repeats& repeats, const Repeats::Row& row, std::size_t o, const std::string& where) {
   if (std::isfinite(value)) return value;
-  throw Error(ExitCode::usage, where + ": " + repeats.quantities[o].name + " of group \"" + repeats.groups[row.group] + "\" is " +
-                                   words(value) + ", must be a finite number; leave out rows without one");
+  throw Error(ExitCode::usage, where + ": " + shortened(repeats.quantities[o].name) + " of group \"" +
+                                   shortened(repeats.groups[row.group]) + "\" is " + words(value) +
+                                   ", must be a finite number; leave out rows without one");
 }
 
 GroupComparison compare(const Repeats& repeats, std::size_t o, const std::string& where) {
@@ -56,8 +58,9 @@ GroupComparison compare(const Repeats& repeats, std::size_t o, const std::string
   // What differs by round-off alone is constant.
   const double largest = std::abs(*std::max_element(all.begin(), all.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (std::all_of(deviations.begin(), deviations.end(), [&](double deviation) { return deviation <= 1e-12 * largest; }))
-    throw Error(ExitCode::usage, where + ": " + result.quantity.name + " does not vary within any group (" + words(means[0]) + " in \"" +
-                                     repeats.groups[0] + "\"), so that there is no scatter to compare with; leave it out");
+    throw Error(ExitCode::usage, where + ": " + shortened(result.quantity.name) + " does not vary within any group (" + words(means[0]) +
+                                     " in \"" + shortened(repeats.groups[0]) +
+                                     "\"), so that there is no scatter to compare with; leave it out");
   result.by_count = anova(means, deviations, counts);
   const IndependentSamples independent = independent_samples(samples, static_cast<int>(repeats.groups.size()));
   result.dependence = independent.dependence, result.correlation = independent.correlation;
@@ -89,14 +92,15 @@ MeanAndSigma mean_and_sigma(const std::vector<double>& values, const Quantity& q
 
 std::vector<GroupComparison> compare_groups(const Repeats& repeats, const std::string& where) {
   if (repeats.groups.size() < 2)
-    throw Error(ExitCode::usage, where + ": " + std::to_string(repeats.groups.size()) +
-                                     (repeats.groups.size() == 1 ? " group (\"" + repeats.groups[0] + "\")" : std::string(" groups")) +
-                                     ", there must be at least two to compare; name each operating point");
+    throw Error(ExitCode::usage,
+                where + ": " + std::to_string(repeats.groups.size()) +
+                    (repeats.groups.size() == 1 ? " group (\"" + shortened(repeats.groups[0]) + "\")" : std::string(" groups")) +
+                    ", there must be at least two to compare; name each operating point");
   std::vector<int> n(repeats.groups.size());
   for (const Repeats::Row& row : repeats.rows) ++n[row.group];
   for (std::size_t g = 0; g < n.size(); ++g)
     if (n[g] < 2)
-      throw Error(ExitCode::usage, where + ": group \"" + repeats.groups[g] + "\" has " + std::to_string(n[g]) +
+      throw Error(ExitCode::usage, where + ": group \"" + shortened(repeats.groups[g]) + "\" has " + std::to_string(n[g]) +
                                        (n[g] == 1 ? " sample" : " samples") + ", must have at least two to have a scatter; add repeats");
   std::vector<GroupComparison> comparisons;
   for (std::size_t o = 0; o < repeats.quantities.size(); ++o) comparisons.push_back(compare(repeats, o, where));

@@ -66,7 +66,7 @@ class Reading {
         refuse("the column \"" + shortened(column) + "\" must be in degrees; write orientation [deg]");
     }
     if (std::find(columns_.begin(), columns_.end(), "group") == columns_.end())
-      refuse("there is no column \"group\" (" + joined(columns_) + "); name the operating point of each row");
+      refuse("there is no column \"group\" (" + shortened(joined(columns_)) + "); name the operating point of each row");
     if (repeats_.quantities.empty()) refuse("there is no column of values beside group and rag; add one, as area [m2]");
   }
 

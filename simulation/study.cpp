@@ -10,6 +10,7 @@
 #include "base/atomic_file.hpp"
 #include "base/folder_lock.hpp"
 #include "base/log.hpp"
+#include "base/quotation.hpp"
 #include "base/words.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
@@ -21,6 +22,7 @@ namespace snag {
 namespace {
 
 const MPI_Comm world = MPI_COMM_WORLD;
+constexpr std::size_t most_runs = 10'000;
 
 /// As short as it is exact.
 std::string written(double value) {
@@ -58,13 +60,17 @@ void expand_runs(Study& study) {
   std::size_t n = 1;
   for (const VarySettings& vary : study.vary) {
     if (vary.values.empty() == vary.texts.empty())
-      throw Error(ExitCode::usage, where + " key = \"" + vary.key + "\": give either values (numbers) or texts");
+      throw Error(ExitCode::usage, where + " key = \"" + shortened(vary.key) + "\": give either values (numbers) or texts");
     if (study.settings.zip && n_values(vary) != n_values(study.vary[0]))
-      throw Error(ExitCode::usage, where + " key = \"" + vary.key + "\" has " + std::to_string(n_values(vary)) + " values, \"" +
-                                       study.vary[0].key + "\" has " + std::to_string(n_values(study.vary[0])) +
+      throw Error(ExitCode::usage, where + " key = \"" + shortened(vary.key) + "\" has " + std::to_string(n_values(vary)) + " values, \"" +
+                                       shortened(study.vary[0].key) + "\" has " + std::to_string(n_values(study.vary[0])) +
                                        "; with zip = true all need as many");
-    n *= n_values(vary);
+    n = std::min(n * n_values(vary), 1000 * most_runs);  // no overflow
   }
+  if (!study.settings.zip && n > most_runs)
+    throw Error(ExitCode::usage,
+                where + ": all combinations of the values are more than " + std::to_string(most_runs) +
+                    " runs; give fewer values, or zip = true, which combines the first values of all keys, then the second");
   if (study.settings.zip) {
     for (std::size_t i = 0; i < n_values(study.vary[0]); ++i) add_run(study, std::vector<std::size_t>(study.vary.size(), i));
   } else {
@@ -78,8 +84,8 @@ void expand_runs(Study& study) {
   std::set<std::string> names;
   for (const StudyRun& run : study.runs)
     if (!names.insert(run.name).second)
-      throw Error(ExitCode::usage,
-                  where + ": two runs would be named \"" + run.name + "\"; remove the duplicate value, or give the keys different names");
+      throw Error(ExitCode::usage, where + ": two runs would be named \"" + shortened(run.name) +
+                                       "\"; remove the duplicate value, or give the keys different names");
 }
 
 /// Results and axes that no summary can hold would be empty columns after hours of runs.
@@ -95,7 +101,7 @@ void check_keys(const Study& study, const std::filesystem::path& file) {
     }
     if (std::find(known.begin(), known.end(), plain) != known.end()) return;
     const std::string near = nearest_name(plain, known);
-    throw Error(ExitCode::usage, file.string() + ": " + where + " has \"" + key + "\", which is no key of summary.json" +
+    throw Error(ExitCode::usage, file.string() + ": " + where + " has \"" + shortened(key) + "\", which is no key of summary.json" +
                                      (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; known: " + joined(known) +
                                      " (0 stands for any number)");
   };

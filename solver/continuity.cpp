@@ -36,9 +36,6 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       settings_(settings),
       squares_(mesh, pressure_sides(mesh, boundary)),
       poisson_(mesh, settings.multigrid, !boundary.fixes_pressure()),
-      mobility_(mesh.n_all_cells()),
-      weight_(mesh.weight),
-      face_mobility_(mesh.n_interior),
       coefficient_(mesh.n_faces),
       correction_(mesh.n_all_cells()),
       given_(mesh.n_faces - mesh.n_interior),
@@ -46,7 +43,9 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       slope_(mesh.n_all_cells()),
       gradient_(mesh.n_all_cells()),
       imbalance_(mesh.n_all_cells()),
-      right_side_(mesh.n_all_cells()) {}
+      right_side_(mesh.n_all_cells()) {
+  set_coefficients(boundary);
+}
 
 void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
@@ -55,34 +54,31 @@ void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
       given_[b] = boundary.fixes(static_cast<int>(p)) == Fixes::pressure ? boundary.values().pressure[b] : wall_slope[b];
     }
   mesh_.halo.exchange(flow.pressure);
-  squares_.gradient(weight_, flow.pressure, given_, slope_);
+  squares_.gradient(mesh_.weight, flow.pressure, given_, slope_);
   fill_boundary(mesh_, squares_, flow.pressure, slope_, given_, flow.boundary_pressure);
-  gauss_gradient(mesh_, squares_, weight_, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
+  gauss_gradient(mesh_, squares_, mesh_.weight, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
 }
 
-void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
+void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary) {
   squares_.update();
-  coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
-  set_mobility(flow, time.now * flow.density / time.dt);
+  set_coefficients(boundary);
   start_pressure(flow, boundary);
 }
 
 void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient) {
-  inertia_ = 1;
-  std::fill(mobility_.begin(), mobility_.end(), 1.0);
-  set_face_mobility();
+  mobility_ = 1;
   predict_flux(flow, boundary, gradient, false);
   std::fill(given_.begin(), given_.end(), 0.0);
-  solve(flow, boundary);
+  solve(flow);
   correct_cells(flow, false);
 }
 
 ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient) {
-  inertia_over_a0_ = flow.density / time.dt;
-  set_mobility(flow, time.now * inertia_over_a0_);
+  mobility_ = time.dt / (time.now * flow.density);
+  one_over_a0_ = 1 / time.now;
   predict_flux(flow, boundary, gradient, true);
   give_boundary(flow, boundary);
-  const ContinuityReport report = solve(flow, boundary);
+  const ContinuityReport report = solve(flow);
   correct_cells(flow, true);
   return report;
 }
@@ -111,27 +107,11 @@ void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
         continue;
       }
       const Vec3 acceleration = acceleration_at_wall(flow, boundary.values(), P, b);
-      const Vec3 force = flow.body_force + flow.reaction[P] - flow.drag[P] * flow.velocity[P] - flow.density * acceleration;
+      const Vec3 force = flow.body_force + flow.reaction[P] - flow.density * acceleration;
       const double slope = dot(force, unit(mesh_.face_vector[f]));
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;
     }
-  }
-}
-
-void Continuity::set_mobility(const Flow& flow, double inertia) {
-  inertia_ = inertia;
-  for (int c = 0; c < mesh_.n_cells; ++c) mobility_[c] = 1 / (inertia + flow.drag[c]);
-  mesh_.halo.exchange(mobility_);
-  set_face_mobility();
-}
-
-void Continuity::set_face_mobility() {
-  weight_.resize(static_cast<std::size_t>(mesh_.n_faces), 1), face_mobility_.resize(static_cast<std::size_t>(mesh_.n_interior));
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    const double w = mesh_.weight[f], owner = w * mobility_[mesh_.owner[f]], neighbour = (1 - w) * mobility_[mesh_.neighbour[f]];
-    weight_[f] = owner / (owner + neighbour);
-    face_mobility_[f] = mobility_[mesh_.owner[f]] * mobility_[mesh_.neighbour[f]] / (owner + neighbour);
   }
 }
 
@@ -145,10 +125,9 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
     double flux = interpolated_flux(mesh_, f, blend(w, u[P], u[N]), gradient);
     if (with_pressure) {
       const Vec3& d = mesh_.delta[f];
-      const double c = conductance(S, d), m = face_mobility_[f];
-      const Vec3 mg = blend(w, mobility_[P] * g[P], mobility_[N] * g[N]);
-      // [m grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
-      flux += c * (dot(mg, d) - m * (flow.pressure[N] - flow.pressure[P])) + m * inertia_over_a0_ * history.inherited()[f];
+      // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
+      flux += mobility_ * conductance(S, d) * (dot(blend(w, g[P], g[N]), d) - (flow.pressure[N] - flow.pressure[P])) +
+              one_over_a0_ * history.inherited()[f];
     }
     flow.flux[f] = flux;
   }
@@ -167,31 +146,28 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
       } else {
         const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
         flow.flux[f] = leaving_flux(mesh_, f, flow.velocity[P], gradient[P]);
-        const double c = conductance(S, d);
         // S.g - [c (p_b - p_P) + T.g] = c (d.g - (p_b - p_P))
         if (with_pressure)
-          flow.flux[f] +=
-              mobility_[P] * (c * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) + inertia_over_a0_ * history.inherited()[f]);
+          flow.flux[f] += mobility_ * conductance(S, d) * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) +
+                          one_over_a0_ * history.inherited()[f];
       }
     }
   }
 }
 
 void Continuity::set_coefficients(const BoundarySet& boundary) {
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    coefficient_[f] = inertia_ * face_mobility_[f] * conductance(mesh_.face_vector[f], mesh_.delta[f]);
-  }
+  coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
+  for (int f = 0; f < mesh_.n_interior; ++f) coefficient_[f] = conductance(mesh_.face_vector[f], mesh_.delta[f]);
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const bool fixed = boundary.fixes(static_cast<int>(p)) == Fixes::pressure;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
-      coefficient_[f] = fixed ? inertia_ * mobility_[mesh_.owner[f]] * conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
+      coefficient_[f] = fixed ? conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
   }
+  poisson_.set_coefficients(coefficient_);
 }
 
 /// Fills imbalance_; p' begins at zero.
-Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& flux, const BoundarySet& boundary) {
-  set_coefficients(boundary);
-  poisson_.set_coefficients(coefficient_);
+Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& flux) {
   std::fill(correction_.begin(), correction_.end(), 0.0);
   std::fill(gradient_.begin(), gradient_.end(), Vec3{});
 
@@ -208,22 +184,22 @@ Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& fl
   return {.norm = std::sqrt(squares[0]), .rounding = rounding * std::sqrt(squares[1])};
 }
 
-ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
-  const Imbalance imbalance = begin_correction(flow.flux, boundary);
+ContinuityReport Continuity::solve(Flow& flow) {
+  const Imbalance imbalance = begin_correction(flow.flux);
   ContinuityReport report{.initial = imbalance.norm};
   for (int k = 0; k <= settings_.n_non_orthogonal_correctors; ++k) {
     if (k > 0) {
-      squares_.gradient(weight_, correction_, given_, slope_);
+      squares_.gradient(mesh_.weight, correction_, given_, slope_);
       fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
-      gauss_gradient(mesh_, squares_, weight_, correction_, boundary_correction_, slope_, gradient_);
+      gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_);
     }
     add_cross_flux();
     const double tolerance = k == settings_.n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
     const PoissonReport last =
-        poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, imbalance.rounding) * inertia_);
+        poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, imbalance.rounding) / mobility_);
     report.iterations += last.iterations, ++report.solves;
     report.rebuilt = report.rebuilt || last.rebuilt;
-    report.final = last.final / inertia_;
+    report.final = last.final * mobility_;
   }
   if (report.rebuilt) note_preconditioner(flow);
   correct_flux(flow.flux);
@@ -231,29 +207,28 @@ ContinuityReport Continuity::solve(Flow& flow, const BoundarySet& boundary) {
 }
 
 void Continuity::note_preconditioner(const Flow& flow) {
-  preconditioner_ = {{mobility_.begin(), mobility_.begin() + mesh_.n_cells}, inertia_};
-  if (flow.rotating_zone) preconditioner_.angle = flow.rotating_zone->mesh().angle();
+  if (flow.rotating_zone) preconditioner_angle_ = flow.rotating_zone->mesh().angle();
 }
 
-void Continuity::close(std::vector<double>& flux, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
-  set_mobility(flow, time.now * flow.density / time.dt);
-  const Imbalance imbalance = begin_correction(flux, boundary);
+void Continuity::close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time) {
+  mobility_ = time.dt / (time.now * flow.density);
+  const Imbalance imbalance = begin_correction(flux);
   std::fill(given_.begin(), given_.end(), 0.0);
   add_cross_flux();
   const PoissonReport report =
-      poisson_.solve(right_side_, correction_, std::max(settings_.tolerance_intermediate * imbalance.norm, imbalance.rounding) * inertia_);
+      poisson_.solve(right_side_, correction_, std::max(settings_.tolerance_intermediate * imbalance.norm, imbalance.rounding) / mobility_);
   if (report.rebuilt) note_preconditioner(flow);
   correct_flux(flux);
 }
 
-/// Right side of the pressure equation: inertia (- imbalance + what the last gradient of p' carries across non-orthogonal faces).
+/// Right side of the pressure equation: - imbalance/m + what the last gradient of p' carries across non-orthogonal faces.
 void Continuity::add_cross_flux() {
-  for (int c = 0; c < mesh_.n_cells; ++c) right_side_[c] = -inertia_ * imbalance_[c];
+  for (int c = 0; c < mesh_.n_cells; ++c) right_side_[c] = -imbalance_[c] / mobility_;
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
     const double w = mesh_.weight[f], c = conductance(S, d);
-    const double cross = inertia_ * dot(S - c * d, blend(w, mobility_[P] * gradient_[P], mobility_[N] * gradient_[N]));
+    const double cross = dot(S - c * d, blend(w, gradient_[P], gradient_[N]));
     right_side_[P] += cross;
     right_side_[N] -= cross;
   }
@@ -261,48 +236,40 @@ void Continuity::add_cross_flux() {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    right_side_[P] +=
-        coefficient_[f] * given_[f - mesh_.n_interior] + inertia_ * mobility_[P] * dot(S - conductance(S, d) * d, gradient_[P]);
+    right_side_[P] += coefficient_[f] * given_[f - mesh_.n_interior] + dot(S - conductance(S, d) * d, gradient_[P]);
   }
 }
 
-/// flux -= m_f (c (p'_N - p'_P) + T.grad p'), with the grad p' of the last right side.
+/// flux -= m (c (p'_N - p'_P) + T.grad p'), with the grad p' of the last right side.
 void Continuity::correct_flux(std::vector<double>& flux) {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d), m = face_mobility_[f];
-    flux[f] -=
-        m * c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, mobility_[P] * gradient_[P], mobility_[N] * gradient_[N]));
+    const double w = mesh_.weight[f], c = conductance(S, d);
+    flux[f] -= mobility_ * (c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, gradient_[P], gradient_[N])));
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
     const double c = conductance(S, d);
-    flux[f] -= mobility_[P] * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
+    flux[f] -= mobility_ * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
   }
 }
 
 void Continuity::correct_cells(Flow& flow, bool with_pressure) {
-  squares_.gradient(weight_, correction_, given_, slope_);
+  squares_.gradient(mesh_.weight, correction_, given_, slope_);
   fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
-  gauss_gradient(mesh_, squares_, weight_, correction_, boundary_correction_, slope_, gradient_);
-  for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_[c] * gradient_[c];
+  gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_);
+  for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_ * gradient_[c];
   if (!with_pressure) return;
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.pressure[c] += correction_[c], flow.pressure_gradient[c] += gradient_[c];
   for (std::size_t b = 0; b < boundary_correction_.size(); ++b) flow.boundary_pressure[b] += boundary_correction_[b];
 }
 
-void Continuity::restore(PreconditionerState state, const BoundarySet& boundary, double fresh_cost, bool rebuild_due) {
-  preconditioner_ = std::move(state);
-  inertia_ = preconditioner_.inertia;
-  std::copy(preconditioner_.mobility.begin(), preconditioner_.mobility.end(), mobility_.begin());
-  mesh_.halo.exchange(mobility_);
-  coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
-  set_face_mobility();
+void Continuity::restore(double preconditioner_angle, const BoundarySet& boundary, double fresh_cost, bool rebuild_due) {
+  preconditioner_angle_ = preconditioner_angle;
   set_coefficients(boundary);
-  poisson_.set_coefficients(coefficient_);
   poisson_.restore(fresh_cost, rebuild_due);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // Continuity: fluxes without divergence from the predicted velocity, and the pressure that makes them so.
 //
-//   flux~ = [u* + m grad p]_f.S - m_f (S.grad p)_f + m_f (rho/dt) psi~       m = 1/(a0 rho/dt + beta): mobility, m3 s/kg
-//   div(m grad p') = div(flux~),    flux = flux~ - m_f (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
+//   flux~ = [u* + m grad p]_f.S - m (S.grad p)_f + psi~/a0       m = dt/(a0 rho): mobility, m3 s/kg
+//   m div(grad p') = div(flux~),    flux = flux~ - m (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
 //
 // [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference damps pressure that alternates from cell
 // to cell, and it is formed from cell values alone, so that a face needs no history. Cell gradients of pressure are of the Gauss form: the
@@ -38,40 +38,34 @@ class Continuity {
   /// Make the given velocity and its fluxes divergence-free; the pressure stays. Collective.
   void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient);
   /// Again after the mesh has turned, at the begin of a step: geometry, and the gradient of the pressure there. Collective.
-  void mesh_turned(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
+  void mesh_turned(Flow& flow, const BoundarySet& boundary);
   /// One pressure correction; `gradient` of velocity, for skewness. Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
 
   /// Take the divergence out of a guessed flux, [n_faces], relative to the mesh, to the intermediate tolerance. Collective.
-  void close(std::vector<double>& flux, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
+  void close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time);
 
   FluxHistory history;
   std::vector<double>
       wall_slope;  // dp/dn in force where velocity is fixed or at a symmetry, [n_faces - n_interior], Pa/m; kept in the checkpoint
 
   const Poisson& poisson() const { return poisson_; }
-  /// What the preconditioner was last set up from: mobility, [n_cells], m3 s/kg; inertia, kg/(m3 s); angle of the turning zone, rad.
-  struct PreconditionerState {
-    std::vector<double> mobility;
-    double inertia = 1, angle = 0;
-  };
-  const PreconditionerState& preconditioner() const { return preconditioner_; }
+  /// Of the turning zone when the preconditioner was last set up, rad.
+  double preconditioner_angle() const { return preconditioner_angle_; }
   /// Set the preconditioner up again (a resume), on the mesh as it was then. Collective.
-  void restore(PreconditionerState state, const BoundarySet& boundary, double fresh_cost, bool rebuild_due);
+  void restore(double preconditioner_angle, const BoundarySet& boundary, double fresh_cost, bool rebuild_due);
 
  private:
   static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b);
   void give_boundary(const Flow& flow, const BoundarySet& boundary);
-  void set_mobility(const Flow& flow, double inertia);
-  void set_face_mobility();
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void set_coefficients(const BoundarySet& boundary);
   struct Imbalance {
     double norm, rounding;  // of the cells' sums of fluxes; what round-off alone makes of it, m3/s
   };
-  Imbalance begin_correction(const std::vector<double>& flux, const BoundarySet& boundary);
-  ContinuityReport solve(Flow& flow, const BoundarySet& boundary);
+  Imbalance begin_correction(const std::vector<double>& flux);
+  ContinuityReport solve(Flow& flow);
   void note_preconditioner(const Flow& flow);
   void add_cross_flux();
   void correct_flux(std::vector<double>& flux);
@@ -81,12 +75,9 @@ class Continuity {
   ContinuitySettings settings_;
   LeastSquares squares_;
   Poisson poisson_;
-  double inertia_ = 1, inertia_over_a0_ = 1;  // a0 rho/dt, rho/dt
-  std::vector<double> mobility_;              // [n_all_cells]
-  std::vector<double> weight_;         // of the owner's pressure at a face: in proportion to the mobilities, so that m dp/dn is continuous
-  std::vector<double> face_mobility_;  // m_f, harmonic: 1/m_f = (1 - w)/m_P + w/m_N, [n_interior]
-  std::vector<double> coefficient_;    // inertia m_f c: near c, whatever the step, so that the preconditioner lasts; [n_faces]
-  PreconditionerState preconditioner_;
+  double mobility_ = 1, one_over_a0_ = 1;            // m; 1/a0
+  std::vector<double> coefficient_;                  // c, [n_faces]; 0 where the boundary gives no pressure
+  double preconditioner_angle_ = 0;                  // rad
   std::vector<double> correction_;                   // p'
   std::vector<double> given_, boundary_correction_;  // p' or its slope at the boundary as given; p' there
   std::vector<Vec3> slope_, gradient_;               // of p': least squares, Gauss

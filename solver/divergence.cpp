@@ -248,7 +248,8 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
   if (shape.quality < poor_quality || shape.non_orthogonality_deg > oblique_faces || shape.skewness > skew_faces)
     causes.push_back("the mesh is poor at this cell: refine or optimise it there (quality above " + rounded(poor_quality) +
                      ", non-orthogonality below " + rounded(oblique_faces) + " degrees, skewness below " + rounded(skew_faces) + ")");
-  if (flow.drag[found.cell] > 0) causes.push_back("a rag is in this cell: a wider [coupling] kernel_width softens its force on the water");
+  if (flow.reaction[found.cell] != Vec3{})
+    causes.push_back("a rag is in this cell: a wider [coupling] kernel_width softens its force on the water");
   const auto scheme = convection_schemes().make(settings_.convection, "[flow] convection");
   if (!scheme->is_bounded() || (scheme->is_limited() && !limiters().make(settings_.limiter, "[flow] limiter")->bounds()))
     causes.push_back("[flow] convection = \"" + settings_.convection + "\" with limiter = \"" + settings_.limiter +

@@ -119,7 +119,6 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_cells(checkpoint, "flow/pressure", mesh, flow.pressure.data(), 1);
   write_cells(checkpoint, "flow/pressure_gradient", mesh, first(flow.pressure_gradient), 3);
   write_cells(checkpoint, "flow/reaction", mesh, first(flow.reaction), 3);
-  write_cells(checkpoint, "flow/drag", mesh, flow.drag.data(), 1);
   write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
   for (const StoredField& field : turbulence_->stored()) write_cells(checkpoint, "flow/" + field.name, mesh, field.values->data(), 1);
   write_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
@@ -128,10 +127,8 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
   write_faces(checkpoint, "flow/boundary_pressure", rows, mesh, on_all_faces(mesh, flow.boundary_pressure), false);
   write_faces(checkpoint, "flow/wall_slope", rows, mesh, on_all_faces(mesh, continuity_.wall_slope), false);
-  const auto& preconditioner = continuity_.preconditioner();
-  checkpoint.shared("flow/preconditioner", std::vector<double>{preconditioner.inertia, preconditioner.angle});
+  checkpoint.shared("flow/preconditioner_angle", std::vector<double>{continuity_.preconditioner_angle()});
   watch_.save(checkpoint);
-  if (started_) write_cells(checkpoint, "flow/preconditioner_mobility", mesh, preconditioner.mobility.data(), 1);
 }
 
 void FlowSolver::load(CheckpointReader& checkpoint) {
@@ -146,7 +143,6 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   // Owned cells only: these fields have no ghosts.
   const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
   std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
-  flow.drag = checkpoint.rows("flow/drag", owned_ids(mesh), 1);
   flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
   watch_.load(checkpoint);
   if (started_) turbulence_->restore(flow, boundary_);
@@ -187,10 +183,9 @@ void FlowSolver::load_water(CheckpointReader& checkpoint) {
 
 /// On the mesh as it was when the preconditioner was set up.
 void FlowSolver::load_preconditioner(CheckpointReader& checkpoint, double fresh_cost, bool rebuild_due) {
-  const auto shared = checkpoint.shared("flow/preconditioner");
-  if (rotating_zone_ && rotating_zone_->slides()) rotating_zone_->mesh().turn(shared.at(1));
-  continuity_.restore({checkpoint.rows("flow/preconditioner_mobility", owned_ids(flow.mesh), 1), shared.at(0), shared.at(1)}, boundary_,
-                      fresh_cost, rebuild_due);
+  const double angle = checkpoint.shared("flow/preconditioner_angle").at(0);
+  if (rotating_zone_ && rotating_zone_->slides()) rotating_zone_->mesh().turn(angle);
+  continuity_.restore(angle, boundary_, fresh_cost, rebuild_due);
 }
 
 }  // namespace snag

@@ -119,14 +119,13 @@ void FlowSolver::balance_body_force() {
   const std::vector<Mat3> no_gradient(flow.velocity.size());
   const auto velocity = flow.velocity;
   const auto reaction = std::exchange(flow.reaction, std::vector<Vec3>(flow.reaction.size()));
-  const auto drag = std::exchange(flow.drag, std::vector<double>(flow.drag.size()));
   const auto values = boundary_.exchange_for_rest_state();
   for (int k = 0; k < static_correctors; ++k) {
     for (std::size_t c = 0; c < velocity.size(); ++c) flow.velocity[c] = flow.body_force - flow.pressure_gradient[c];
     continuity_.correct(flow, boundary_, unit_step, no_gradient);
   }
   boundary_.restore(values);
-  flow.velocity = velocity, flow.reaction = reaction, flow.drag = drag;
+  flow.velocity = velocity, flow.reaction = reaction;
 }
 
 /// The mesh as it is at a time, and the fields that hang on its facets.
@@ -158,7 +157,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   boundary_.update(flow, flow.time + time.dt);
   if (rotating_zone_ && rotating_zone_->slides()) {
     const double turned = seconds();
-    continuity_.mesh_turned(flow, boundary_, time);
+    continuity_.mesh_turned(flow, boundary_);
     turbulence_->mesh_turned(flow, boundary_);
     report.seconds_mesh += seconds() - turned;
   }
@@ -168,7 +167,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   // doubled from step to step.
   if (share == 0 && rotating_zone_ && rotating_zone_->slides()) {
     const double guessed = seconds();
-    continuity_.close(momentum_.guessed_flux(), flow, boundary_, time);
+    continuity_.close(momentum_.guessed_flux(), flow, time);
     report.seconds_pressure += seconds() - guessed;
   }
   continuity_.history.begin_step(momentum_.rates(), time);

@@ -184,11 +184,11 @@ void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
   }
 }
 
-/// Time derivative, drag, pressure gradient and forces; N a cell.
+/// Time derivative, pressure gradient and forces; N a cell.
 void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
   const double inertia = flow.density / time.dt;
   for (int c = 0; c < mesh_.n_cells; ++c) {
-    const double V = mesh_.cell_volume[c], a = V * (inertia * time.now + flow.drag[c]);
+    const double V = mesh_.cell_volume[c], a = V * inertia * time.now;
     diagonal_[c] = {a, a, a};
     right_side_[c] = V * (flow.reaction[c] + flow.body_force - flow.pressure_gradient[c] -
                           inertia * (time.old * flow.velocity_old[c] + time.older * flow.velocity_older[c]));

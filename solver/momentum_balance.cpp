@@ -7,7 +7,7 @@ namespace snag {
 
 Vec3 FlowSolver::momentum_given() const {
   std::vector<Vec3> given(flow.mesh.n_cells);
-  for (int c = 0; c < flow.mesh.n_cells; ++c) given[c] = flow.mesh.cell_volume[c] * (flow.reaction[c] - flow.drag[c] * flow.velocity[c]);
+  for (int c = 0; c < flow.mesh.n_cells; ++c) given[c] = flow.mesh.cell_volume[c] * flow.reaction[c];
   return sum(flow.mesh.comm, std::span<const Vec3>(given));
 }
 

@@ -4,35 +4,61 @@
 //   n: unit normal of the cloth from the bonded neighbours along and across the rows,   w_n = (w.n) n,   w_t = w - w_n
 //
 //   form "quadratic"   C_n, C_t as given: bluff plate, rough surface on both sides
-//   form "viscous"     C_n + 20.4/Re, C_t + 1.328/Re^(1/2), Re = rho |w| 2 r_p/mu: plates in creeping flow; laminar layers on both sides,
-//                      mean over a plate of the length 2 r_p, as if they began anew at each particle
+//   form "viscous"     C_n + 20.4/Re, Re = rho |w| 2 r_p/mu: disc in creeping flow;  C_t + c_f: boundary layers
 //
-// One-way C_n is the drag coefficient of a plate across the stream, 1.17. In a two-way coupling the velocity at the sheet is the resolved
-// one, and C_n is the loss coefficient K of the cloth: the pressure drop across it over 1/2 rho |w_n| w_n. A free-stream coefficient there
-// would count the blockage of the sheet twice. No measured K of a soaked wipe is known: 2 is an assumption. Above 4 the kernel's width
-// makes a plate larger than it is, and its resistance too high. Particles that have not neighbours in both directions (fibres, spheres)
-// keep the drag that they have.
+// Layers begin at the edge of the sheet from which the water comes, x before the particle along the slip; h: half of the particle's cloth
+// along the slip; x_t = Re_t nu/U:
+//
+//   c_f = (D(x + h) - D(x - h))/(2 h)
+//   D = 1.328 (x nu/U)^(1/2) + 2.67 (nu/U)^(7/8) x^(1/8)         x < x_t, laminar, with the term of the trailing edge
+//   D = D(x_t) + 0.074 (nu/U)^(1/5) (x^(4/5) - x_t^(4/5))        behind x_t, turbulent
+//
+// Two-way the velocity at the sheet is the resolved one. C_n is then the loss coefficient K of the cloth: the pressure drop across it over
+// 1/2 rho |w_n| w_n; a free-stream coefficient would count the blockage of the sheet twice. (One-way: 1.17, a plate across the stream. No
+// measured K of a soaked wipe is known: 2 is an assumption.) Two corrections for the width delta of the kernel:
+//
+//   edges    C_n = K/(1 + max(0, 1 - kappa) ((1 + K)^(1/2) - 1))^2,   kappa: coverage. What is averaged is w kappa + w_o (1 - kappa), w the
+//            velocity through the cloth, w_o that beside it, to which the pressure that drops through the cloth drives it (Bernoulli):
+//            w_o = w (1 + K)^(1/2)
+//   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2): the water that the layers of both sides hold back, D U,
+//            smeared over the kernel and the layer's own thickness, as the average sees it
+//
+// Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have.
 // Source: resistance of screens, Taylor and Batchelor (1949), Q. J. Mech. Appl. Math. 2, 1-29; plate across the flow C_n = 1.17, Hoerner
-// (1965), chapter 3; disc in creeping flow, Lamb (1932), section 339; laminar layer, Blasius (1908).
+// (1965), chapter 3; disc in creeping flow, Lamb (1932), section 339; laminar layer, Blasius (1908), trailing edge, Messiter (1970), SIAM
+// J. Appl. Math. 18, 241-257; turbulent layer, Prandtl (Schlichting, Boundary-Layer Theory, chapter XXI).
 #include <algorithm>
+#include <numbers>
 
 #include "coupling/lattice_directions.hpp"
+#include "coupling/vector_math.hpp"
 
 namespace snag {
 namespace {
 
+/// Drag of one side of a plate of the length x per width and rho U^2/2, m; `ratio` nu/U, m, `transition` Re_t.
+inline double layer_drag(double x, double ratio, double transition) {
+  const double x_t = transition * ratio, laminar = std::min(x, x_t);
+  const double sum = 1.328 * std::sqrt(laminar * ratio) + 2.67 * ratio * std::sqrt(std::sqrt(std::sqrt(laminar / ratio)));
+  return sum + 0.074 * pow(ratio, 0.2) * (pow(std::max(x, x_t), 0.8) - pow(x_t, 0.8));
+}
+
 struct SheetDrag final : FluidForce {
   static constexpr const char* name = "sheet_drag";
   static constexpr double of_plate = 1.17, of_cloth = 2;  // C_n one-way and two-way
-  double share = 1, tangential_coefficient = 0.02, chosen_coefficient = of_plate;
-  std::optional<double> normal_coefficient;
+  static constexpr double rough = 0.02;                   // C_t of form "quadratic"
+  double share = 1, chosen_coefficient = of_plate, transition_reynolds = 5e5;
+  std::optional<double> normal_coefficient, tangential_coefficient;
   std::string form = "quadratic";
+  bool is_two_way = false;
 
+  bool viscous() const { return form == "viscous"; }
   Card card() const override {
     return {.name = name,
             .equation = "F = (1 - theta) F_drag + theta (1/2 rho C_n A |w_n| w_n + rho C_t A |w_t| w_t)",
             .source = "Taylor and Batchelor (1949); Hoerner (1965)",
             .valid_for = "sheets resolved by particles",
+            .samples = {.disturbance = is_two_way && viscous(), .coverage = is_two_way},
             .role = Role::drag_replacement,
             .prior = Prior{.key = "coupling.sheet_drag.share",
                            .meaning = "share of the drag that follows the plane of the sheet",
@@ -43,39 +69,84 @@ struct SheetDrag final : FluidForce {
                            .needs = {Need::sheet}}};
   }
   std::vector<Parameter> parameters() override {
-    return {{"share", &share, "1", 0, 1, Basis::assumed, "Weight theta of the sheet law; 0: drag of the particles, 1: drag of the sheet."},
-            {"normal_coefficient", &normal_coefficient, "1", 0, 1e6, Basis::literature,
-             "C_n: one-way the drag coefficient of a plate normal to the flow, by default 1.17; two-way the loss coefficient of the cloth, "
-             "by default 2."},
-            {"tangential_coefficient", &tangential_coefficient, "1", 0, 10, Basis::assumed, "C_t: friction coefficient of one side."},
-            setting("form", &form, "quadratic: constant coefficients; viscous: with the terms of slow flow.", {"quadratic", "viscous"})};
+    return {
+        {"share", &share, "1", 0, 1, Basis::assumed, "Weight theta of the sheet law; 0: drag of the particles, 1: drag of the sheet."},
+        {"normal_coefficient", &normal_coefficient, "1", 0, 1e6, Basis::literature,
+         "C_n: one-way the drag coefficient of a plate normal to the flow, by default 1.17; two-way the loss coefficient of the cloth, "
+         "by default 2."},
+        {"tangential_coefficient", &tangential_coefficient, "1", 0, 10, Basis::assumed,
+         "C_t: friction coefficient of one side; by default 0.02, with form = \"viscous\" 0."},
+        setting("form", &form,
+                "quadratic: constant coefficients; viscous: with the boundary layers along the sheet and the term of slow flow across it.",
+                {"quadratic", "viscous"}),
+        {"transition_reynolds", &transition_reynolds, "1", 0, 1e9, Basis::literature,
+         "Re_t = U x/nu from the edge at which boundary layers become turbulent (form = \"viscous\"); 0: from the edge on, as in stirred "
+         "water."}};
   }
-  void set_coupling(bool two_way) override { chosen_coefficient = two_way ? of_cloth : of_plate; }
+  void set_coupling(bool two_way) override { chosen_coefficient = two_way ? of_cloth : of_plate, is_two_way = two_way; }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (share == 0) return;
-    const double rho = fluid.density, side = 2 * particles.rag.radius, area = side * side,
-                 C_n = normal_coefficient.value_or(chosen_coefficient), C_t = tangential_coefficient, theta = share,
-                 viscous = form == "viscous" ? 1 : 0;
-    const double per_speed = rho * side / fluid.dynamic_viscosity;
+    if (viscous())
+      add<true>(fluid, particles, forces);
+    else
+      add<false>(fluid, particles, forces);
+  }
+
+ private:
+  template <bool with_layers>
+  void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const {
+    const Tile& tile = particles.tile;
+    const double rho = fluid.density, nu = fluid.dynamic_viscosity / rho, r = particles.rag.radius, side = 2 * r, area = side * side,
+                 K = normal_coefficient.value_or(chosen_coefficient), C_t = tangential_coefficient.value_or(with_layers ? 0 : rough),
+                 theta = share, around_edge = std::sqrt(1 + K) - 1, transition = transition_reynolds;
+    const double columns = particles.rag.n_columns, rows = particles.rag.n_rows;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;
     double* slope = forces.slope;
     const LatticeDirections lattice(particles);
+    const double *covered = is_two_way ? fluid.coverage : nullptr, *width = is_two_way ? fluid.disturbance_width : nullptr;
+    for (int j = 0; j < tile.ny; ++j) {
+      const int first = tile.index(0, j);
+      const double row = tile.row + j + 0.5;
 #pragma omp simd
-    for (int p = particles.begin; p < particles.end; ++p) {
-      const Vec3 n = direction(cross(lattice.along(p), lattice.across(p)));
-      const Vec3 w = u[p] - v[p], w_n = dot(w, n) * n, w_t = w - w_n;
-      const double speed = std::sqrt(norm_squared(w)), speed_n = std::sqrt(norm_squared(w_n)), speed_t = std::sqrt(norm_squared(w_t));
-      // C |w| with C = c/Re is c mu/(rho d), and with c/Re^(1/2) it is c |w|^(1/2) (mu/(rho d))^(1/2): finite at rest.
-      const double K_n = 0.5 * rho * area * (C_n * speed_n + viscous * 20.4 / per_speed);
-      const double K_t = rho * area * (C_t * speed_t + viscous * 1.328 * std::sqrt(speed / per_speed));
-      const double b = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - b;
-      force.x[p] = rest * force.x[p] + b * (K_n * w_n.x + K_t * w_t.x);
-      force.y[p] = rest * force.y[p] + b * (K_n * w_n.y + K_t * w_t.y);
-      force.z[p] = rest * force.z[p] + b * (K_n * w_n.z + K_t * w_t.z);
-      slope[p] = rest * slope[p] + b * std::max(K_n, K_t);
+      for (int p = first; p < first + tile.nx; ++p) {
+        const Vec3 along = direction(lattice.along(p)), across = direction(lattice.across(p)), n = direction(cross(along, across));
+        const Vec3 w = u[p] - v[p], w_n = dot(w, n) * n, w_t = w - w_n;
+        const double speed_n = std::sqrt(norm_squared(w_n)), speed_t = std::sqrt(norm_squared(w_t));
+        const double beyond = covered ? std::max(0.0, 1 - covered[p]) : 0, through = 1 + beyond * around_edge;
+        double K_n = K / (through * through) * speed_n, K_t = C_t * speed_t;
+        if constexpr (with_layers) {
+          const double column = tile.column + (p - first) + 0.5, tiny = 1e-30, speed = speed_t + tiny;
+          const double a = dot(w_t, along) / speed, b = dot(w_t, across) / speed;
+          // Particles before this one, up to the edge from which the water comes.
+          const double i = (a > 0 ? column : columns - column) / (std::abs(a) + tiny),
+                       k = (b > 0 ? row : rows - row) / (std::abs(b) + tiny);
+          // The layer over the cloth of this particle: from x - half to x + half.
+          const double x = side * std::min(i, k), half = r / (std::max(std::abs(a), std::abs(b)) + tiny);
+          double U = speed;
+          if (width)
+            for (int turn = 0; turn < 3; ++turn) {
+              const double D = layer_drag(x, nu / U, transition);
+              const double q = D / std::sqrt(4 * std::numbers::pi * (width[p] * width[p] + D * D / (1.328 * 1.328)));
+              U = speed / (1 - std::min(q, 0.6));
+            }
+          const double begin = x < 1.001 * half ? 0 : x - half;  // round-off before the edge would count: D is steep there
+          const double D = layer_drag(x + half, nu / U, transition) - layer_drag(begin, nu / U, transition);
+          K_t += 0.5 * D / half * U * U / speed;
+          K_n += 20.4 * nu / side;
+        }
+        K_n *= 0.5 * rho * area, K_t *= rho * area;
+        // Both sides of the sheet are in C_t rho = 2 C_t rho/2.
+        const double here = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - here;
+        force.x[p] = rest * force.x[p] + here * (K_n * w_n.x + K_t * w_t.x);
+        force.y[p] = rest * force.y[p] + here * (K_n * w_n.y + K_t * w_t.y);
+        force.z[p] = rest * force.z[p] + here * (K_n * w_n.z + K_t * w_t.z);
+        slope[p] = rest * slope[p] + here * std::max(K_n, K_t);
+      }
     }
   }
+
+ public:
   std::vector<ReferenceCase> reference_cases() const override {
     auto broadside = drag_at(1e4, 0, 1e-12, "Hoerner (1965), chapter 3: plate across the flow, C_d = 1.17");
     const double d = broadside.state.diameter, speed = norm(broadside.state.velocity);

@@ -98,7 +98,7 @@ class Reading {
     const auto found = names.find(text);
     if (found != names.end()) return found->second;
     std::vector<std::string> known;
-    for (const auto& [name, i] : names) known.push_back(name);
+    for (const auto& [name, i] : names) known.push_back(shortened(name));
     const std::string near = nearest_name(text, known);
     throw wrong("unknown " + what + " \"" + shortened(text) + "\"" + (near.empty() ? "" : "; did you mean \"" + near + "\"?") +
                 "; DIAGNOSIS.toml has " + joined(known));

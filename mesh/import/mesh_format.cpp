@@ -65,7 +65,7 @@ std::optional<Format> format_of_content(std::string_view head, std::uintmax_t si
   if (head.find("FoamFile") != std::string_view::npos) return openfoam;
   if (is_binary_stl(head, size)) return stl;
   if (word.starts_with("-1") && word.substr(0, 40).find("\n") != std::string_view::npos) return unv;
-  if (head.substr(4).starts_with("ADF Database")) return cgns;
+  if (head.size() > 4 && head.substr(4).starts_with("ADF Database")) return cgns;
   for (const auto& [beginning, format] : beginnings)
     if (word.starts_with(beginning)) return format;
   return {};

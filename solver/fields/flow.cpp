@@ -20,7 +20,6 @@ Flow::Flow(const Mesh& m)
       turning_friction(m.n_faces - m.n_interior),
       boundary_convection(m.n_faces - m.n_interior),
       reaction(m.n_cells),
-      drag(m.n_cells),
       solid_fraction(m.n_cells) {}
 
 }  // namespace snag

@@ -1,9 +1,9 @@
 #pragma once
 // The state of the water: cell-centred fields on one mesh, incompressible.
 //
-//   rho (du/dt + div(u u)) = - grad p + div(mu (grad u + grad u^T)) + f - beta u,      div u = 0
+//   rho (du/dt + div(u u)) = - grad p + div(mu (grad u + grad u^T)) + f,      div u = 0
 //
-// f (`reaction`) and beta (`drag`) are what the rags give: N/m3 and kg/(m3 s), set by the coupling before each step and zero without rags.
+// f (`reaction`, N/m3) is what the rags give, set by the coupling before each step and zero without rags.
 #include <cstdint>
 #include <vector>
 
@@ -47,7 +47,6 @@ struct Flow {
 
   // from the rags, [n_cells]
   std::vector<Vec3> reaction;          // f
-  std::vector<double> drag;            // beta
   std::vector<double> solid_fraction;  // 1
   Vec3 body_force;                     // N/m3, uniform (periodic channels)
 };

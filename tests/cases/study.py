@@ -82,6 +82,16 @@ class Study(harness.CaseTest):
         self.assertNotIn("resumed", again.stdout)
         self.assertEqual(json.loads(summaries[1].read_text())["rags"], json.loads(text[1])["rags"])
 
+    def test_too_many_runs_are_refused(self):
+        """Seven keys of 13 values without zip are 62 million runs."""
+        vary = "".join(f'[[vary]]\nkey = "rag.0.key_{i}"\nvalues = {list(range(13))}\n' for i in range(7))
+        refused = self.study('[study]\nname = "sheets"\ncase = "case.toml"\nresults = ["wall_s"]\n' + vary, code=2)
+        self.assertIn("more than 10000 runs", refused.stderr)
+        long_key = "x" * 3000
+        refused = self.study(STUDY.format(zip="").replace("rags.7.outcome", long_key), code=2)
+        self.assertIn("which is no key of summary.json", refused.stderr)
+        self.assertNotIn("x" * 100, refused.stderr)
+
     def test_changed_study_is_refused(self):
         text = STUDY.replace("[1, 1.25]", "[1]").replace('["100 mm", "120 mm"]', '["100 mm"]').format(zip="")
         self.study(text)

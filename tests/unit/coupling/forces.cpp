@@ -198,25 +198,6 @@ TEST(Forces, FiniteWhereSolidsOverlap) {
   });
 }
 
-// Requirement: the laminar layers on both sides of a sheet along the stream give the mean friction of a plate, 1.328/Re^(1/2) on each side
-// (Blasius 1908), and not the local one at its end.
-TEST(Forces, LaminarSheetIsThePlateOfBlasius) {
-  const auto sheet = fluid_forces().make("sheet_drag", "test");
-  for (const auto& parameter : sheet->parameters()) {
-    if (parameter.key == "form") **std::get_if<std::string*>(&parameter.target) = "viscous";
-    if (parameter.key == "tangential_coefficient") **std::get_if<double*>(&parameter.target) = 0;
-  }
-  const double Re = 1000;
-  auto along = drag_at(Re, 0, 0, "Blasius (1908)");
-  const SphereState& s = along.state;
-  const double d = s.diameter, U = norm(s.velocity);
-  along.state.next_in_row = {d, 0, 0}, along.state.next_row = {0, d, 0};
-  const double both_sides = 2 * 1.328 / std::sqrt(Re) * 0.5 * s.fluid_density * U * U * d * d;
-  const Vec3 force = load_on_sphere(*sheet, along.state).force;
-  EXPECT_NEAR(force.x, both_sides, 1e-12 * both_sides);
-  EXPECT_LT(std::hypot(force.y, force.z), 1e-12 * both_sides);
-}
-
 // Requirement: only forces are spread to the water: a model that gives a couple and no force does not say that the water feels it. Nor does
 // the water feel what carries the water that the particle displaces, for its inertia is in the equation of the water.
 TEST(Forces, SilentAreThoseThatTheWaterDoesNotFeel) {

@@ -54,6 +54,10 @@ TEST(MeshReaders, UnknownFormat) {
   EXPECT_NE(message.find("begins with \"hello\""), std::string::npos) << message;
   EXPECT_NE(message.find(readable_mesh_formats()), std::string::npos) << message;
   EXPECT_NE(message.find(".msh"), std::string::npos) << message;
+  for (const char* word : {"x", "xyz", "abcd", "    "}) {  // shorter than the first words of the formats
+    std::ofstream(file.path()) << word;
+    EXPECT_FALSE(refusal(file.path(), ExitCode::mesh).empty());
+  }
 }
 
 // Requirement: a mesh is read whatever the ending of its name, since its first bytes show the format.

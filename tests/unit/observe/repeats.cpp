@@ -118,6 +118,9 @@ TEST(Repeats, Refused) {
   refused("group,area [m2]\na,1\na,2,3\n", ":3: 3 fields");
   refused("point,area [m2]\na,1\n", "no column \"group\"");
   refused("group,rag\na,1\n", "no column of values");
+  const std::string long_name(3000, 'x');
+  EXPECT_LT(Table("point" + long_name + ",area [m2]\na,1\n").refusal().size(), 1000u) << "a long name is cut";
+  EXPECT_LT(Table("group,area [m2]\n" + long_name + ",1\n" + long_name + ",1\n").refusal().size(), 1000u);
   refused("group,orientation [rad]\na,1\n", "in degrees");
   refused("group,area,area\na,1,2\n", "is given twice");
   refused("", "is empty");

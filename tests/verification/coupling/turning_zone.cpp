@@ -46,7 +46,7 @@ TEST_P(SolidBodyRotation, AcceleratesTowardsTheAxis) {
     pieces.push_back(make_piece(settings, "test"));
   }
   const RagSystem rags(MPI_COMM_WORLD, {}, pieces);
-  KernelField field(flow, kernel, rags.rags(), false);
+  KernelField field(flow, kernel, rags.rags(), nullptr);
   if (GetParam().begun) field.set_last_step(dt);
   field.sample(rags.tiles(), {.material_acceleration = true});
   EXPECT_EQ(kernel.n_outside(), 0);

@@ -35,7 +35,7 @@ struct Duct {
   explicit Duct(MPI_Comm comm, bool sharp = true)
       : mesh(tetrahedral_box(comm, {.upper = {2, 1, 1}, .distortion = 0.15}, {8, 4, 5})), solver(mesh, settings(sharp), conditions(duct)) {
     for (int c = 0; c < mesh.n_cells; ++c)
-      if (norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) < 0.3) solver.flow.drag[c] = 100;
+      if (norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) < 0.3) solver.flow.reaction[c] = {-60, 0, 5};
   }
   static FlowSettings settings(bool sharp) {
     FlowSettings chosen = sharp_settings();

@@ -1,0 +1,55 @@
+"""Meshes of hexahedra that are fine around the origin and grow from there: for bodies in a wide stream."""
+import numpy
+
+
+def axis(lower, upper, fine, size, growth):
+    """Nodes: steps of `size` in the interval `fine`, growing outwards by `growth`."""
+
+    def outwards(start, end):
+        nodes, sign, step = [], numpy.sign(end - start), size
+        while True:
+            step *= growth
+            start += sign * step
+            if sign * (end - start) < 0.6 * step:
+                return [*nodes, end]
+            nodes.append(start)
+
+    middle = numpy.linspace(*fine, round((fine[1] - fine[0]) / size) + 1)
+    return numpy.array([*reversed(outwards(fine[0], lower)), *middle, *outwards(fine[1], upper)])
+
+
+def write(file, nodes, hole=None):
+    """A mesh in MSH 2.2 of the box between the nodes of the three axes, patches x0, x1, y0, y1, z0, z1. `hole`: three intervals; the cells with their centres in
+    all of them are left out, behind the patch plate. Returns the number of cells."""
+    shape = [len(n) - 1 for n in nodes]
+    inside = [(n[1:] + n[:-1]) / 2 for n in nodes]
+    solid = numpy.zeros(shape, bool)
+    if hole:
+        marks = [(c > lower) & (c < upper) for c, (lower, upper) in zip(inside, hole)]
+        solid = marks[0][:, None, None] & marks[1][None, :, None] & marks[2][None, None, :]
+    number = 1 + numpy.arange(numpy.prod([len(n) for n in nodes])).reshape([len(n) for n in nodes], order="F")
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+    faces = {"x0": (0, 4, 7, 3), "x1": (1, 2, 6, 5), "y0": (0, 1, 5, 4), "y1": (3, 7, 6, 2), "z0": (0, 3, 2, 1), "z1": (4, 5, 6, 7)}
+    patches = [*faces, *(["plate"] if hole else [])]
+    i, j, k = (index.ravel(order="F") for index in numpy.indices(shape))
+    vertices = numpy.stack([number[i + a, j + b, k + c] for a, b, c in corners], axis=1)
+    cells = ~solid[i, j, k]
+    lines = [f"5 2 9 9 {' '.join(map(str, v))}" for v in vertices[cells]]
+    around = numpy.pad(solid, 1, constant_values=False)
+    for side, (name, face) in enumerate(faces.items()):
+        step = [0, 0, 0]
+        step[side // 2] = 2 * (side % 2) - 1
+        beyond = [index + s for index, s in zip((i, j, k), step)]
+        at_end = (beyond[side // 2] < 0) | (beyond[side // 2] >= shape[side // 2])
+        at_plate = around[beyond[0] + 1, beyond[1] + 1, beyond[2] + 1]
+        for patch, chosen in ((name, cells & at_end), ("plate", cells & at_plate)):
+            lines += [f"3 2 {patches.index(patch) + 1} {patches.index(patch) + 1} {' '.join(map(str, v))}" for v in vertices[chosen][:, face]]
+    with open(file, "w") as text:
+        names = "".join(f'2 {n + 1} "{patch}"\n' for n, patch in enumerate(patches))
+        text.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(patches) + 1}\n{names}3 9 "water"\n$EndPhysicalNames\n$Nodes\n{number.size}\n')
+        places = numpy.stack(numpy.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3, order="F")
+        text.writelines(f"{n + 1} {x:.12g} {y:.12g} {z:.12g}\n" for n, (x, y, z) in enumerate(places))
+        text.write(f"$EndNodes\n$Elements\n{len(lines)}\n")
+        text.writelines(f"{n + 1} {line}\n" for n, line in enumerate(lines))
+        text.write("$EndElements\n")
+    return int(cells.sum())

@@ -1,0 +1,146 @@
+# timeout: 900
+# cost: 45
+"""Requirement: a sheet in a two-way coupling does to the water what its loss coefficient says: a nearly closed one drags like a rigid plate, a porous one as the theory of screens says, and one that
+is free is carried off with its added mass; none of it depends on kernel width or step."""
+import graded_box
+import harness
+import numpy
+
+SIDE, SPEED, DENSITY = 0.1, 1.0, 1000.0  # m, m/s, kg/m3
+SIZE = 0.0125  # of the cells at the plate, m
+ADDED_MASS = 0.478 * numpy.pi / 4 * DENSITY * SIDE**3  # of a square plate, kg: Brennen (1982), A review of added mass and fluid inertial forces, table of flat plates
+
+STREAM = """
+[case]
+name = "plate-across"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = {end}
+step_s = {step}
+[flow]
+density_kg_m3 = 1000
+dynamic_viscosity_Pa_s = 0.1
+initial_velocity_m_s = [1, 0, 0]
+[turbulence]
+model = "laminar"
+[[boundary]]
+patch = "x0"
+kind = "velocity_inlet"
+velocity_m_s = [1, 0, 0]
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["y0", "y1", "z0", "z1"]
+kind = "symmetry"
+[output]
+report = false
+"""
+PLATE = """
+[[boundary]]
+patch = "plate"
+kind = "wall"
+"""
+SHEET = """
+[[rag]]
+length_mm = 100
+width_mm = 100
+radius_mm = {radius_mm}
+centre_m = [0, 0, 0]
+lengthwise = [0, 1, 0]
+crosswise = [0, 0, 1]
+mass_per_area_kg_m2 = {mass}
+properties = "custom"
+normal_stiffness_lengthwise_N_m3 = 1.22e8
+normal_stiffness_crosswise_N_m3 = 6.78e7
+bending_stiffness_lengthwise_N_m3 = 1.55e6
+bending_stiffness_crosswise_N_m3 = 1.40e5
+tangential_stiffness_lengthwise_N_m3 = 2.92e5
+tangential_stiffness_crosswise_N_m3 = 2.92e5
+[coupling]
+mode = "two_way"
+kernel = "{kernel}"
+{width}
+forces = ["sheet_drag"]
+[coupling.sheet_drag]
+normal_coefficient = {K}
+tangential_coefficient = 0
+"""
+
+
+class SheetInAStream(harness.CaseTest):
+    """`mass`: 1e7 kg/m2 stand still."""
+
+    def stream(self, size=SIZE, hole=False):
+        file = self.shared / f"stream-{size}{'-plate' if hole else ''}.msh"
+        if not file.exists():
+            along = graded_box.axis(-0.5, 1.3, (-4 * size, 0.15), size, 1.25)
+            across = graded_box.axis(-0.5, 0.5, (-0.075, 0.075), size, 1.25)
+            half = (-SIDE / 2, SIDE / 2)
+            graded_box.write(file, (along, across, across), ((-size, 0), half, half) if hole else None)
+        return file
+
+    def coefficient(self, run, column):
+        """Drag over that of the plate's area times the dynamic pressure, and the times."""
+        monitor = run.monitor("coupling" if column.startswith("force_on") else "patches")
+        return monitor.column("time [s]"), monitor.column(column) / (0.5 * DENSITY * SPEED**2 * SIDE**2)
+
+    def plate(self, end, step=0.006, size=SIZE):
+        return self.coefficient(self.run_once(self.case(STREAM.format(mesh=self.stream(size, True), end=end, step=step) + PLATE, f"plate-{size}-{end}"), 1), "plate_force_x [N]")
+
+    def sheet(self, K, delta, end, step=0.006, size=SIZE, kernel="gaussian", mass=1e7, radius=2.5e-3):
+        width = f"kernel_width_m = {delta}" if kernel != "cell" else ""
+        text = STREAM.format(mesh=self.stream(size), end=end, step=step) + SHEET.format(K=K, width=width, kernel=kernel, mass=mass, radius_mm=1e3 * radius)
+        return self.run_once(self.case(text, f"sheet-{K}-{delta}-{end}-{step}-{size}-{kernel}-{mass}-{radius}"), 1)
+
+    def sheet_drag(self, *arguments, **keys):
+        return self.coefficient(self.sheet(*arguments, **keys), "force_on_rags_x [N]")
+
+    def mean(self, series, begin, end):
+        time, value = series
+        return value[(time > begin) & (time <= end)].mean()
+
+    def assert_smooth(self, series, begin):
+        """No ringing: the force changes by less than 2 % of itself from step to step."""
+        time, value = series
+        value = value[time > begin]
+        self.assertLess(numpy.abs(numpy.diff(value) / value[1:]).max(), 0.02)
+
+    def speed(self, time, **keys):
+        """Of a free sheet as heavy as its added mass, released at rest in the stream, m/s."""
+        run = self.sheet(1000, 0.012, mass=ADDED_MASS / SIDE**2, **keys)
+        rags = run.monitor("rags")
+        return float(numpy.interp(time, rags.column("time [s]"), rags.column("vx [m/s]")))
+
+
+class PlateAcross(SheetInAStream):
+    def test_nearly_closed_sheet_drags_like_a_plate(self):
+        for begin, end in ((0.24, 0.48), (0.48, 0.96)):
+            rigid = self.mean(self.plate(0.96), begin, end)
+            for delta in (0.006, 0.012):
+                sheet = self.sheet_drag(1000, delta, 0.96)
+                self.assert_smooth(sheet, 0.15)
+                print(f"  {begin} to {end} s, kernel {1e3 * delta:g} mm: {self.mean(sheet, begin, end):.3f}, rigid plate {rigid:.3f}")
+                self.assertLess(abs(self.mean(sheet, begin, end) / rigid - 1), 0.10)
+
+    def test_porous_sheet(self):
+        """Taylor (1944): C_D = K/(1 + K/4)^2."""
+        drag = self.mean(self.sheet_drag(1, 0.012, 0.6), 0.45, 0.6)
+        print(f"  K 1: {drag:.3f}, theory 0.640")
+        self.assertLess(abs(drag / 0.64 - 1), 0.08)
+
+    def test_free_sheet_is_carried_with_its_added_mass(self):
+        """Water in motion meets a sheet at rest that is as heavy as its added mass: both share the momentum, u/2, before drag does more."""
+        at_once, drag = self.speed(0.008, end=0.048, step=0.004), []
+        print(f"  speed after 8 ms {at_once:.3f} m/s, exact before drag 0.5")
+        self.assertLess(abs(at_once / 0.5 - 1), 0.10)
+        fine = self.speed(0.008, end=0.048, step=0.0005)
+        print(f"  with an eighth of the step {fine:.3f} m/s")
+        self.assertLess(abs(at_once / fine - 1), 0.05)
+        for time in (0.02, 0.048):
+            self.assertLess(abs(self.speed(time, end=0.048, step=0.004) / self.speed(time, end=0.048, step=0.0005) - 1), 0.03)
+
+
+if __name__ == "__main__":
+    harness.main()

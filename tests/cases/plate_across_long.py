@@ -1,0 +1,47 @@
+# labels: long
+# timeout: 7200
+# cost: 3000
+"""Requirement: plate_across.py for more kernels, widths, meshes, steps, particles and loss coefficients, over 30 times the plate's side over the speed."""
+import harness
+import plate_across
+
+
+class PlateAcrossLong(plate_across.SheetInAStream):
+    def compare(self, what, value, expected, tolerance):
+        print(f"  {what}: {value:.3f}, expected {expected:.3f}, off by {100 * (value / expected - 1):+.1f} %", flush=True)
+        with self.subTest(what):
+            self.assertLess(abs(value / expected - 1), tolerance)
+
+    def test_nearly_closed_sheet(self):
+        rigid = self.mean(self.plate(3), 1, 3)
+        for delta, tolerance in ((0.006, 0.10), (0.012, 0.10), (0.024, 0.20)):
+            self.compare(f"K 1000, kernel {1e3 * delta:g} mm, 1 to 3 s", self.mean(self.sheet_drag(1000, delta, 3), 1, 3), rigid, tolerance)
+        for name, keys in {"wendland": {"kernel": "wendland"}, "a quarter of the step": {"step": 0.0015}, "four times the step": {"step": 0.024}, "particles of 1.25 mm": {"radius": 1.25e-3}, "K 1e5": {"K": 1e5}}.items():
+            K = keys.pop("K", 1000)
+            self.compare(f"K {K:g}, {name}, 0.48 to 0.96 s", self.mean(self.sheet_drag(K, 0.012, 0.96, **keys), 0.48, 0.96), self.mean(self.plate(3), 0.48, 0.96), 0.15)
+
+    def test_finer_mesh(self):
+        rigid = self.mean(self.plate(2, 0.004, 0.00625), 0.5, 2)
+        for delta in (0.006, 0.012):
+            self.compare(f"K 1000, kernel {1e3 * delta:g} mm, cells of 6.25 mm, 0.5 to 2 s", self.mean(self.sheet_drag(1000, delta, 2, 0.004, 0.00625), 0.5, 2), rigid, 0.10)
+
+    def test_narrowest_kernel(self):
+        """One cell: any loss coefficient is stable."""
+        for K in (1000, 1e5):
+            drag = self.sheet_drag(K, 0, 0.96, kernel="cell")
+            self.assert_smooth(drag, 0.15)
+            print(f"  cell kernel, K {K:g}: {self.mean(drag, 0.48, 0.96):.3f}, rigid plate {self.mean(self.plate(0.96), 0.48, 0.96):.3f}")
+
+    def test_porous_sheets(self):
+        """Taylor (1944): C_D = K/(1 + K/4)^2 up to K 2; at K 4 between 1.00 and 1.17."""
+        for K, expected in ((0.5, 0.395), (1, 0.640), (2, 0.889)):
+            for delta in (0.006, 0.012, 0.024):
+                self.compare(f"K {K}, kernel {1e3 * delta:g} mm", self.mean(self.sheet_drag(K, delta, 1.2), 0.9, 1.2), expected, 0.08)
+        for delta in (0.006, 0.012):
+            drag = self.mean(self.sheet_drag(4, delta, 1.2), 0.9, 1.2)
+            print(f"  K 4, kernel {1e3 * delta:g} mm: {drag:.3f}")
+            self.assertTrue(1.00 < drag < 1.17, drag)
+
+
+if __name__ == "__main__":
+    harness.main()
