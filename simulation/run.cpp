@@ -131,6 +131,8 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   for (const std::string& line : rag_assumptions(CaseFile::parse(file.resolved()))) log::info("assumed: " + line);
   if (simulation.poses)
     for (const std::string& line : simulation.poses->lines()) log::info(line);
+  if (simulation.holds)
+    for (const std::string& line : simulation.holds->lines()) log::info(line);
   if (simulation.coupled && simulation.mesh) {
     for (const std::string& warning :
          kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))

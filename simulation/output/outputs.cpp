@@ -34,6 +34,18 @@ std::vector<Column<WaterRecord>> residual_columns() {
           {"continuity_global", "m3/s", [](Record r) { return r.step.continuity_global; }}};
 }
 
+std::vector<Column<HoldReaction>> hold_columns() {
+  using Record = const HoldReaction&;
+  std::vector<Column<HoldReaction>> all{{"time", "s", [](Record r) { return r.time; }},
+                                        {"hold", "1", [](Record r) { return static_cast<double>(r.hold); }},
+                                        {"rag", "1", [](Record r) { return static_cast<double>(r.rag); }},
+                                        {"particles", "1", [](Record r) { return static_cast<double>(r.n_particles); }}};
+  add_components(all, "", "", "m", [](Record r) { return r.point; });
+  add_components(all, "force_", "", "N", [](Record r) { return r.force; });
+  add_components(all, "moment_", "", "N m", [](Record r) { return r.moment; });
+  return all;
+}
+
 std::vector<Column<PatchRecord>> patch_columns(const Mesh& mesh) {
   using Record = const PatchRecord&;
   std::vector<Column<PatchRecord>> all{{"time", "s", [](Record r) { return r.time; }}};
@@ -135,6 +147,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
       if (!walls_with_y_plus_.empty()) open(wall_, "wall.csv", wall_columns(*simulation.mesh, walls_with_y_plus_));
     }
     if (simulation.rags) open(silhouettes_, "silhouettes.csv", silhouette_columns());
+    if (simulation.holds) open(holds_, "holds.csv", hold_columns());
     if (simulation.coupled) open(coupling_, "coupling.csv", CoupledSolver::columns());
   });
   const std::shared_ptr<const FieldWriter> writer = field_writers().make(simulation.output_settings.format, "[output] format");
@@ -203,6 +216,9 @@ void Outputs::write_monitors() {
   if (simulation_.rags) {
     forces_ = rag_forces(*simulation_.rags, simulation_.coupled.get(), simulation_.time_settings.step);
     rag_monitors_->after_step(*simulation_.rags, *simulation_.passage, forces_, time);
+    if (simulation_.holds)
+      for (const HoldReaction& reaction : simulation_.holds->reactions(*simulation_.rags, time))
+        if (root) holds_.add(reaction);
   }
   if (simulation_.coupled) {
     largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
@@ -222,8 +238,8 @@ Effort Outputs::effort() const {
 }
 
 std::vector<const Series*> Outputs::series() const {
-  std::vector<const Series*> all{&residuals_.series(),   &patches_.series(),  &wall_.series(),
-                                 &silhouettes_.series(), &coupling_.series(), &timing_.series()};
+  std::vector<const Series*> all{&residuals_.series(), &patches_.series(), &wall_.series(), &silhouettes_.series(),
+                                 &coupling_.series(),  &timing_.series(),  &holds_.series()};
   const auto append = [&](const std::vector<const Series*>& more) { all.insert(all.end(), more.begin(), more.end()); };
   if (rag_monitors_) append(rag_monitors_->series());
   if (pump_) append(pump_->series());

@@ -98,6 +98,7 @@ class Outputs {
   Monitor<SilhouetteRecord> silhouettes_;
   Monitor<CouplingReport> coupling_;
   Monitor<EffortRecord> timing_;
+  Monitor<HoldReaction> holds_;
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<WallOutput> walls_;
   std::unique_ptr<RagMonitors> rag_monitors_;

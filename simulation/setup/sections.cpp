@@ -3,6 +3,7 @@
 #include "coupling/coupling_settings.hpp"
 #include "coupling/prescribed_field.hpp"
 #include "dem/contacts/contact_settings.hpp"
+#include "dem/holds.hpp"
 #include "dem/templates/rag_settings.hpp"
 #include "dem/walls/walls.hpp"
 #include "observe/passage/passage_geometry.hpp"
@@ -30,6 +31,7 @@ struct AllSections::Settings {
   PrescribedFlow prescribed;
   RagSettings rag{RagSettings::Shape::rag}, disc{RagSettings::Shape::disc}, fibre{RagSettings::Shape::fibre},
       particle{RagSettings::Shape::particle};
+  HoldSettings hold;
   DemSettings dem;
   ContactSettings contact;
   WallSettings wall;
@@ -51,7 +53,7 @@ std::vector<Section> AllSections::list() {
   append({s.start.section(), s.pump.section(), s.passage.section(), s.prescribed.section(), s.rag.section(), s.disc.section(),
           s.fibre.section(), s.particle.section()});
   append(bond_law_sections());
-  append({s.dem.section()});
+  append({s.hold.section(), s.dem.section()});
   append({{"contact", "Contacts of particles that are not bonded to each other, and with walls.", s.contact.parameters()},
           {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
            s.wall.parameters(), true}});

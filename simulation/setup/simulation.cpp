@@ -192,6 +192,7 @@ void Simulation::couple(const CaseFile& file) {
     rags->set_gravity(gravity);
   }
   if (coupled) coupled->set_walls(walls);
+  if (file.root().has("hold")) holds = std::make_unique<Holds>(file.root(), *rags, coupled ? Vec3{} : gravity);
   speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), impact_speed_);
   if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
 }
@@ -218,6 +219,7 @@ void Simulation::step() {
   const double begun = MPI_Wtime();
   // At the beginning of a step: what the last one left behind for the outputs belongs to the rags that were there.
   if (rags && time_step_ > 0) remove_rags(), insert_rags();
+  if (holds) holds->apply(*rags, time());
   if (coupled) {
     coupled->step(time_settings.step);
   } else if (water) {

@@ -5,6 +5,7 @@
 
 #include "base/case_file.hpp"
 #include "coupling/coupled_solver.hpp"
+#include "dem/holds.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/walls/walls.hpp"
 #include "mesh/quality.hpp"
@@ -80,6 +81,7 @@ class Simulation {
   std::optional<PumpSettings> pump;  // of a case with a rotating zone
   std::unique_ptr<RagPoses> poses;
   std::unique_ptr<RagSystem> rags;
+  std::unique_ptr<Holds> holds;  // none if no particle is held
   std::unique_ptr<CoupledSolver> coupled;
   std::unique_ptr<Passage> passage;
   StepReport flow_report;  // of the last step
