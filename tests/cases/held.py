@@ -6,6 +6,7 @@ import harness
 import numpy
 from harness import particles
 from small_cases import SMALL_SHEETS, TWO_SHEETS
+from tutorials import documented_columns
 
 GRAVITY = 9.81  # m/s2
 MASS = 0.785 * 0.002**2  # of a particle of the strip, kg
@@ -103,6 +104,7 @@ class Held(harness.CaseTest):
     def test_without_water_a_wholly_held_rag_weighs_on_its_hold(self):
         run = self.run_case(self.strip("velocity_m_s = [1, 2, 3]\ncopies = 2\ncopy_step_m = [0, 0.02, 0]\n[[hold]]\nrows = [0, 2]\n"))
         self.assertEqual(list(run.monitor("holds").column("rag")), [0, 1] * 2)
+        self.assertEqual({f"{name} [{unit}]" for name, unit in documented_columns()["holds"].items()}, set(run.monitor("holds").columns))
         for force, moment in zip(self.reaction(run, "force"), self.reaction(run, "moment")):
             self.assertLess(numpy.abs(force - [0, 0, N * ROWS * MASS * GRAVITY]).max(), 1e-12)
             self.assertLess(numpy.abs(moment).max(), 1e-12)
