@@ -2,7 +2,6 @@
 // What the particles took in one step is given to the water, with the weights by which they saw it:
 //
 //   f_c = 1/V_c sum_b w_bc (-J_b/dt)      so that  sum_b J_b + dt sum_c V_c f_c = 0
-//
 #include "coupling/kernel.hpp"
 #include "solver/fields/flow.hpp"
 

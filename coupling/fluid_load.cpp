@@ -64,8 +64,8 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
   const double m = rag.mass;
   const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(slope_sum), *added_mass = array(added_mass_sum);
   const double *none = array(zero), *d = fluid.response ? fluid.response : none;
-  const double* rate[] = {d == none ? none : fluid.velocity_rate.x, d == none ? none : fluid.velocity_rate.y,
-                          d == none ? none : fluid.velocity_rate.z};
+  const VectorArray r_of = fluid.response ? fluid.velocity_rate : VectorArray{none, none, none};
+  const double* rate[] = {r_of.x, r_of.y, r_of.z};
   double *phi = array(relaxation), *driven = array(chi), *slopes = sums_.field(index, slope_integral);
   for (int j = 0; j < tile.ny; ++j) {
     const int first = tile.index(0, j), end = first + tile.nx;

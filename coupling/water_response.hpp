@@ -1,17 +1,18 @@
 #pragma once
-// How the water at a particle answers to forces within one step of the flow, before the flow solver knows of them.
+// Prediction of the water at a particle within one step of the flow, before the flow solver makes the step.
 //
-// The flow's step with its time scheme (now, old, older) is   (now u^(n+1) + old u^n + older u^(n-1))/dt = r + f/rho.   With the same
-// equation of the step before, all that moved the water but the rags, r, is known in every cell, so that
+// The time scheme (now, old, older) of the flow gives   (now u^(n+1) + old u^n + older u^(n-1))/dt = r + f/rho.   f is the reaction of the
+// rags; r is everything else that changes the velocity. The last step gives r in every cell, and with it
 //
-//   change:    u* - u^n,   u* = (dt r - old u^n - older u^(n-1))/now       without any force of the rags in this step
-//   response:  d_b = (A S^T 1)_b/(now rho)                                 lost velocity per impulse of the particle, 1/kg
+//   change:    u* - u^n,   u* = (dt r - old u^n - older u^(n-1))/now       velocity at the end of the step without a force of the rags
+//   response:  d_b = (A S^T 1)_b/(now rho)                                 velocity that the water loses per impulse of the particle, 1/kg
 //
-// A: average to the particles, S^T: spreading to the cells (coupling/kernel.hpp). 1/d_b is the mass of the water that a particle shares
-// with its neighbours: 44.5 rho delta^3 for one alone, 3.54 rho delta times the area of a particle in a flat sheet. Particles that feel
-// u^n + (u* - u^n) t/dt - d_b J_b(t), J_b the impulse up to then, and give J_b to the water, are stable for any resistance, kernel and
-// step: A S^T is symmetric without negative entries, so that its sums of rows bound it, and the pressure of the flow takes away
-// from the answer only. A steady state does not depend on d_b.
+// A averages to the particles, S^T spreads to the cells (coupling/kernel.hpp). 1/(now d_b) is the mass of water that a particle shares with
+// its neighbours: 44.5 rho delta^3 for a particle by itself, 3.54 rho delta per area of cloth in a flat sheet.
+//
+// A particle feels u^n + (u* - u^n) t/dt - d_b J_b(t), where J_b is its impulse since the start of the step. The scheme is stable for any
+// resistance, kernel and step: A S^T is symmetric and has no negative entry, so that the diagonal matrix of its row sums is an upper bound
+// of it, and the pressure of the flow makes the answer smaller. A steady state does not depend on d_b.
 #include <vector>
 
 #include "coupling/kernel.hpp"

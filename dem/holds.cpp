@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/quotation.hpp"
 #include "base/words.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "parallel/sum.hpp"
@@ -31,7 +32,7 @@ Range range_of(const std::vector<double>& given, const char* key, int n, const R
   if (given.size() != 2 || !is_place(given[0]) || !is_place(given[1]) || given[0] > given[1]) {
     std::string text;
     for (const double value : given) text += (text.empty() ? "" : ", ") + words(value);
-    throw Error(ExitCode::usage, where + " " + key + " = [" + text + "] of " + rag.name +
+    throw Error(ExitCode::usage, where + " " + key + " = [" + shortened(text) + "] of " + rag.name +
                                      ": must be the first and the last of whole numbers from 0 to " + std::to_string(n - 1) +
                                      "; correct it, or name another piece in `rag`");
   }
@@ -93,7 +94,7 @@ Holds::Holds(const Table& root, const RagSystem& rags, const Vec3& gravity) : gr
         select(static_cast<int>(settings_.size()) - 1, where, rags, static_cast<int>(r), all_where);
     }
     if (places_.size() == n_before)
-      throw Error(ExitCode::usage, where + " rag = \"" + hold.rag + "\": must name a piece of the case; known: " + known);
+      throw Error(ExitCode::usage, where + " rag = \"" + shortened(hold.rag) + "\": must name a piece of the case; known: " + known);
   }
 }
 

@@ -22,7 +22,7 @@ namespace snag {
 namespace {
 
 const MPI_Comm world = MPI_COMM_WORLD;
-constexpr std::size_t most_runs = 10'000;
+constexpr std::size_t most_runs = 10'000;  // of all combinations: more are a forgotten zip = true, and would fill the memory
 
 /// As short as it is exact.
 std::string written(double value) {

@@ -121,12 +121,11 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const double w = mesh_.weight[f];
-    const Vec3& S = mesh_.face_vector[f];
     double flux = interpolated_flux(mesh_, f, blend(w, u[P], u[N]), gradient);
     if (with_pressure) {
       const Vec3& d = mesh_.delta[f];
       // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
-      flux += mobility_ * conductance(S, d) * (dot(blend(w, g[P], g[N]), d) - (flow.pressure[N] - flow.pressure[P])) +
+      flux += mobility_ * coefficient_[f] * (dot(blend(w, g[P], g[N]), d) - (flow.pressure[N] - flow.pressure[P])) +
               one_over_a0_ * history.inherited()[f];
     }
     flow.flux[f] = flux;
@@ -144,11 +143,11 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
       } else if (fixes == Fixes::symmetry) {
         flow.flux[f] = flow.mesh_flux[f];
       } else {
-        const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
+        const Vec3 &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
         flow.flux[f] = leaving_flux(mesh_, f, flow.velocity[P], gradient[P]);
         // S.g - [c (p_b - p_P) + T.g] = c (d.g - (p_b - p_P))
         if (with_pressure)
-          flow.flux[f] += mobility_ * conductance(S, d) * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) +
+          flow.flux[f] += mobility_ * coefficient_[f] * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) +
                           one_over_a0_ * history.inherited()[f];
       }
     }
@@ -227,7 +226,7 @@ void Continuity::add_cross_flux() {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d);
+    const double w = mesh_.weight[f], c = coefficient_[f];
     const double cross = dot(S - c * d, blend(w, gradient_[P], gradient_[N]));
     right_side_[P] += cross;
     right_side_[N] -= cross;
@@ -236,7 +235,7 @@ void Continuity::add_cross_flux() {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    right_side_[P] += coefficient_[f] * given_[f - mesh_.n_interior] + dot(S - conductance(S, d) * d, gradient_[P]);
+    right_side_[P] += coefficient_[f] * given_[f - mesh_.n_interior] + dot(S - coefficient_[f] * d, gradient_[P]);
   }
 }
 
@@ -245,14 +244,14 @@ void Continuity::correct_flux(std::vector<double>& flux) {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = conductance(S, d);
+    const double w = mesh_.weight[f], c = coefficient_[f];
     flux[f] -= mobility_ * (c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, gradient_[P], gradient_[N])));
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
     const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double c = conductance(S, d);
+    const double c = coefficient_[f];
     flux[f] -= mobility_ * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
   }
 }

@@ -15,15 +15,16 @@
 //
 // Two-way the velocity at the sheet is the resolved one. C_n is then the loss coefficient K of the cloth: the pressure drop across it over
 // 1/2 rho |w_n| w_n; a free-stream coefficient would count the blockage of the sheet twice. (One-way: 1.17, a plate across the stream. No
-// measured K of a soaked wipe is known: 2 is an assumption.) Two corrections for the width delta of the kernel:
+// measured K of a soaked wipe is known: 2 is an assumption.) Two corrections take the width delta of the kernel into account:
 //
-//   edges    C_n = K/(1 + max(0, 1 - kappa) ((1 + K)^(1/2) - 1))^2,   kappa: coverage. What is averaged is w kappa + w_o (1 - kappa), w the
-//            velocity through the cloth, w_o that beside it, to which the pressure that drops through the cloth drives it (Bernoulli):
-//            w_o = w (1 + K)^(1/2)
-//   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2): the water that the layers of both sides hold back, D U,
-//            smeared over the kernel and the layer's own thickness, as the average sees it
+//   edges    C_n = K/(1 + max(0, 1 - kappa) ((1 + K)^(1/2) - 1))^2,   kappa: coverage. Near an edge the kernel averages water that passes
+//            through the cloth with the velocity w, and water that passes beside the cloth with the velocity w_o: w_n = w kappa + w_o (1 -
+//            kappa). The pressure drop of the cloth accelerates the water beside the cloth to w_o = w (1 + K)^(1/2) (Bernoulli's equation).
+//   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2). The boundary layers of both sides slow the water that the
+//            kernel averages. Their deficit, D U, is distributed over the widths of the kernel and of the layers. q is at most 0.375.
 //
-// Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have.
+// Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have. The edge of a disc is that of its
+// lattice, the square around it; a tear is no edge.
 // Source: resistance of screens, Taylor and Batchelor (1949), Q. J. Mech. Appl. Math. 2, 1-29; plate across the flow C_n = 1.17, Hoerner
 // (1965), chapter 3; disc in creeping flow, Lamb (1932), section 339; laminar layer, Blasius (1908), trailing edge, Messiter (1970), SIAM
 // J. Appl. Math. 18, 241-257; turbulent layer, Prandtl (Schlichting, Boundary-Layer Theory, chapter XXI).
@@ -128,7 +129,7 @@ struct SheetDrag final : FluidForce {
             for (int turn = 0; turn < 3; ++turn) {
               const double D = layer_drag(x, nu / U, transition);
               const double q = D / std::sqrt(4 * std::numbers::pi * (width[p] * width[p] + D * D / (1.328 * 1.328)));
-              U = speed / (1 - std::min(q, 0.6));
+              U = speed / (1 - q);
             }
           const double begin = x < 1.001 * half ? 0 : x - half;  // round-off before the edge would count: D is steep there
           const double D = layer_drag(x + half, nu / U, transition) - layer_drag(begin, nu / U, transition);

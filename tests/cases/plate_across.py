@@ -70,8 +70,6 @@ tangential_coefficient = 0
 
 
 class SheetInAStream(harness.CaseTest):
-    """`mass`: 1e7 kg/m2 stand still."""
-
     def stream(self, size=SIZE, hole=False):
         file = self.shared / f"stream-{size}{'-plate' if hole else ''}.msh"
         if not file.exists():
@@ -89,10 +87,13 @@ class SheetInAStream(harness.CaseTest):
     def plate(self, end, step=0.006, size=SIZE):
         return self.coefficient(self.run_once(self.case(STREAM.format(mesh=self.stream(size, True), end=end, step=step) + PLATE, f"plate-{size}-{end}"), 1), "plate_force_x [N]")
 
-    def sheet(self, K, delta, end, step=0.006, size=SIZE, kernel="gaussian", mass=1e7, radius=2.5e-3):
+    def sheet(self, K, delta, end, step=0.006, size=SIZE, kernel="gaussian", free_mass=None, radius=2.5e-3):
+        """A run with a sheet that is held, or free with a mass per area, kg/m2."""
         width = f"kernel_width_m = {delta}" if kernel != "cell" else ""
-        text = STREAM.format(mesh=self.stream(size), end=end, step=step) + SHEET.format(K=K, width=width, kernel=kernel, mass=mass, radius_mm=1e3 * radius)
-        return self.run_once(self.case(text, f"sheet-{K}-{delta}-{end}-{step}-{size}-{kernel}-{mass}-{radius}"), 1)
+        text = STREAM.format(mesh=self.stream(size), end=end, step=step) + SHEET.format(K=K, width=width, kernel=kernel, mass=free_mass or 1, radius_mm=1e3 * radius)
+        if free_mass is None:
+            text += f"[[hold]]\ncolumns = [0, {round(SIDE / (2 * radius)) - 1}]\n"
+        return self.run_once(self.case(text, f"sheet-{K}-{delta}-{end}-{step}-{size}-{kernel}-{free_mass}-{radius}"), 1)
 
     def sheet_drag(self, *arguments, **keys):
         return self.coefficient(self.sheet(*arguments, **keys), "force_on_rags_x [N]")
@@ -109,7 +110,7 @@ class SheetInAStream(harness.CaseTest):
 
     def speed(self, time, **keys):
         """Of a free sheet as heavy as its added mass, released at rest in the stream, m/s."""
-        run = self.sheet(1000, 0.012, mass=ADDED_MASS / SIDE**2, **keys)
+        run = self.sheet(1000, 0.012, free_mass=ADDED_MASS / SIDE**2, **keys)
         rags = run.monitor("rags")
         return float(numpy.interp(time, rags.column("time [s]"), rags.column("vx [m/s]")))
 

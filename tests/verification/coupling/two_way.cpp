@@ -1,6 +1,6 @@
 // ranks: 1 3
 // long ranks: 2 5
-// Two-way exchange between rags and a water that is as simple as can be: every cell obeys rho du/dt = f without
+// Two-way exchange between rags and a water that is as simple as can be: every cell obeys rho du/dt = f without its
 // neighbours.
 #include <gtest/gtest.h>
 
