@@ -25,16 +25,16 @@ void CellsAround::start_group(std::span<const Vec3> points, std::size_t i) {
   candidate_.clear();
   locator_.within(0.5 * (low + high), radius_ * (1 + 1e-9) + 0.5 * norm(high - low), candidate_);
   const std::size_t n = candidate_.size();
-  for (auto* array : {&x_, &y_, &z_, &volume_, &distance_squared_}) array->resize(n);
+  for (auto* array : {&x_, &y_, &z_, &weight_, &distance_squared_}) array->resize(n);
   for (std::size_t s = 0; s < n; ++s) {
     const Vec3& centre = mesh_.cell_centre[candidate_[s]];
     x_[s] = centre.x, y_[s] = centre.y, z_[s] = centre.z;
-    volume_[s] = mesh_.cell_volume[candidate_[s]];
+    weight_[s] = weights_[candidate_[s]];
   }
 }
 
 void CellsAround::append(std::span<const Vec3> points, std::size_t i, std::vector<int>& cell, std::vector<double>& distance_squared,
-                         std::vector<double>& volume) {
+                         std::vector<double>& weight) {
   if (i < group_first_ || i >= group_end_) start_group(points, i);
   const Vec3 p = points[i];
   const std::size_t n = candidate_.size();
@@ -43,14 +43,14 @@ void CellsAround::append(std::span<const Vec3> points, std::size_t i, std::vecto
 #pragma omp simd
   for (std::size_t s = 0; s < n; ++s) d2[s] = (x[s] - p.x) * (x[s] - p.x) + (y[s] - p.y) * (y[s] - p.y) + (z[s] - p.z) * (z[s] - p.z);
   const std::size_t first = cell.size();
-  cell.resize(first + n), distance_squared.resize(first + n), volume.resize(n);
+  cell.resize(first + n), distance_squared.resize(first + n), weight.resize(n);
   // Without a branch: every candidate is written, and kept by moving on.
   std::size_t found = 0;
   for (std::size_t s = 0; s < n; ++s) {
-    cell[first + found] = candidate_[s], distance_squared[first + found] = d2[s], volume[found] = volume_[s];
+    cell[first + found] = candidate_[s], distance_squared[first + found] = d2[s], weight[found] = weight_[s];
     found += d2[s] < radius_ * radius_ ? 1 : 0;
   }
-  cell.resize(first + found), distance_squared.resize(first + found), volume.resize(found);
+  cell.resize(first + found), distance_squared.resize(first + found), weight.resize(found);
 }
 
 }  // namespace snag

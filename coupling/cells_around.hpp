@@ -10,21 +10,24 @@ namespace snag {
 
 class CellsAround {
  public:
-  CellsAround(const Mesh& mesh, const CellLocator& locator, double radius) : mesh_(mesh), locator_(locator), radius_(radius) {}
-  /// Owned cells whose centres are nearer than the radius to points[i]: number and squared distance (m2) are appended, volumes (m3) of
-  /// these cells replace those of the last call. Fast if called for i = 0, 1, 2, ... of the same points.
+  /// `weights`: of the owned cells.
+  CellsAround(const Mesh& mesh, const CellLocator& locator, const std::vector<double>& weights, double radius)
+      : mesh_(mesh), locator_(locator), weights_(weights), radius_(radius) {}
+  /// Owned cells whose centres are nearer than the radius to points[i]: number and squared distance (m2) are appended, weights of these
+  /// cells replace those of the last call. Fast if called for i = 0, 1, 2, ... of the same points.
   void append(std::span<const Vec3> points, std::size_t i, std::vector<int>& cell, std::vector<double>& distance_squared,
-              std::vector<double>& volume);
+              std::vector<double>& weight);
 
  private:
   void start_group(std::span<const Vec3> points, std::size_t i);
 
   const Mesh& mesh_;
   const CellLocator& locator_;
+  const std::vector<double>& weights_;
   double radius_;
   std::size_t group_first_ = 0, group_end_ = 0;
   std::vector<int> candidate_;
-  std::vector<double> x_, y_, z_, volume_, distance_squared_;  // of the candidates
+  std::vector<double> x_, y_, z_, weight_, distance_squared_;  // of the candidates
 };
 
 }  // namespace snag

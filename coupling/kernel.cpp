@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <type_traits>
 
@@ -16,15 +17,30 @@ namespace snag {
 
 namespace {
 
-constexpr double none = -infinity;  // exponent where no cell is in the support
-constexpr int most_components = 9;  // of a field: a tensor
+constexpr double none = -infinity;      // exponent where no cell is in the support
+constexpr int most_components = 9;      // of a field: a tensor
+constexpr double balance = 0.75;        // exponent of d_c
+constexpr double reach_of_walls = 2.5;  // in widths: farther away the share is above 0.99
+constexpr double least_share = 0.125;   // in a corner of three walls
+
+/// int g dV over the ball of this radius, m3.
+double integral(const KernelShape& shape, double width, double radius) {
+  constexpr int n = 1000;
+  const double dr = radius / n;
+  std::vector<double> g(n);
+  for (int i = 0; i < n; ++i) g[i] = std::pow((i + 0.5) * dr, 2);
+  shape.log_weights(g, width);
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += 4 * std::numbers::pi * std::pow((i + 0.5) * dr, 2) * dr * std::exp(g[i]);
+  return sum;
+}
 
 }  // namespace
 
 /// What a rank answers about a particle: four doubles.
 struct Kernel::Answer {
   double exponent = none;   // largest ln g of its cells: the shift of `sum`
-  double sum = 0;           // sum V_c exp(ln g_c - exponent), m3
+  double sum = 0;           // sum V_c d_c exp(ln g_c - exponent), m3
   double holder_id = -1;    // cell_id of its cell that holds the particle (exact below 2^53), or -1
   double holder_cell = -1;  // local number of that cell
 
@@ -33,8 +49,56 @@ struct Kernel::Answer {
 };
 
 Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
-    : shape_(shape), width_(width), mesh_(mesh), locator_(mesh), around_(mesh.comm), nearest_(mesh.comm) {
+    : shape_(shape),
+      width_(width),
+      support_(shape.support_radius(width)),
+      mesh_(mesh),
+      locator_(mesh),
+      around_(mesh.comm),
+      nearest_(mesh.comm) {
   mesh_moved();
+  weigh_cells();
+}
+
+/// Weights of cells near boundaries, from the shares of the kernels of the cells themselves. Cells of a turning zone keep them.
+void Kernel::weigh_cells() {
+  cell_weight_.assign(mesh_.cell_volume.begin(), mesh_.cell_volume.begin() + mesh_.n_cells);
+  if (!has_width()) return;
+  support_ = std::min(support_, reach_of_walls * width_);
+  const auto sort_out = [](std::vector<int>& cells) {
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  };
+  std::vector<int> at_boundary(mesh_.owner.begin() + mesh_.n_interior, mesh_.owner.begin() + mesh_.n_faces), near;
+  sort_out(at_boundary);
+  locate_in_parts(at_boundary, [&](std::size_t, std::size_t) {
+    near.insert(near.end(), around_.cell.begin(), around_.cell.end());
+    sort_out(near);
+  });
+  std::vector<double> weight = cell_weight_;
+  const double whole = integral(shape_, width_, support_);
+  locate_in_parts(near, [&](std::size_t first, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i)
+      weight[near[first + i]] *= std::pow(std::clamp(sum_of_weights_[i] / whole, least_share, 1.0), -balance);
+  });
+  cell_weight_ = std::move(weight);
+  support_ = shape_.support_radius(width_);
+  holder_cell_.clear(), holder_rank_.clear();
+}
+
+/// Locates the centres of these cells, some at a time: weights of all together would take too much memory. `use(first, n)` is called after
+/// each part with the cells [first, first + n). Collective.
+void Kernel::locate_in_parts(const std::vector<int>& cells, const std::function<void(std::size_t, std::size_t)>& use) {
+  constexpr std::size_t part = 4096;
+  const auto parts = static_cast<std::size_t>(maximum(mesh_.comm, std::ceil(static_cast<double>(cells.size()) / part)));
+  std::vector<Vec3> centres;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const std::size_t first = std::min(i * part, cells.size()), end = std::min(first + part, cells.size());
+    centres.clear();
+    for (std::size_t j = first; j < end; ++j) centres.push_back(mesh_.cell_centre[cells[j]]);
+    locate(centres);
+    use(first, end - first);
+  }
 }
 
 void Kernel::mesh_moved() {
@@ -63,13 +127,12 @@ void Kernel::locate(std::span<const Vec3> points) {
 
 /// A particle is told to the ranks whose cells' bounding box, enlarged by the support, holds it.
 void Kernel::plan_by_boxes(std::span<const Vec3> points) {
-  const double support = shape_.support_radius(width_);
   std::vector<std::vector<int>> particles_for(boxes_.size());
   for (std::size_t r = 0; r < boxes_.size(); ++r) {
     const auto& box = boxes_[r];
     if (box[0] > box[3]) continue;  // a rank without cells
     // A point on the box's face must not be lost by round-off.
-    const double margin = support + 1e-9 * (std::abs(box[3] - box[0]) + std::abs(box[4] - box[1]) + std::abs(box[5] - box[2]));
+    const double margin = support_ + 1e-9 * (std::abs(box[3] - box[0]) + std::abs(box[4] - box[1]) + std::abs(box[5] - box[2]));
     for (std::size_t b = 0; b < points.size(); ++b) {
       const Vec3& x = points[b];
       const bool inside = x.x >= box[0] - margin && x.x <= box[3] + margin && x.y >= box[1] - margin && x.y <= box[4] + margin &&
@@ -91,12 +154,11 @@ std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
   }
   router.forward(sent, 4, received);
 
-  const double support = shape_.support_radius(width_);
   const std::size_t n = router.n_received();
   std::vector<Vec3> heard(n);
   for (std::size_t i = 0; i < n; ++i) heard[i] = {received[4 * i], received[4 * i + 1], received[4 * i + 2]};
-  CellsAround cells_around(mesh_, locator_, support);
-  std::vector<double> answers(4 * n), volume;
+  CellsAround cells_around(mesh_, locator_, cell_weight_, support_);
+  std::vector<double> answers(4 * n), cell_weight;
   received_holder_.resize(n);
   auto& [unused, start, cell, weight] = around_;
   start.assign(1, 0);
@@ -106,9 +168,9 @@ std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
     const int holder = received_holder_[i] = locator_.find(heard[i], static_cast<int>(received[4 * i + 3]));
     if (holder >= 0) answer.holder_id = static_cast<double>(mesh_.cell_id[holder]), answer.holder_cell = holder;
     const std::size_t first = cell.size();
-    if (support > 0) {
-      cells_around.append(heard, i, cell, weight, volume);
-      set_weights(std::span(weight).subspan(first), volume.data(), answer.exponent, answer.sum);
+    if (support_ > 0) {
+      cells_around.append(heard, i, cell, weight, cell_weight);
+      set_weights(std::span(weight).subspan(first), cell_weight.data(), answer.exponent, answer.sum);
     }
     if (answer.exponent == none) {  // no cell here: the holder, should no rank's cell lie in the support
       const std::size_t end = holder >= 0 ? first + 1 : first;
@@ -121,8 +183,8 @@ std::vector<double> Kernel::search_cells(std::span<const Vec3> points) {
   return answers;
 }
 
-/// Squared distances become V_c g_c exp(-exponent); exponent: the largest ln g_c, or none; and their sum.
-void Kernel::set_weights(std::span<double> weights, const double* volume, double& exponent, double& sum_of_weights) const {
+/// Squared distances become V_c d_c g_c exp(-exponent); exponent: the largest ln g_c, or none; and their sum.
+void Kernel::set_weights(std::span<double> weights, const double* cell_weight, double& exponent, double& sum_of_weights) const {
   shape_.log_weights(weights, width_);
   double* w = weights.data();
   const std::size_t n = weights.size();
@@ -132,7 +194,7 @@ void Kernel::set_weights(std::span<double> weights, const double* volume, double
   exponent = largest;
   if (exponent == none) return;
 #pragma omp simd
-  for (std::size_t s = 0; s < n; ++s) w[s] = volume[s] * exp(w[s] - largest);
+  for (std::size_t s = 0; s < n; ++s) w[s] = cell_weight[s] * exp(w[s] - largest);
   sum_of_weights = std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
@@ -160,6 +222,8 @@ std::vector<double> Kernel::weight_factors(std::span<const double> answers, std:
     factors[e] = std::exp(answer.exponent - exponent[b]);
     total[b] += answer.sum * factors[e];
   }
+  sum_of_weights_.resize(n_particles_);
+  for (int b = 0; b < n_particles_; ++b) sum_of_weights_[b] = total[b] * std::exp(exponent[b]);
   for (int e = 0; e < router.n_entries(); ++e) {
     const int b = router.particle(e);
     if (total[b] > 0)

@@ -19,7 +19,7 @@ class KernelShape {
   virtual std::vector<Parameter> parameters() { return {}; }
   /// Distance beyond which g is zero, m; 0: only the cell that holds the particle counts, whatever the width.
   virtual double support_radius(double width) const = 0;
-  /// Replace squared distances (m2, all < support radius squared) by ln g, up to a constant.
+  /// Replace squared distances (m2, all < support radius squared) by ln g, up to a constant that is the same for all calls.
   virtual void log_weights(std::span<double> distance_squared, double width) const = 0;
 };
 
