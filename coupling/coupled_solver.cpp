@@ -24,7 +24,7 @@ void CoupledSolver::step(double dt) {
   timed(seconds_.coupling, [&] {
     if (owner_) rags_.migrate([this](const std::vector<Vec3>& centres) { return owner_->owner_of(centres); });
     if (prescribed_field_) prescribed_field_->set_time(rags_.time());
-    if (response_) response_->begin_step(dt);
+    if (prediction_) prediction_->begin_step(dt);
     load_->begin_step(rags_.tiles(), rags_.time());  // weights w_bc; fluid -> particles, consistent
   });
   timed(seconds_.rags, [&] { rags_.advance(dt, load_.get()); });  // in sub-steps; sums the impulse of the fluid on each particle
@@ -33,8 +33,7 @@ void CoupledSolver::step(double dt) {
   timed(seconds_.flow, [&] { advance_flow_(dt); });
   timed(seconds_.coupling, [&] {
     if (flow_->mesh.turning.zone >= 0) mesh_moved();
-    kernel_field_->set_last_step(dt);
-    if (response_) response_->end_step();
+    prediction_->end_step();
     write_report(dt);
   });
 }
@@ -43,8 +42,8 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
-  if (coupling_.settings.two_way()) response_ = std::make_unique<WaterResponse>(flow);
-  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), response_.get());
+  prediction_ = std::make_unique<WaterPrediction>(flow);
+  kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), *prediction_, coupling_.settings.two_way());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
   exchange_ = std::make_unique<Exchange>(*kernel_, flow);
 }
@@ -78,7 +77,7 @@ void CoupledSolver::give(double dt) {
   std::vector<double> volume(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
   report_.max_solid_fraction = exchange_->give_volumes(volume);
-  if (!response_) return;
+  if (!coupling_.settings.two_way()) return;
   const ExchangeBalance balance = exchange_->give(impulses_, dt);
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;
@@ -117,9 +116,7 @@ std::vector<Column<CouplingReport>> CoupledSolver::columns() {
 }
 
 void CoupledSolver::save(CheckpointWriter& writer) const {
-  const double last_step = kernel_field_ ? kernel_field_->last_step() : 0;
-  writer.shared("coupling/last_step", std::span(&last_step, 1));
-  if (response_) response_->save(writer);
+  if (prediction_) prediction_->save(writer);
   const int n = load_->memory();
   if (n == 0) return;
   std::vector<std::int64_t> ids;
@@ -133,9 +130,7 @@ void CoupledSolver::save(CheckpointWriter& writer) const {
 }
 
 void CoupledSolver::load(CheckpointReader& reader) {
-  const double last_step = reader.shared("coupling/last_step").at(0);
-  if (kernel_field_) kernel_field_->set_last_step(last_step);
-  if (response_) response_->load(reader);
+  if (prediction_) prediction_->load(reader);
   if (const int n = load_->memory(); n > 0) {
     std::vector<std::int64_t> ids;
     for (const Tile& tile : rags_.tiles())

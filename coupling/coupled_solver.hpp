@@ -72,7 +72,7 @@ class CoupledSolver {
   std::function<void(double)> advance_flow_;
   std::unique_ptr<CellOwner> owner_;
   std::unique_ptr<Kernel> kernel_;
-  std::unique_ptr<WaterResponse> response_;  // two-way
+  std::unique_ptr<WaterPrediction> prediction_;
   std::unique_ptr<KernelField> kernel_field_;
   std::unique_ptr<PrescribedField> prescribed_field_;
   std::unique_ptr<FluidLoad> load_;

@@ -23,7 +23,8 @@ enum Array {
   change = 25,
   response = 28,
   coverage = 29,
-  n_fields = 30
+  start = 30,
+  n_fields = 33
 };
 inline constexpr double undisturbed = 1e9;  // disturbance width where the particle's own force is not in the fluid, m
 }  // namespace sampled

@@ -52,6 +52,7 @@ struct FluidSamples {
   double dynamic_viscosity = 0;                        // mu, Pa s
   VectorArray velocity = {};                           // u, m/s
   VectorArray velocity_rate = {};                      // of u in this step but for the answer to the rags' forces, m/s2; null: zero
+  VectorArray start = {};                              // place of the particle for which the samples are, m; null: where it is
   const double* response = nullptr;                    // velocity that u loses per impulse of the particle, 1/kg; null: zero
   std::array<VectorArray, 3> velocity_gradient = {};   // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
   VectorArray pressure_gradient = {};                  // Pa/m

@@ -20,7 +20,9 @@ enum Array {
   wall_normal = 17,
   zero = 20,
   chi = 21,
-  n_arrays = 22
+  rate_on_way = 22,
+  seen_acceleration = 25,
+  n_arrays = 28
 };
 
 /// Mean of the relaxation over a sub-step.
@@ -64,7 +66,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
   const double m = rag.mass;
   const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(slope_sum), *added_mass = array(added_mass_sum);
   const double *none = array(zero), *d = fluid.response ? fluid.response : none;
-  const VectorArray r_of = fluid.response ? fluid.velocity_rate : VectorArray{none, none, none};
+  const VectorArray r_of = fluid.velocity_rate.x ? fluid.velocity_rate : VectorArray{none, none, none};
   const double* rate[] = {r_of.x, r_of.y, r_of.z};
   double *phi = array(relaxation), *driven = array(chi), *slopes = sums_.field(index, slope_integral);
   for (int j = 0; j < tile.ny; ++j) {
@@ -112,8 +114,16 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   silent.force = vector(one_way_force);
   // The middle of the sub-step is where the integrator evaluates forces.
   FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
-  if (fluid.response || changes_fluid_) answer(fluid, index, particles);
-  if (changes_fluid_) reacting.fluid_velocity = vector(seen_velocity);
+  if (fluid.velocity_rate.x) follow(fluid, index, particles);
+  if (changes_fluid_) {
+    if (fluid.velocity.x != array(seen_velocity))
+      for (int i = 0; i < 3; ++i) {
+        const double* u[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
+        std::copy(u[i] + particles.begin, u[i] + particles.end, array(seen_velocity + i) + particles.begin);
+      }
+    reacting.fluid_velocity = vector(seen_velocity);
+    fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
+  }
   if (needed_.wall) {
     if (nearest_wall_)
       nearest_wall_->find(particles, time_ + elapsed_[index] + 0.5 * step, array(wall_distance), vector(wall_normal));
@@ -129,20 +139,35 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   return fluid;
 }
 
-/// The velocity of the water at the start of the sub-step, where the particles' velocities are: into an array that forces may change.
-void FluidLoad::answer(FluidSamples& fluid, std::size_t index, const Particles& particles) {
-  const double* u[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
-  const double* r[] = {fluid.velocity_rate.x, fluid.velocity_rate.y, fluid.velocity_rate.z};
-  const double elapsed = elapsed_[index], *d = fluid.response;
+/// The water on the way of the particles, at the start of the sub-step, where their velocities are: u + r t + G (x - x_0) - d J, its rate r
+/// + G v without the answer, and Du/Dt there.
+void FluidLoad::follow(FluidSamples& fluid, std::size_t index, const Particles& particles) {
+  const auto component = [](const VectorArray& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
+  const double elapsed = elapsed_[index], *d = fluid.response ? fluid.response : array(zero);
+  const VectorArray x = particles.position, x_0 = fluid.start, v = particles.velocity;
   for (int i = 0; i < 3; ++i) {
-    double* seen = array(seen_velocity + i);
-    std::copy(u[i] + particles.begin, u[i] + particles.end, seen + particles.begin);
-    if (!d) continue;
-    const double* J = sums_.field(index, impulse_x + i);
+    const double *u = component(fluid.velocity, i), *r = component(fluid.velocity_rate, i), *J = sums_.field(index, impulse_x + i);
+    const VectorArray G = fluid.velocity_gradient[i];
+    double *seen = array(seen_velocity + i), *rate = array(rate_on_way + i);
 #pragma omp simd
-    for (int k = particles.begin; k < particles.end; ++k) seen[k] += elapsed * r[i][k] - d[k] * J[k];
+    for (int k = particles.begin; k < particles.end; ++k) {
+      seen[k] = u[k] + elapsed * r[k] + dot(G[k], x[k] - x_0[k]) - d[k] * J[k];
+      rate[k] = r[k] + dot(G[k], v[k]);
+    }
   }
-  fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
+  const auto vector = [&](int f) { return VectorArray{array(f), array(f + 1), array(f + 2)}; };
+  if (needed_.material_acceleration) {
+    const VectorArray u = fluid.velocity, seen = vector(seen_velocity);
+    for (int i = 0; i < 3; ++i) {
+      const double* at_start = component(fluid.material_acceleration, i);
+      const VectorArray G = fluid.velocity_gradient[i];
+      double* a = array(seen_acceleration + i);
+#pragma omp simd
+      for (int k = particles.begin; k < particles.end; ++k) a[k] = at_start[k] + dot(G[k], seen[k] - u[k]);
+    }
+    fluid.material_acceleration = vector(seen_acceleration);
+  }
+  fluid.velocity = vector(seen_velocity), fluid.velocity_rate = vector(rate_on_way);
 }
 
 void FluidLoad::add_torque(Tile& tile, double step) {

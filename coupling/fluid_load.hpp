@@ -7,13 +7,12 @@
 //   J += h (m dv/dt - F_other)                                            impulse of the water on each particle, N s
 //
 // K = dF/dw (secant), m_a added mass, M = m + m_a; r and d: how the water at the particle goes on and answers to the particle within the
-// step (coupling/water_response.hpp), zero one-way. phi is the mean of the relaxation of water and particle towards each other: third
-// order in theta for a linear drag, and L-stable: a particle much lighter than its drag takes the fluid's velocity within one sub-step,
-// without ringing. F_other must be complete: bonds, contacts and walls come before the fluid. Particles that a clamp holds
-// (Tile::free = 0) count as infinitely heavy. Forces that do not react on the fluid (weight, buoyancy, pressure gradient) act on the
-// particle and are left out of J.
-// Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I).
-// Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
+// step (coupling/water_prediction.hpp); r = r_0 + G v on the way of the particle, d = 0 one-way. phi is the mean of the relaxation of water
+// and particle towards each other: third order in theta for a linear drag, and L-stable: a particle much lighter than its drag takes the
+// fluid's velocity within one sub-step, without ringing. F_other must be complete: bonds, contacts and walls come before the fluid.
+// Particles that a clamp holds (Tile::free = 0) count as infinitely heavy. Forces that do not react on the fluid (weight, buoyancy,
+// pressure gradient) act on the particle and are left out of J. Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I). Source of phi: Pade
+// approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
 #include <memory>
 
 #include "coupling/fluid_field.hpp"
@@ -52,7 +51,7 @@ class FluidLoad final : public TileForce {
 
  private:
   FluidSamples evaluate(std::size_t index, Tile& tile, double step);
-  void answer(FluidSamples& fluid, std::size_t index, const Particles& particles);
+  void follow(FluidSamples& fluid, std::size_t index, const Particles& particles);
   void add_torque(Tile& tile, double step);
   double* array(int f) { return scratch_.data() + f * scratch_size_; }
 

@@ -24,9 +24,10 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     for (int j = 0; j < components; ++j) field_of_component.push_back(first + j);
   };
   add(flow_.velocity.data(), 3, velocity);
-  if (needed.velocity_gradient) add(flow_.velocity_gradient.data(), 9, gradient);
+  add(flow_.velocity_gradient.data(), 9, gradient);
+  add(prediction_.change().data(), 3, change);
   if (needed.pressure_gradient) add(flow_.pressure_gradient.data(), 3, pressure_gradient);
-  if (needed.material_acceleration) set_acceleration(), add(acceleration_.data(), 3, acceleration);
+  if (needed.material_acceleration) add(prediction_.acceleration().data(), 3, acceleration);
   if (needed.turbulence) {
     set_turbulence_gradient();
     add(flow_.turbulent_kinetic_energy.data(), 1, k), add(flow_.dissipation_rate.data(), 1, epsilon);
@@ -35,7 +36,6 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   if (needed.solid_fraction) set_solid_fraction(tiles), add(solid_.data(), 1, solid);
   if (needed.disturbance) set_width(), add(width_.data(), 1, width);
   if (needed.coverage) set_coverage(tiles), add(covered_.data(), 1, coverage);
-  if (response_) add(response_->change().data(), 3, change);
   const std::vector<double> values = kernel_.average(fields);
 
   arrays_.reset(tiles, n_fields);
@@ -43,32 +43,15 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   for (std::size_t b = 0; b < particles_.size(); ++b)
     for (std::size_t j = 0; j < components; ++j)
       arrays_.field(particles_.tile(b), field_of_component[j])[particles_.place(b)] = values[b * components + j];
-  if (response_) set_response();
-}
-
-/// Rates from changes over the step, and the answer to impulses.
-void KernelField::set_response() {
-  const std::vector<double> answers = response_->response(kernel_);
+  const double over_dt = 1 / prediction_.dt();
+  const std::vector<double> answers = two_way_ ? prediction_.response(kernel_) : std::vector<double>();
   for (std::size_t b = 0; b < particles_.size(); ++b) {
     const int t = particles_.tile(b), k = particles_.place(b);
-    for (int i = 0; i < 3; ++i) arrays_.field(t, change + i)[k] /= response_->dt();
-    arrays_.field(t, sampled::response)[k] = answers[b];
-  }
-}
-
-void KernelField::set_acceleration() {
-  const Mesh& mesh = flow_.mesh;
-  const RotatingZone* turning = flow_.rotating_zone;
-  const Vec3 omega = turning ? turning->rotation_speed(flow_.time) : Vec3{};
-  const double rate = last_step_ > 0 ? 1 / last_step_ : 0;
-  const bool moved = turning && turning->slides() && last_step_ > 0;  // the difference is that of a cell that moved along
-  acceleration_.resize(mesh.n_cells);
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    const Vec3& u = flow_.velocity[c];
-    const bool turns = turning && mesh.cell_zone[c] == turning->zone();
-    const Vec3 cell_velocity = turns ? cross(omega, mesh.cell_centre[c] - turning->origin()) : Vec3{};
-    acceleration_[c] = rate * (u - flow_.velocity_old[c]) + flow_.velocity_gradient[c] * (u - cell_velocity);
-    if (turns && !moved) acceleration_[c] += cross(omega, u);
+    for (int i = 0; i < 3; ++i) {
+      arrays_.field(t, change + i)[k] *= over_dt;
+      arrays_.field(t, start + i)[k] = points[b][i];
+    }
+    if (two_way_) arrays_.field(t, sampled::response)[k] = answers[b];
   }
 }
 
@@ -95,7 +78,7 @@ void KernelField::set_width() {
   constexpr double width_over_side = 0.178;
   const double own = kernel_.has_width() ? kernel_.width() : 0;
   width_.assign(flow_.mesh.n_cells, undisturbed);
-  if (!response_) return;
+  if (!two_way_) return;
   for (int c = 0; c < flow_.mesh.n_cells; ++c) {
     const double side = std::cbrt(flow_.mesh.cell_volume[c]);
     width_[c] = std::hypot(own, width_over_side * side);
@@ -129,7 +112,8 @@ FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
           .dynamic_viscosity = flow_.dynamic_viscosity,
           .velocity = vector(velocity),
           .velocity_rate = vector(change),
-          .response = response_ ? arrays_.field(index, sampled::response) : nullptr,
+          .start = vector(start),
+          .response = two_way_ ? arrays_.field(index, sampled::response) : nullptr,
           .velocity_gradient = {vector(gradient), vector(gradient + 3), vector(gradient + 6)},
           .pressure_gradient = vector(pressure_gradient),
           .material_acceleration = vector(acceleration),

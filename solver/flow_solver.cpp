@@ -91,7 +91,7 @@ StepReport FlowSolver::advance(double dt) {
 
 void FlowSolver::advance_frozen(double dt) {
   start(flow.time);
-  flow.velocity_old = flow.velocity;
+  flow.velocity_older = flow.velocity_old = flow.velocity;
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
 }
 
