@@ -170,7 +170,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     continuity_.close(momentum_.guessed_flux(), flow, time);
     report.seconds_pressure += seconds() - guessed;
   }
-  continuity_.history.begin_step(momentum_.rates(), time);
+  continuity_.history.begin_step(momentum_.rates(), flow.mesh_flux, time);
   std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
   turbulence_->begin_step(flow, time);
 }

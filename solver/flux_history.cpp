@@ -14,8 +14,16 @@ FluxHistory::FluxHistory(const Mesh& mesh) : psi(mesh.n_faces), psi_old(mesh.n_f
 
 void FluxHistory::mesh_turned() { resize_facets(mesh_, psi), resize_facets(mesh_, psi_old), inherited_.resize(psi.size()); }
 
-void FluxHistory::begin_step(const std::vector<double>& rate, const TimeScheme& time) {
-  const auto rate_of = [&](int c) { return (rate[2 * c] + rate[2 * c + 1]) / mesh_.cell_volume[c]; };
+void FluxHistory::begin_step(const std::vector<double>& rate, const std::vector<double>& mesh_flux, const TimeScheme& time) {
+  swept_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), 0.0);
+  if (mesh_.turning.zone >= 0) {
+    for (int f = 0; f < mesh_.n_faces; ++f) {
+      swept_[mesh_.owner[f]] += std::max(mesh_flux[f], 0.0);
+      if (f < mesh_.n_interior) swept_[mesh_.neighbour[f]] += std::max(-mesh_flux[f], 0.0);
+    }
+    mesh_.halo.exchange(swept_);
+  }
+  const auto rate_of = [&](int c) { return (rate[2 * c] + rate[2 * c + 1] + swept_[c]) / mesh_.cell_volume[c]; };
   for (int f = 0; f < mesh_.n_faces; ++f) {
     if (f == mesh_.first_facet) {  // facets inherit nothing
       std::fill(inherited_.begin() + f, inherited_.begin() + mesh_.n_interior, 0.0);

@@ -5,8 +5,11 @@
 //
 // A flux that is interpolated afresh from the cells in each step depends on the size of the step, also when that goes to zero. With psi
 // inherited, the limit exists and is reached with second order. kappa, the rate of convection and diffusion through its cells, lets psi
-// fade: a steady state does not depend on the step either as long as kappa dt < 1. A face without history (of the sliding interface) has
-// psi = 0 and is as stable.
+// fade: a steady state does not depend on the step either as long as kappa dt < 1. Where the mesh turns, the rate at which its faces sweep
+// volume is added: water that turns with the mesh has no convection through its cells, yet the velocity of a cell turns at this rate.
+// Without it psi would gather the differences between the pressure gradients of cells and faces for ever: in a drum that turns with its
+// water the velocity of the cells drifted outwards, and Coriolis' force took 5 % of the swirl in a turn. A face without history (of the
+// sliding interface) has psi = 0 and is as stable.
 #include <vector>
 
 #include "solver/fields/flow.hpp"
@@ -21,8 +24,8 @@ class FluxHistory {
   /// Again after the facets of the mesh have changed. Local.
   void mesh_turned();
   /// What a step inherits, a0 times psi at its end without pressure; `rate` of convection and of diffusion times the volume, [2
-  /// n_all_cells], m3/s.
-  void begin_step(const std::vector<double>& rate, const TimeScheme& time);
+  /// n_all_cells], m3/s; `mesh_flux` of the faces, m3/s. Collective.
+  void begin_step(const std::vector<double>& rate, const std::vector<double>& mesh_flux, const TimeScheme& time);
   /// Keep psi of the step just done. `gradient` of velocity: that which its flux was formed with, else psi would gather the difference step
   /// by step.
   void end_step(const Flow& flow, const std::vector<Mat3>& gradient);
@@ -33,7 +36,7 @@ class FluxHistory {
 
  private:
   const Mesh& mesh_;
-  std::vector<double> inherited_;
+  std::vector<double> inherited_, swept_;  // swept_: by the faces of a cell, m3/s, [n_all_cells]
 };
 
 }  // namespace snag
