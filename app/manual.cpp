@@ -1,37 +1,18 @@
 #include "app/manual.hpp"
 
 #include <algorithm>
-#include <sstream>
 
-#include "base/parameter_text.hpp"
-#include "base/words.hpp"
+#include "base/section_text.hpp"
 #include "diagnosis/data/experiment.hpp"
 #include "observe/camera.hpp"
+#include "simulation/setup/mesh_generator.hpp"
 #include "simulation/setup/sections.hpp"
 #include "simulation/study.hpp"
+#include "textile/textile_tests.hpp"
 
 namespace snag {
 
 namespace {
-
-std::string number(double value) {
-  std::ostringstream out;
-  out.precision(10);
-  out << value;
-  return out.str();
-}
-
-std::string default_text(const Parameter& p) {
-  const std::string text = toml_text(p.target, number);
-  return text.empty() || text == "nan" ? "automatic" : text;
-}
-
-std::string range(const Parameter& p) {
-  if (!p.choices.empty()) return "[" + joined(p.choices) + "]";
-  const bool low = p.minimum > -infinity, high = p.maximum < infinity;
-  if (!low && !high) return "";
-  return (low ? number(p.minimum) : "") + " ... " + (high ? number(p.maximum) : "");
-}
 
 /// Rows of the table of former names, each once: the tables of rags share their keys.
 void add_former_names(const Section& section, std::vector<std::string>& rows) {
@@ -49,19 +30,6 @@ void add_former_names(const Section& section, std::vector<std::string>& rows) {
 }
 
 }  // namespace
-
-std::string section_text(const Section& section) {
-  std::string text = "## `" + std::string(section.repeated ? "[[" : "[") + section.name + (section.repeated ? "]]" : "]") + "`\n\n" +
-                     section.meaning + "\n\n";
-  if (section.parameters.empty()) return text;
-  text += "| key | unit | default | range | basis | meaning |\n|---|---|---|---|---|---|\n";
-  for (const Parameter& p : section.parameters) {
-    text += "| `" + key_with_unit(p) + "` | " + (p.unit == "1" ? "" : p.unit) + " | " +
-            (p.required ? std::string("required") : "`" + default_text(p) + "`") + " | " + range(p) + " | " +
-            (p.unit.empty() ? "" : name(p.basis)) + " | " + p.meaning + " |\n";
-  }
-  return text + "\n";
-}
 
 std::string case_file_manual() {
   std::string text =
@@ -96,6 +64,15 @@ std::string case_file_manual() {
   for (const Section& section : camera.sections()) add(section);
   VoluteView volute;
   add(volute.section());
+  text +=
+      "# The textile tests file\n\n"
+      "A file of its own for `snag calibrate`: what a laboratory measured on a cloth, lengthwise (LW) and crosswise (CW).\n\n";
+  for (const Section& section : textile_tests_sections()) add(section);
+  text +=
+      "# Parameters of a mesh\n\n"
+      "A file of its own for `snag mesh GEOMETRY PARAMS.toml`, and for `[mesh] parameters` of a case: one table with the name of the "
+      "geometry.\nOn the command line, `--set key=value` replaces a value.\n\n" +
+      geometry_tables();
   text +=
       "# Former names\n\n"
       "These names of earlier versions are read until 1.0, each with a warning that names the line. `case.resolved.toml` has the present "

@@ -1,16 +1,11 @@
 #pragma once
-// The manual of the case file, generated from the parameter records; docs/case-file.md is compared with it in a test.
+// The manual of the case file and of all other input files, generated from the parameter records; a test compares docs/case-file.md with
+// it.
 #include <string>
-#include <vector>
-
-#include "base/parameter.hpp"
 
 namespace snag {
 
-/// Text of docs/case-file.md.
+/// Text of docs/case-file.md. On one rank; throws Error(io) if the mesh generator cannot be started.
 std::string case_file_manual();
-
-/// One table of the manual.
-std::string section_text(const Section& section);
 
 }  // namespace snag

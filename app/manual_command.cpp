@@ -12,8 +12,9 @@ namespace snag {
 
 Action add_manual(CLI::App& app) {
   const auto out = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("manual", "Print every section and key of the case file: unit, range, default, where it comes from, meaning");
+  CLI::App* command = app.add_subcommand(
+      "manual",
+      "Print every table and key of the case file and of the other input files: unit, range, default, where it comes from, meaning");
   command->add_option("--out", *out, "File to write instead of printing");
   return [out] {
     if (rank_of(MPI_COMM_WORLD) != 0) return ExitCode::ok;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/case_file.hpp"
 #include "dem/particles/rag.hpp"
 
 namespace snag {
@@ -70,6 +71,9 @@ struct TextileTests {
 
 /// Reads and checks the file. Throws Error(usage, io) that names file, key, value and rule.
 TextileTests read_textile_tests(const std::filesystem::path& file);
+TextileTests read_textile_tests(const CaseFile& file);
+/// Tables of that file, for the manual.
+std::vector<Section> textile_tests_sections();
 
 /// Smallest and largest contact radius over r_p that lets a bond stretch to `max_strain` and still leaves the lattice without bonds
 /// between particles that are no neighbours: 1 + 2 strain and sqrt(5), Jensen (2018) Eqs. 3.21, 3.22.

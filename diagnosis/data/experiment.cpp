@@ -262,7 +262,7 @@ std::vector<std::string> overrides_of_candidates(const std::string& text) {
   try {
     const auto candidates = toml::parse(text)["model"]["candidates"].value<std::string>();
     if (candidates && *candidates == "all") return {"model.candidates=[]"};
-  } catch (const toml::parse_error&) {  // told with its line by CaseFile
+  } catch (const toml::parse_error&) {  // CaseFile names it with its line
   }
   return {};
 }
@@ -286,10 +286,16 @@ std::vector<Section> experiment_sections() {
   return all;
 }
 
-Experiment read_experiment(const std::filesystem::path& path) {
+CaseFile experiment_file(const std::filesystem::path& path) {
   const auto text = file_text(path);
   if (!text) throw Error(ExitCode::io, path.string() + ": cannot be read; check the path");
-  const CaseFile file = CaseFile::read(path, overrides_of_candidates(*text));
+  return CaseFile::read(path, overrides_of_candidates(*text));
+}
+
+Experiment read_experiment(const std::filesystem::path& path) { return read_experiment(experiment_file(path)); }
+
+Experiment read_experiment(const CaseFile& file) {
+  const std::filesystem::path& path = file.file();
   const Table root = file.root();
   Experiment experiment;
   SingleTables keys;

@@ -69,6 +69,9 @@ struct Experiment {
 /// Reads DIAGNOSIS.toml and the data file beside it. Throws Error(usage, io) that names file and line: missing unit, point without data,
 /// withheld point named for training, constant column without noise_u, NaN, unknown observable, time that is not finite.
 Experiment read_experiment(const std::filesystem::path& file);
+Experiment read_experiment(const CaseFile& file);
+/// The same file before its keys are read. Throws Error(usage, io).
+CaseFile experiment_file(const std::filesystem::path& file);
 /// Tables of the experiment file, for the manual.
 std::vector<Section> experiment_sections();
 

@@ -15,6 +15,7 @@
 #include "base/case_file.hpp"
 #include "base/error.hpp"
 #include "base/open_file.hpp"
+#include "base/section_text.hpp"
 #include "base/words.hpp"
 #include "mesh/generate/geometry.hpp"
 #include "mesh/generate/verify.hpp"
@@ -42,7 +43,7 @@ std::string shown(double value, const std::string& unit) {
 std::string default_text(const Parameter& parameter) {
   if (const auto* number = std::get_if<double*>(&parameter.target)) return shown(**number, parameter.unit);
   if (const auto* number = std::get_if<std::optional<double>*>(&parameter.target))
-    return (*number)->has_value() ? shown(***number, parameter.unit) : "chosen (" + parameter.unit + ")";
+    return (*number)->has_value() ? shown(***number, parameter.unit) : "automatic";
   if (const auto* number = std::get_if<int*>(&parameter.target)) return std::to_string(**number);
   if (const auto* text = std::get_if<std::string*>(&parameter.target)) return "\"" + **text + "\"";
   if (const auto* flag = std::get_if<bool*>(&parameter.target)) return **flag ? "true" : "false";
@@ -57,6 +58,16 @@ std::string parameter_table(const std::string& geometry) {
                         parameter.choices.empty() ? "" : " One of: " + joined(parameter.choices) + ".");
   }
   return text + "Lengths as \"12 mm\", angles as \"7 deg\", speeds as \"1200 rpm\".";
+}
+
+/// Tables of all geometries for the manual.
+std::string manual() {
+  std::string text;
+  for (const std::string& name : geometries().names()) {
+    const auto geometry = geometries().make(name, "snag-mesh");
+    text += section_text({name, geometry->meaning(), geometry->parameters()});
+  }
+  return text;
 }
 
 CaseFile read_parameters(const Request& request, Geometry& geometry) {
@@ -194,14 +205,19 @@ void declare(CLI::App& app, const std::string& name, Request& request) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app("Makes meshes of parametric geometries for Snag; `snag-mesh GEOMETRY --help` lists its parameters.", "snag-mesh");
   Request request;
+  bool print_manual = false;
+  app.add_flag("--manual", print_manual, "Print the parameters of all geometries as tables of the manual");
   for (const auto& name : geometries().names()) declare(app, name, request);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   if (argc > 1 && argv[1][0] != '-') geometries().make(argv[1], "snag-mesh");  // its error lists the known names
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
+  if (print_manual) return std::fputs(manual().c_str(), stdout) < 0 ? static_cast<int>(ExitCode::io) : 0;
+  if (request.geometry.empty())
+    throw Error(ExitCode::usage, "snag-mesh: a subcommand is required, one of " + joined(geometries().names()) + "; see snag-mesh --help");
   run(request);
   return 0;
 }

@@ -93,9 +93,10 @@ std::vector<Parameter> Pump::parameters() {
         std::tuple{"interface_size", &interface_size, "Edge length on both sides of the sliding interface."},
         std::tuple{"core_size", &core_size, "Edge length away from the walls."},
         std::tuple{"pipe_size", &pipe_size, "Edge length in the middle of the pipes; 0.625 of it at their walls."},
-        std::tuple{"tank_size", &tank_size, "Edge length far out in the tank."}})
-    all.push_back({key, target, "m", 1e-4, 1, assumed, std::string(meaning) + " That of the resolution if absent."});
-  all.push_back({"mesh_seed", &mesh_seed, "1", 1, 1e6, assumed, "Another number makes another mesh of the same shape and sizes."});
+        std::tuple{"tank_size", &tank_size, "Edge length in the tank, far from the inlet."}})
+    all.push_back({key, target, "m", 1e-4, 1, assumed, std::string(meaning) + " By default that of the resolution."});
+  all.push_back(
+      {"mesh_seed", &mesh_seed, "1", 1, 1e6, assumed, "Seed of the mesh: another number makes another mesh of the same shape and sizes."});
   all.push_back({"minimum_quality", &minimum_quality, "1", 0.01, 0.3, assumed,
                  "A mesh with a cell of less quality (signed inverse condition number) is made again with sizes 1 % smaller."});
   return all;

@@ -60,7 +60,7 @@ std::vector<Parameter> SuctionTank::parameters() {
       {"tank_width", &width, "m", 0.05, 20, measured, "Width of the tank."},
       {"tank_depth", &depth, "m", 0.05, 20, measured, "Depth of the tank, from floor to water surface (+y)."},
       {"tank_axis_height", &axis_height, "m", 0.02, 20, assumed, "Height of the pump's axis above the tank's floor."},
-      {"plate_distance", &plate_distance, "m", 0.005, 5, measured, "From the eye to the plate that stands in place of a pit's floor."},
+      {"plate_distance", &plate_distance, "m", 0.005, 5, measured, "Distance from the eye to the plate, which models the floor of a pit."},
       {"plate_width", &plate_width, "m", 0.02, 20, assumed, "Side of the square plate."},
       {"plate_thickness", &plate_thickness, "m", 0.001, 1, assumed, "Thickness of the plate."},
       {"cover_thickness", &cover_thickness, "m", 0.001, 1, assumed,

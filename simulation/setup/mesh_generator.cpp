@@ -1,7 +1,10 @@
 #include "simulation/setup/mesh_generator.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 
+#include "base/atomic_file.hpp"
 #include "base/child_process.hpp"
 #include "parallel/session.hpp"
 
@@ -16,9 +19,9 @@ std::filesystem::path generator() {
   return std::filesystem::exists(installed) ? installed : folder / "snag-mesh";
 }
 
-int run_generator(std::vector<std::string> arguments) {
+int run_generator(std::vector<std::string> arguments, const std::filesystem::path& output = {}) {
   arguments.insert(arguments.begin(), generator());
-  const int code = run_command(std::move(arguments), {}, "the mesh generator is missing, build it with ./snag build");
+  const int code = run_command(std::move(arguments), output, "the mesh generator is missing, build it with ./snag build");
   return code < 128 ? code : static_cast<int>(ExitCode::io);
 }
 
@@ -31,6 +34,18 @@ ExitCode generate_mesh(MPI_Comm comm, std::vector<std::string> arguments) {
   });
   MPI_Bcast(&code, 1, MPI_INT, 0, comm);
   return static_cast<ExitCode>(code);
+}
+
+std::string geometry_tables() {
+  const auto file = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(getpid()) + ".md");
+  const int code = run_generator({"--manual"}, file);
+  const auto text = file_text(file);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  if (code != 0 || !text)
+    throw Error(ExitCode::io, generator().string() + " --manual: ended with code " + std::to_string(code) +
+                                  " and wrote no tables; try it by itself, or build it again with ./snag build");
+  return *text;
 }
 
 }  // namespace snag

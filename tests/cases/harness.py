@@ -12,6 +12,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import tomllib
 import unittest
 
 import numpy
@@ -82,6 +83,34 @@ class Run:
 
     def tail(self):
         return "\n".join((self.stdout + "\n" + self.stderr).strip().splitlines()[-25:])
+
+
+def documented_keys():
+    """{table: keys} of docs/case-file.md; tables of one name share their entry."""
+    tables = {}
+    for line in (SOURCE_DIR / "docs" / "case-file.md").read_text().splitlines():
+        if heading := re.fullmatch(r"## `\[+([\w.]+)\]+`", line):
+            keys = tables.setdefault(heading[1], set())
+        elif row := re.match(r"\| `(\w+)` \| [^|]* \| [^|]* \|", line):
+            keys.add(row[1])
+    return tables
+
+
+def undocumented_keys(resolved):
+    """Keys of a resolved file, as "[table] key", that docs/case-file.md lacks."""
+    known = documented_keys()
+    missing = []
+
+    def look(table, values):
+        for key, value in values.items():
+            inner = value if isinstance(value, list) and value and isinstance(value[0], dict) else [value] if isinstance(value, dict) else []
+            for one in inner:
+                look(f"{table}.{key}" if table else key, one)
+            if not inner and key not in known.get(table, ()):
+                missing.append(f"[{table}] {key}")
+
+    look("", tomllib.loads(resolved.read_text()))
+    return missing
 
 
 def command(arguments, ranks=1):

@@ -1,7 +1,7 @@
 # timeout: 600
 # cost: 13
 """Requirement: the commands of the tutorials run as they are printed, and every key and column that their runs write is documented, with its unit:
-keys in share/summary.schema.json, columns in docs/outputs.md."""
+keys in share/summary.schema.json, columns in docs/outputs.md, keys of the resolved case in docs/case-file.md."""
 import copy
 import json
 import os
@@ -53,6 +53,7 @@ class Tutorial(harness.CaseTest):
     def assert_documented(self, folder):
         """One finished run."""
         jsonschema.validate(json.loads((folder / "summary.json").read_text()), SCHEMA)
+        self.assertEqual(harness.undocumented_keys(folder / "case.resolved.toml"), [], "docs/case-file.md")
         written = documented_columns()
         for file in sorted((folder / "monitors").glob("*.csv")):
             columns, _ = re.subn(r"\s+$", "", file.read_text().splitlines()[0])

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "tests/keys_of_sections.hpp"
 
 using namespace snag;
 
@@ -193,4 +194,15 @@ TEST_F(ReadExperiment, MillionRows) {
   EXPECT_EQ(read_experiment(file).data.size(), 1000000u);
   getrusage(RUSAGE_SELF, &after);
   EXPECT_LT(static_cast<double>(after.ru_utime.tv_sec - before.ru_utime.tv_sec), 6);
+}
+
+TEST_F(ReadExperiment, EveryKeyIsInTheManual) {
+  // Requirement: what the reader reads, the manual has; a key of its own would be read and nowhere explained.
+  const CaseFile file =
+      experiment_file(write(head + x_mm + A + B + "[[region]]\nid = \"front\"\n[model]\ncandidates = \"all\"\n[budget]\nseed = 7\n" +
+                                "[[alternative]]\neffect = \"lift\"\n[[alternative.at]]\npoint = \"A\"\nset = [\"time.end_s=1\"]\n",
+                            columns + "A,0,0.1,x,1\nB,0,0.1,x,2\n"));
+  read_experiment(file);
+  EXPECT_EQ(keys_without_section(file, experiment_sections(), {"point.input_u"}), std::vector<std::string>{});
+  EXPECT_FALSE(keys_without_section(file, {}).empty());
 }

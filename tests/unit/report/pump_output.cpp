@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "base/atomic_file.hpp"
 #include "base/series.hpp"
+#include "base/words.hpp"
 #include "mesh/import/structured.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
@@ -65,6 +68,24 @@ class PumpOutputTest : public testing::Test {
   PumpSettings settings{.inlet = "x0", .outlet = "x1", .walls = {"y1"}, .inlet_diameter = {}, .outlet_diameter = {}};
 };
 
+/// Every column of a file of monitors/ has a row with its name and unit in docs/outputs.md.
+void expect_documented(const std::filesystem::path& file) {
+  const std::string page = file_text(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "docs/outputs.md").value_or("");
+  const std::size_t begin = page.find("### " + file.filename().string());
+  ASSERT_NE(begin, std::string::npos) << file;
+  const auto rows = split(page.substr(begin, page.find("\n### ", begin) - begin), '\n');
+  for (const std::string& column : split(split(file_text(file).value_or(""), '\n').front(), ',')) {
+    const std::string name = column.substr(0, column.find(' ')),
+                      unit = column.substr(column.find('[') + 1, column.find(']') - column.find('[') - 1);
+    EXPECT_TRUE(std::any_of(rows.begin(), rows.end(),
+                            [&](const std::string& row) {
+                              return row.find("`" + name + "`") < row.find("| " + unit + " |") &&
+                                     row.find("| " + unit + " |") != std::string::npos;
+                            }))
+        << file << ": " << column << " has no row in docs/outputs.md";
+  }
+}
+
 TEST_F(PumpOutputTest, RevolutionsAndPhase) {
   PumpOutput output(dir, flow, settings, rotor(0), false, 0);
   for (int i = 1; i <= 100; ++i) step(output, i);
@@ -87,6 +108,7 @@ TEST_F(PumpOutputTest, RevolutionsAndPhase) {
 
   const SeriesTable instants = read_series(dir / "pump.csv"), table = read_series(dir / "revolutions.csv"),
                     phase = read_series(dir / "phase.csv");
+  for (const char* file : {"pump.csv", "revolutions.csv", "phase.csv"}) expect_documented(dir / file);
   ASSERT_EQ(instants.column("time").size(), 1010u);
   EXPECT_NEAR(instants.column("angle")[249], 0.25 / degree, 1e-9) << "after one revolution where it started";
   EXPECT_NEAR(instants.column("head")[36], head_at(0.25 + 37 * 1.44 * degree), 1e-9);

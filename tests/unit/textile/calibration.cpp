@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "dem/templates/passport.hpp"
 #include "dem/templates/rag_settings.hpp"
+#include "tests/keys_of_sections.hpp"
 #include "textile/passport_text.hpp"
 
 namespace snag {
@@ -116,6 +117,14 @@ TEST(Passport, OfACalibrationReadsBack) {
   const Passport passport = read_passport(file.path);
   EXPECT_EQ(passport.bond(1.5e-3, 0).bending_stiffness, 3e6);
   EXPECT_EQ(passport.bond(1.5e-3, 1).normal_strength, 7e4);
+}
+
+TEST(Calibration, EveryKeyOfTheTestsIsInTheManual) {
+  // Requirement: what the reader reads, the manual has; a key of its own would be read and nowhere explained.
+  const CaseFile file = CaseFile::read(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "cases/textile-aro/tests.toml");
+  read_textile_tests(file);
+  EXPECT_EQ(keys_without_section(file, textile_tests_sections()), std::vector<std::string>{});
+  EXPECT_FALSE(keys_without_section(file, {}).empty());
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#include "base/section_text.hpp"
+
+#include <sstream>
+
+#include "base/parameter_text.hpp"
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+std::string number(double value) {
+  std::ostringstream out;
+  out.precision(10);
+  out << value;
+  return out.str();
+}
+
+std::string default_text(const Parameter& p) {
+  const std::string text = toml_text(p.target, number);
+  return text.empty() || text == "nan" ? "automatic" : text;
+}
+
+std::string range(const Parameter& p) {
+  if (!p.choices.empty()) return "[" + joined(p.choices) + "]";
+  const bool low = p.minimum > -infinity, high = p.maximum < infinity;
+  if (!low && !high) return "";
+  constexpr double positive = 1e-12;  // a minimum that stands for "positive"
+  if (low && !high && p.minimum > 0 && p.minimum <= positive) return "> 0";
+  return (low ? number(p.minimum) : "") + " ... " + (high ? number(p.maximum) : "");
+}
+
+}  // namespace
+
+std::string section_text(const Section& section) {
+  std::string text = "## `" + std::string(section.repeated ? "[[" : "[") + section.name + (section.repeated ? "]]" : "]") + "`\n\n" +
+                     section.meaning + "\n\n";
+  if (section.parameters.empty()) return text;
+  text += "| key | unit | default | range | basis | meaning |\n|---|---|---|---|---|---|\n";
+  for (const Parameter& p : section.parameters) {
+    text += "| `" + key_with_unit(p) + "` | " + (p.unit == "1" ? "" : p.unit) + " | " +
+            (p.required ? std::string("required") : "`" + default_text(p) + "`") + " | " + range(p) + " | " +
+            (p.unit.empty() ? "" : name(p.basis)) + " | " + p.meaning + " |\n";
+  }
+  return text + "\n";
+}
+
+}  // namespace snag
