@@ -1,6 +1,7 @@
 #pragma once
 // Scalable wall functions: those of Launder and Spalding (1974), the layer between a wall and the centre of the cell at it, distance y, in
-// local equilibrium, at no less than y*_lam, where the log layer meets the viscous one (Grotjans and Menter 1998).
+// local equilibrium, at no less than y*_lam, where the log layer meets the viscous one (Grotjans and Menter 1998; not
+// checked against the paper).
 //
 //   u* = C_mu^(1/4) k_P^(1/2),   y* = u* y / nu,   y~* = max(y*, y*_lam),   y~ = y~* nu/u*,   y*_lam = ln(E y*_lam) / kappa
 //   tau_w = rho kappa u* (u_P - u_w)_t / ln(E y~*) = mu_w (u_P - u_w)_t / y,   mu_w = mu kappa y* / ln(E y~*)

@@ -8,8 +8,9 @@
 // A chain is then exact at its particles for small deflections: n bonds under an end load P across them bend by
 //   P L^3/(3 E I) + P L/(kappa G A),   L = n l, for every n.
 // Strength is judged by the moment at the middle of the bond, as that of the parallel bond.
-// Source: Obermayr et al. (2013), Comput. Geotech. 49, 299, after Andre et al. (2012), Comput. Methods Appl. Mech. Eng. 213, 113; stiffness
-// matrix: Przemieniecki (1968), Theory of Matrix Structural Analysis, section 5.6.
+// Sources: stiffness matrix: Przemieniecki (1968), Theory of Matrix Structural Analysis, section 5.6; kappa: Cowper (1966), J. Appl. Mech.
+// 33, 335, and Hutchinson (2001), J. Appl. Mech. 68, 87; beams as bonds: Andre et al. (2012), Comput. Methods Appl. Mech. Eng. 213-216,
+// 113, and Obermayr et al. (2013), Comput. Geotech. 49, 299. The formulas are not checked against the last two papers.
 #include <algorithm>
 
 #include "dem/bonds/bond_law.hpp"
@@ -32,7 +33,8 @@ struct TimoshenkoBeam final : BondLaw {
   }
   std::vector<Parameter> parameters() override {
     return {{"shear_factor", &shear_factor, "1", 0, 1, Basis::literature,
-             "kappa, of the beam's section: 0.9 of a round one (Timoshenko 1921, Poisson ratio near 0.3); 0: rigid in shear."}};
+             "kappa, shear factor of the beam's section; a round one with Poisson ratio 0.3 has 0.89 (Cowper 1966) or 0.93 (Hutchinson "
+             "2001); 0: rigid in shear."}};
   }
   std::unique_ptr<PieceBonds> bonds(const Rag& rag) const override { return linear_bonds({coefficients(rag, 0), coefficients(rag, 1)}); }
 

@@ -3,7 +3,8 @@
 //
 // The cubic with psi = 0, dpsi/dy = 1 at y = 0 and psi = 1, dpsi/dy = 0 at y = 3/2: smooth where that of Barth and Jespersen has a kink,
 // and exactly 1 where neighbours leave half as much again as the face needs. It leaves out the threshold of the source, which switches the
-// limiter off in smooth regions: smooth extrema are limited. Source: Michalak and Ollivier-Gooch (2009), J. Comput. Phys. 228, 8693.
+// limiter off in smooth regions: smooth extrema are limited. Source: Michalak and Ollivier-Gooch (2009), J. Comput. Phys. 228, 8693;
+// y = 3/2 and the threshold are not checked against the paper.
 #include "solver/convection/cell_limiter.hpp"
 
 namespace snag {

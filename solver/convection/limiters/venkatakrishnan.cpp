@@ -4,14 +4,14 @@
 //
 // e is Venkatakrishnan's threshold (K h)^3 made dimensionless with the volume of the domain and the speed U: a smooth extremum, where
 // |b| ~ h^2 u'', is limited by O(h^2) only and the scheme stays second order.
-// Source: Venkatakrishnan (1995), J. Comput. Phys. 118, 120.
+// Source: Venkatakrishnan (1995), J. Comput. Phys. 118, 120. The value of K is not checked against the paper.
 #include "parallel/sum.hpp"
 #include "solver/convection/cell_limiter.hpp"
 
 namespace snag {
 namespace {
 
-constexpr double smooth_cells = 5;  // K: Venkatakrishnan's recommended size of the threshold
+constexpr double smooth_cells = 5;  // K, in the range that is usual
 
 struct Venkatakrishnan final : CellLimiter<Venkatakrishnan> {
   static constexpr const char* name = "venkatakrishnan";

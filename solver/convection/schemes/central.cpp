@@ -1,6 +1,7 @@
 // Linear interpolation, corrected for the skewness s of the face:   u_f^high = w u_P + (1 - w) u_N + G_f s
 // w, G_f and s as in solver/fields/face.hpp. Not bounded: it oscillates where the Reynolds number of a cell is above 2.
-// Source: Ferziger and Peric (2002), Computational Methods for Fluid Dynamics, section 4.4.
+// Source: Ferziger and Peric (2002), Computational Methods for Fluid Dynamics, section 4.4 (the number of
+// the section is not checked against the book).
 #include "solver/convection/face_scheme.hpp"
 
 namespace snag {

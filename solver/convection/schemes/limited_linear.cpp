@@ -2,7 +2,8 @@
 //
 //   u_f^high = u_C + clamp(2 r, 0, 1) (1 - w_C) (u_D - u_C),   r = 2 (G_C d)/(u_D - u_C) - 1
 //
-// total variation diminishing in one dimension, within the bounds of Sweby (1984), SIAM J. Numer. Anal. 21, 995.
+// total variation diminishing in one dimension, within the bounds of Sweby (1984), SIAM J. Numer. Anal. 21, 995:
+// the function of OpenFOAM's limitedLinear with the coefficient 1.
 #include "solver/convection/face_scheme.hpp"
 
 namespace snag {
