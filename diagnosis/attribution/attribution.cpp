@@ -366,7 +366,7 @@ class Attributor {
     return 0.5 * std::max(0.0, furthest * furthest - by_chance * by_chance);
   }
 
-  static std::vector<Screened> best_first(std::map<std::string, Screened> by_name) {
+  static std::vector<Screened> best_first(std::map<std::string, Screened>&& by_name) {
     std::vector<Screened> order;
     for (auto& [name, screened] : by_name) order.push_back(std::move(screened));
     std::stable_sort(order.begin(), order.end(), [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; });

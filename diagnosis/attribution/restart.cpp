@@ -1,6 +1,7 @@
 #include "diagnosis/attribution/restart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -52,8 +53,8 @@ class LocalPolynomial {
       const Row& row = point_.rows[rows_[i]];
       // The row is the mean over its bin: so are the powers of time.
       const double t = 0.5 * (row.begin + row.end) - time_, width = row.end - row.begin, m = static_cast<double>(row.slots.size());
-      const double powers[] = {1, t, t * t + (m > 1 ? width * width / 12 * (m + 1) / (m - 1) : 0)};
-      for (Eigen::Index j = 0; j < k_; ++j) X(i, j) = powers[j];
+      const std::array<double, 3> powers = {1, t, t * t + (m > 1 ? width * width / 12 * (m + 1) / (m - 1) : 0)};
+      for (Eigen::Index j = 0; j < k_; ++j) X(i, j) = powers.at(j);
       y[i] = row.value - base_.value[rows_[i]];
       for (Eigen::Index j = 0; j < n; ++j) C(i, j) = point_.covariance(rows_[i], rows_[j]);
     }
