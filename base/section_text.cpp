@@ -1,5 +1,6 @@
 #include "base/section_text.hpp"
 
+#include <regex>
 #include <sstream>
 
 #include "base/parameter_text.hpp"
@@ -33,8 +34,11 @@ std::string range(const Parameter& p) {
 }  // namespace
 
 std::string section_text(const Section& section) {
-  std::string text = "## `" + std::string(section.repeated ? "[[" : "[") + section.name + (section.repeated ? "]]" : "]") + "`\n\n" +
-                     section.meaning + "\n\n";
+  // Several models share a table; the meaning begins with the value that chooses one, such as kind = "wall", which is part of the heading.
+  std::smatch model;
+  const bool chosen = std::regex_match(section.meaning, model, std::regex("(\\w+ = \"\\w+\"): ([^]*)"));
+  std::string text = "## `" + std::string(section.repeated ? "[[" : "[") + section.name + (section.repeated ? "]]" : "]") + "`" +
+                     (chosen ? " " + model.str(1) : "") + "\n\n" + (chosen ? model.str(2) : section.meaning) + "\n\n";
   if (section.parameters.empty()) return text;
   text += "| key | unit | default | range | basis | meaning |\n|---|---|---|---|---|---|\n";
   for (const Parameter& p : section.parameters) {

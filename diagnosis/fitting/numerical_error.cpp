@@ -23,7 +23,7 @@ std::vector<Eigen::VectorXd> stated_error(const Responses& model, const std::vec
 
 std::vector<Eigen::VectorXd> numerical_error(Responses& model, const State& state, const std::vector<int>& points,
                                              const std::vector<Response>& responses) {
-  const std::vector<Eigen::VectorXd> stated = stated_error(model, points);
+  std::vector<Eigen::VectorXd> stated = stated_error(model, points);
   if (std::all_of(stated.begin(), stated.end(), [](const Eigen::VectorXd& e) { return e.allFinite(); })) return stated;
   const auto coarse = model.run(state, points, 2);
   std::vector<Eigen::VectorXd> errors;

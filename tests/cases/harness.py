@@ -89,7 +89,7 @@ def documented_keys():
     """{table: keys} of docs/case-file.md; tables of one name share their entry."""
     tables = {}
     for line in (SOURCE_DIR / "docs" / "case-file.md").read_text().splitlines():
-        if heading := re.fullmatch(r"## `\[+([\w.]+)\]+`", line):
+        if heading := re.fullmatch(r"## `\[+([\w.]+)\]+`.*", line):
             keys = tables.setdefault(heading[1], set())
         elif row := re.match(r"\| `(\w+)` \| [^|]* \| [^|]* \|", line):
             keys.add(row[1])
