@@ -60,7 +60,7 @@ void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
       ++n_subjects, n_tables += is_table(subject);
     }
   if (n_tables > 0 && n_subjects > 1)
-    throw Error(ExitCode::usage, "snag observe: a table of repeats (.csv) holds its groups itself; give it alone");
+    throw Error(ExitCode::usage, "snag observe: a table of repeats (.csv) has its own column of groups; give the table alone");
 }
 
 /// Writes groups.csv and anova.csv.

@@ -68,7 +68,7 @@ void reject_unread_in(const CaseNode& node) {
     const std::string where = place_of(node.file, value.line);
     if (node.name.empty()) {
       const bool section = std::find(node.table_order.begin(), node.table_order.end(), key) != node.table_order.end();
-      throw Error(ExitCode::usage, where + ": \"" + shortened(key) + "\" stands outside of all sections" +
+      throw Error(ExitCode::usage, where + ": \"" + shortened(key) + "\" is outside of all sections" +
                                        (section ? ", but is the name of one; write [" + key + "] and keys below it"
                                                 : "; put it below one of the sections " + joined(node.table_order)));
     }
@@ -137,7 +137,7 @@ bool Table::has(std::string_view key) const {
 
 Table Table::table(const std::string& name) const {
   auto& list = node_->tables[name];
-  if (list.size() > 1) throw Error(ExitCode::usage, list[1]->where() + " stands more than once; write one [" + list[1]->name + "]");
+  if (list.size() > 1) throw Error(ExitCode::usage, list[1]->where() + " appears more than once; write one [" + list[1]->name + "]");
   if (list.empty()) {
     list.push_back(std::make_unique<CaseNode>());
     const auto former = node_->former_tables.find(name);

@@ -97,7 +97,7 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
   const ExitCode code =
       run_case({.case_file = case_file, .out = folder, .overrides = overrides, .resume = begun != 0, .overwrite = begun == 0});
   if (code == ExitCode::stopped)
-    throw Error(code, folder.string() + ": the run was stopped; start the same diagnosis again, it goes on from the checkpoint");
+    throw Error(code, folder.string() + ": the run was stopped; start the same diagnosis again, it continues from the checkpoint");
   if (code != ExitCode::ok)
     throw Error(code, "exit code " + std::to_string(static_cast<int>(code)) + "; why is in " + (folder / "log.txt").string());
 }

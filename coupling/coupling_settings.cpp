@@ -81,7 +81,7 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
   table.read(settings.section().parameters);
   if (settings.two_way() && !two_way_possible)
     throw Error(ExitCode::usage,
-                table.where() + " mode is \"two_way\", but a prescribed flow takes no reaction of the rags; write mode = \"one_way\"");
+                table.where() + " mode is \"two_way\", but a prescribed flow cannot react to the rags; write mode = \"one_way\"");
 
   coupling.shape = kernel_shapes().make(settings.kernel, table.where() + " kernel");
   table.table(settings.kernel).read(coupling.shape->parameters());

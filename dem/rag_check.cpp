@@ -76,7 +76,7 @@ std::vector<BondCount> RagSystem::check() const {
     const Rag& rag = rags_[tile.rag];
     throw Error(ExitCode::invariant, "rags: " + std::to_string(count[n_counts * n_rags + t]) + " ranks own the particles " +
                                          ids(particle_id(rag, tile, 0, 0), particle_id(rag, tile, tile.nx - 1, tile.ny - 1)) + " of " +
-                                         rag.name + ", must be 1; particles were lost on their way between ranks");
+                                         rag.name + ", must be 1; particles were lost in a transfer between ranks");
   }
   std::vector<BondCount> bonds(n_rags);
   for (std::size_t r = 0; r < n_rags; ++r) {

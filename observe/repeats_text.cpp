@@ -67,7 +67,7 @@ class Reading {
     }
     if (std::find(columns_.begin(), columns_.end(), "group") == columns_.end())
       refuse("there is no column \"group\" (" + shortened(joined(columns_)) + "); name the operating point of each row");
-    if (repeats_.quantities.empty()) refuse("there is no column of values beside group and rag; add one, as area [m2]");
+    if (repeats_.quantities.empty()) refuse("there is no column of values, only group and rag; add one, such as area [m2]");
   }
 
   void read_row(const std::vector<std::string>& fields) {

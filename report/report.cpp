@@ -148,7 +148,7 @@ void write_report(const std::filesystem::path& dir) {
   const auto summary = nlohmann::json::parse(file_text(dir / "summary.json").value_or(""), nullptr, false);
   if (!summary.is_object() && !std::filesystem::exists(dir / "monitors") && !std::filesystem::exists(dir / "case.resolved.toml"))
     throw Error(ExitCode::io, dir.string() +
-                                  ": holds neither summary.json, monitors nor case.resolved.toml, it must be the output folder of a run; "
+                                  ": has neither summary.json, monitors nor case.resolved.toml, it must be the output folder of a run; "
                                   "give the folder of --out");
   const bool is_named = summary.is_object() && summary.contains("case") && summary["case"].is_string();
   const std::string title = is_named ? summary["case"].get<std::string>() : std::filesystem::weakly_canonical(dir).filename().string();

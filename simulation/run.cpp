@@ -240,7 +240,7 @@ ExitCode run_case(const RunOptions& options) {
   if (reader && is_complete(folder, file, write_report != nullptr, reader->stamp().time_step)) {
     if (!reader->fallback().empty()) log::warning(reader->fallback());
     log::info(folder.string() + ": the run ended at " + words(reader->stamp().time) +
-              " s, there is nothing to resume and nothing is changed; with a later [time] end it goes on, with --overwrite it begins anew");
+              " s; there is nothing to resume and nothing is changed; a later [time] end extends it, --overwrite starts it again");
     return ExitCode::ok;
   }
   begin(simulation, file, output, reader.get());

@@ -128,7 +128,7 @@ RunState previous_state(const std::filesystem::path& folder, const std::string& 
   if (!std::filesystem::exists(folder / "monitors")) return RunState::nothing;
   if (file_text(folder / "input.toml") != input)
     throw Error(ExitCode::usage, folder.string() +
-                                     ": holds a run of another case or other values than the study has now (see its input.toml); "
+                                     ": has a run of another case or of other values than the study (see its input.toml); "
                                      "choose another --out, or remove the folder");
   const auto summary = nlohmann::json::parse(file_text(folder / "summary.json").value_or(""), nullptr, false);
   if (!summary.is_object()) return RunState::partial;

@@ -50,7 +50,7 @@ struct StripCells {
     n = static_cast<int>(std::ceil(cells - 0.5 - 1e-9));
     share = cells - n + 0.5;
     if (n < 1)
-      throw Error(ExitCode::usage, "bending test: an overhang of " + words(strip.overhang) + " m holds no particle of radius " +
+      throw Error(ExitCode::usage, "bending test: an overhang of " + words(strip.overhang) + " m is too short for a particle of radius " +
                                        words(strip.radius) + " m, it must be longer than the radius; use a smaller --radius");
   }
 };

@@ -49,8 +49,8 @@ MeasuredRange checked_range(const Table& table, const Parameter& range, double m
   const std::vector<double>& values = *std::get<std::vector<double>*>(range.target);
   if (values.empty()) return {};
   if (values.size() != 2 || values[0] > mean || mean > values[1])
-    throw Error(ExitCode::usage, table.where() + " " + range.key + ": is no range that holds the mean of " + words(mean) + " " +
-                                     range.unit + "; give [smallest, largest]");
+    throw Error(ExitCode::usage, table.where() + " " + range.key + ": must be a range about the mean of " + words(mean) + " " + range.unit +
+                                     "; give [smallest, largest]");
   return {values[0], values[1]};
 }
 
@@ -293,11 +293,11 @@ void check_contact_radius(const std::string& file, const TextileTests& t) {
     if (ratio < bounds.low)
       throw Error(ExitCode::usage,
                   file + ": [elongation." + direction_key[d] + "] max_strain: is " + words(t.elongation[d].max_strain) +
-                      ", beyond the contact radius of " + words(ratio) + " r_p, which holds bonds up to a strain of " +
+                      ", beyond the contact radius of " + words(ratio) + " r_p, with which bonds reach a strain of " +
                       words((ratio - 1) / 2) +
                       (bounds.low <= bounds.high
                            ? "; give [particles] contact_radius_over_radius between " + words(bounds.low) + " and " + words(bounds.high)
-                           : "; a lattice holds strains up to " + words((bounds.high - 1) / 2) + ", correct the strain"));
+                           : "; a lattice allows strains up to " + words((bounds.high - 1) / 2) + ", correct the strain"));
     if (ratio > bounds.high)
       throw Error(ExitCode::usage, file + ": [particles] contact_radius_over_radius: is " + words(ratio) + ", must be at most sqrt(5) = " +
                                        words(bounds.high) + ", or particles that are no neighbours are bonded; give a smaller one");

@@ -56,7 +56,7 @@ void check_plan(const RagPiece& piece) {
   const double length = plan.confine_length > 0 ? plan.confine_length : 2 * r * std::hypot(rag.n_columns, rag.n_rows);
   const double smallest = std::max(3 * r, std::sqrt(spheres / (largest_volume_share * pi * length)));
   if (plan.confine_radius < smallest)
-    refuse(plan, "confine_radius of " + words(plan.confine_radius) + " m cannot hold the cloth, whose spheres fill " + words(spheres) +
+    refuse(plan, "confine_radius of " + words(plan.confine_radius) + " m is too small for the cloth, whose spheres fill " + words(spheres) +
                      " m3; over a length of " + words(length) + " m it must be at least " + words(smallest) + " m");
 }
 

@@ -123,8 +123,7 @@ Passport read_passport(const std::filesystem::path& path) {
   read_record(file.root());
   file.reject_unread();
   if (passport.entries.empty())
-    throw Error(ExitCode::usage,
-                path.string() + ": holds no [[bond]], a textile passport has two for each radius; make one by snag calibrate");
+    throw Error(ExitCode::usage, path.string() + ": has no [[bond]], must have two for each radius; make one by snag calibrate");
   for (const PassportEntry& entry : passport.entries)
     for (int d = 0; d < 2; ++d)
       if (entry.bond[d].normal_stiffness <= 0)

@@ -186,7 +186,7 @@ void check_columns(const Experiment& experiment, const std::string& file) {
   for (std::size_t o = 0; o < columns.size(); ++o) {
     const Observable& observable = experiment.observables[o];
     const std::string where = file + ": observable \"" + observable.id + "\"";
-    if (columns[o].empty()) throw Error(ExitCode::usage, where + " has no rows; measure it or take its [[observable]] out");
+    if (columns[o].empty()) throw Error(ExitCode::usage, where + " has no rows; measure it or remove its [[observable]]");
     const bool continuous = observable.kind != Kind::count && observable.kind != Kind::event;
     double minimum = infinity, maximum = -infinity;
     for (const auto& [p, column] : columns[o]) {
@@ -199,11 +199,11 @@ void check_columns(const Experiment& experiment, const std::string& file) {
     if (!continuous || observable.noise_u > 0) continue;
     if (minimum == maximum)
       throw Error(ExitCode::usage,
-                  where + " is constant (" + words(minimum) + " SI) and has no noise_u: nothing says how well it is known; give noise_u");
+                  where + " is constant (" + words(minimum) + " SI) and has no noise_u: its uncertainty is unknown; give noise_u");
     for (const auto& [p, column] : columns[o]) {
       if (column.replicates.size() < 2)
         throw Error(ExitCode::usage, where + " has one replicate at point \"" + experiment.points[p].id +
-                                         "\" and no noise_u: nothing says how it scatters; give noise_u or measure it again");
+                                         "\" and no noise_u: its scatter is unknown; give noise_u or measure it again");
     }
   }
 }
@@ -215,7 +215,7 @@ void check_points(const Experiment& experiment, const std::string& file) {
   for (std::size_t p = 0; p < values.size(); ++p) {
     const OperatingPoint& point = experiment.points[p];
     if (values[p].empty())
-      throw Error(ExitCode::usage, file + ": point \"" + point.id + "\" has no rows; measure it or take its [[point]] out");
+      throw Error(ExitCode::usage, file + ": point \"" + point.id + "\" has no rows; measure it or remove its [[point]]");
     train = train || !point.withheld;
     // A copy of a withheld point under another name would train on what is withheld. (Equal counts, and tests that end at the same time
     // before the event, are no copy.)
@@ -225,7 +225,7 @@ void check_points(const Experiment& experiment, const std::string& file) {
       if (experiment.points[q].withheld != point.withheld && values[p] == values[q])
         throw Error(ExitCode::usage,
                     file + ": points \"" + experiment.points[q].id + "\" and \"" + point.id +
-                        "\" hold the same values, but one is withheld and the other is for training; withheld data must not "
+                        "\" have the same values, but one is withheld and the other is for training; withheld data must not "
                         "be trained on: take one of them out");
     }
   }

@@ -64,9 +64,9 @@ class PointSummarizer {
   int slot(int observable, double time) const {
     const auto found = slots_.find(key(observable, time));
     if (found == slots_.end())
-      throw Error(ExitCode::usage, "point \"" + experiment_.points[result_.point].id + "\": no run can answer with " +
+      throw Error(ExitCode::usage, "point \"" + experiment_.points[result_.point].id + "\": no run can provide " +
                                        experiment_.observables[observable].id + (std::isnan(time) ? "" : " at t = " + words(time) + " s") +
-                                       "; take it out of the data, or let the case run longer");
+                                       "; remove it from the data, or extend the run of the case");
     return found->second;
   }
 

@@ -74,7 +74,7 @@ void examine_volume(const Cells& cells, const Cells::Volume& volume, const Expec
     if (expected.n_components != volume.n_components)
       fail(fmt::format("has {} separate parts, expected are {}", volume.n_components, expected.n_components));
     if (expected.exact_volume > 0 && std::abs(result.volume / expected.exact_volume - 1) > volume_limit)
-      fail(fmt::format("holds {:.6g} m3, the shape {:.6g} m3; take smaller sizes", result.volume, expected.exact_volume));
+      fail(fmt::format("has {:.6g} m3, the shape {:.6g} m3; take smaller sizes", result.volume, expected.exact_volume));
   }
   report.volumes.push_back(result);
 }

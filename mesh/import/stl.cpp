@@ -42,7 +42,7 @@ std::vector<Vec3> ascii_corners(const std::string& content, const std::string& n
   }
   if (corners.empty() || corners.size() % 3 != 0 || content.find("endsolid") == std::string::npos)
     throw Error(ExitCode::io, name + ": " + std::to_string(corners.size()) +
-                                  " corners, an ASCII STL file holds a multiple of three and the word endsolid "
+                                  " corners, an ASCII STL file has a multiple of three and the word endsolid "
                                   "(and a binary one 84 + 50 n bytes); the file is cut off or not STL, export it again");
   return corners;
 }

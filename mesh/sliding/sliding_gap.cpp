@@ -121,7 +121,7 @@ std::string drawn(const std::vector<OpenSide>& sides, const AxisFrame& frame, MP
 void require_cover(const RevolvedSurface& surface, MPI_Comm comm, Angle turn, const FacetCover& cover,
                    const std::filesystem::path& picture) {
   const int rank = rank_of(comm);
-  std::vector<OpenSide> sides{{"turning", surface.rotor, turn, cover.rotor, {}}, {"standing", surface.stator, 0, cover.stator, {}}};
+  std::vector<OpenSide> sides{{"turning", surface.rotor, turn, cover.rotor, {}}, {"stationary", surface.stator, 0, cover.stator, {}}};
   std::int64_t n_open = 0;
   for (OpenSide& open : sides)
     for (std::size_t f = 0; f < open.share.size(); ++f) {

@@ -15,8 +15,8 @@ struct FacetCover {
 };
 
 /// Throws Error(mesh) if facets with the rotor turned by `turn` leave a face open; the message says where, and names the picture.
-/// `picture`: a .vtp that rank 0 writes with the open faces of all ranks (cell arrays: covered share, turning or standing side, cell); none
-/// if empty. The same error on every rank. Collective.
+/// `picture`: a .vtp that rank 0 writes with the open faces of all ranks (cell arrays: covered share, turning or stationary side, cell);
+/// none if empty. The same error on every rank. Collective.
 void require_cover(const RevolvedSurface& surface, MPI_Comm comm, Angle turn, const FacetCover& cover,
                    const std::filesystem::path& picture);
 

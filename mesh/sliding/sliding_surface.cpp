@@ -187,7 +187,7 @@ class SurfaceBuilder {
   }
   double levelled(const Levels& levels, double value, const SentFace& face) const {
     const int index = levels.index(value);
-    if (index < 0) fail(face, "does not lie where the faces beside it lie; correct the mesh, the axis or its origin");
+    if (index < 0) fail(face, "is not at the same position as the other faces of its surface; correct the mesh, the axis or its origin");
     return levels.mean[static_cast<std::size_t>(index)];
   }
 
@@ -256,7 +256,7 @@ void require_separate(const Mesh& mesh, const SlidingDescription& description) {
   const auto turns = [&](int cell) { return mesh.cell_zone[cell] == rotor; };
   for (int f = 0; f < mesh.n_interior; ++f)
     if (turns(mesh.owner[f]) != turns(mesh.neighbour[f]))
-      throw Error(ExitCode::mesh, "sliding interface: the turning and the standing zone share the face at " + place(mesh.face_centre[f]) +
+      throw Error(ExitCode::mesh, "sliding interface: the turning and the stationary zone share the face at " + place(mesh.face_centre[f]) +
                                       "; they must be meshed apart, with a patch on each side");
   for (const bool of_rotor : {true, false}) {
     const Patch& patch = mesh.patches[mesh.patch_index(of_rotor ? description.rotor_patch : description.stator_patch)];
@@ -264,7 +264,7 @@ void require_separate(const Mesh& mesh, const SlidingDescription& description) {
       if (turns(mesh.owner[f]) != of_rotor)
         throw Error(ExitCode::mesh, "sliding interface: patch \"" + patch.name + "\" at " + place(mesh.face_centre[f]) +
                                         " belongs to zone \"" + mesh.zones[mesh.cell_zone[mesh.owner[f]]] + "\"; it must be the " +
-                                        (of_rotor ? "turning" : "standing") + " side");
+                                        (of_rotor ? "turning" : "stationary") + " side");
   }
 }
 

@@ -114,7 +114,7 @@ TurningMesh::TurningMesh(Mesh& mesh, const SlidingDescription& description, doub
   turn(angle);
   if (const std::int64_t n = n_bounded_global(); n > 0)
     log::warning("sliding interface: " + std::to_string(n) + " of " + std::to_string(n_facets_global()) +
-                 " facets lie near or beyond the centre of one of their cells; their interpolation weights are kept within " +
+                 " facets lie near or beyond the centre of one of their cells; their interpolation weights are limited to " +
                  words(least_weight) + " and " + words(1 - least_weight) + "; smaller cells at the interface avoid it");
 }
 

@@ -20,7 +20,7 @@ void refuse_results(const fs::path& folder, bool resume, bool overwrite) {
   if (resume || overwrite || !fs::exists(folder, ignored)) return;
   for (const char* name : {"summary.json", "checkpoint", "monitors"}) {
     if (fs::exists(folder / name, ignored))
-      throw Error(ExitCode::usage, folder.string() + ": holds the results of a run already (" + name +
+      throw Error(ExitCode::usage, folder.string() + ": already has the results of a run (" + name +
                                        "), which will not be overwritten; choose another --out, or give --resume or --overwrite");
   }
 }

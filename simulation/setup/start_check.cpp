@@ -141,8 +141,8 @@ void check_waiting(const Simulation& simulation, int rag) {
       std::to_string(cells.n_outside()) + " of " + std::to_string(properties.n_particles) + " particles are outside the mesh";
   if (simulation.mesh->turning.zone < 0)
     throw refused(properties, found, "all must start in the water; correct its place or size, or [mesh] scale");
-  log::warning("start of " + properties.name + ": " + found + " as it stands at the start; it is refused if that is so at " +
-               words(piece.insert_time) + " s");
+  log::warning("start of " + properties.name + ": " + found +
+               " at the angle of the rotor at the start; the run ends if that is still so at " + words(piece.insert_time) + " s");
 }
 
 double overlap_of_particles(RagSystem& rags) {

@@ -34,7 +34,7 @@ std::vector<Vec3> centres_of(CheckpointReader& reader, std::span<const std::int6
 void check_checkpoint(MPI_Comm comm, const std::filesystem::path& folder, const std::string& where) {
   const auto slots = checkpoint_slots(comm, folder);
   if (newest(slots) >= 0) return;
-  throw Error(ExitCode::io, where + ": " + folder.string() + " holds no valid checkpoint (" + states(slots) +
+  throw Error(ExitCode::io, where + ": " + folder.string() + " has no valid checkpoint (" + states(slots) +
                                 "); name the output folder of a run with water that has ended or written a checkpoint");
 }
 
@@ -51,8 +51,8 @@ void check_same_mesh(CheckpointReader& reader, const Mesh& mesh, const std::stri
   for (int c = 0; c < mesh.n_cells; ++c) off = std::max(off, norm(centres[c] - mesh.cell_centre[c]) / std::cbrt(mesh.cell_volume[c]));
   off = maximum(mesh.comm, off);
   if (off > same_place)
-    throw Error(ExitCode::usage, where + ": the cells of that run lie elsewhere, by up to " + words(off) +
-                                     " of a cell's width: it is another mesh, or its rotor stands at another angle" + remedy);
+    throw Error(ExitCode::usage, where + ": the cells of that run have other positions, by up to " + words(off) +
+                                     " of a cell's width: it is another mesh, or its rotor is at another angle" + remedy);
 }
 
 /// Nearest cell of the checkpoint so far, for a cell of this mesh.

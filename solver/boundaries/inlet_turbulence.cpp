@@ -30,7 +30,8 @@ void InletTurbulence::prepare(const Mesh& mesh, const Patch& patch, const std::s
   if (k.has_value() != epsilon.has_value())
     throw Error(ExitCode::usage, where + ": of turbulence_k and turbulence_epsilon only one is given; give both or none");
   if (k && (intensity || length_scale))
-    throw Error(ExitCode::usage, where + ": turbulence_k is given beside turbulence_intensity or turbulence_length_scale; keep one kind");
+    throw Error(ExitCode::usage,
+                where + ": turbulence_k is given together with turbulence_intensity or turbulence_length_scale; keep one kind");
   if (k && !(*k > 0 && *epsilon > 0))
     throw Error(ExitCode::usage, where + ": turbulence_k (" + std::to_string(*k) + ") and turbulence_epsilon (" + std::to_string(*epsilon) +
                                      ") must both be positive; for nearly laminar inflow give a small turbulence_intensity");

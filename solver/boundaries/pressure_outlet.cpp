@@ -56,7 +56,7 @@ struct PressureOutlet final : Boundary {
     if (std::none_of(all.begin(), all.end(), [](const PatchBoundary& other) { return other.boundary->pressure_is_prescribed(); }))
       throw Error(ExitCode::usage, where +
                                        ": target_flow_rate needs another patch where the pressure is given, from which the fluid comes; "
-                                       "use kind = \"pressure_inlet\", or take target_flow_rate away");
+                                       "use kind = \"pressure_inlet\", or remove target_flow_rate");
     control.emplace(column_conductance(mesh, all, patch), pressure);
   }
 

@@ -96,7 +96,7 @@ class Study(harness.CaseTest):
         text = STUDY.replace("[1, 1.25]", "[1]").replace('["100 mm", "120 mm"]', '["100 mm"]').format(zip="")
         self.study(text)
         refused = self.study(text.replace("0.008", "0.016"), code=2)
-        self.assertIn("holds a run of another case or other values", refused.stderr)
+        self.assertIn("has a run of another case or of other values", refused.stderr)
 
     def test_failed_run_does_not_stop_the_others(self):
         """A rag at 400 m/s leaves its bonds behind within a step: the study goes on and ends with the code of that run."""

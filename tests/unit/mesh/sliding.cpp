@@ -217,7 +217,7 @@ TEST(Sliding, DrawsWhereZonesDoNotMeet) {
   const SlidingInterface interface(mesh, description);
   const std::string message = failure([&] { interface.facets(0.3); });
   for (const char* expected : {"14 faces of the turning side (all round the axis, radius 0.05 m, 0 m to 0.01 m along the axis)",
-                               "17 faces of the standing side (all round the axis, radius 0.05 m, 0.036 m to 0.044 m",
+                               "17 faces of the stationary side (all round the axis, radius 0.05 m, 0.036 m to 0.044 m",
                                "is covered by the other side to 50 %", description.gap_picture.c_str()})
     EXPECT_NE(message.find(expected), std::string::npos) << expected << "\n" << message;
   if (rank_of(mesh.comm) == 0) {
@@ -257,10 +257,11 @@ TEST(Sliding, TellsTheAnglesOfAFold) {
   const SlidingInterface interface(mesh, shells.description());
   for (const double angle : {0.0, 0.3}) {
     const std::string message = failure([&] { interface.facets(angle); });
-    const auto at = message.find(" of the standing side (");
+    const auto at = message.find(" of the stationary side (");
     ASSERT_NE(at, std::string::npos) << message;
     int lowest = 0, highest = 0;
-    ASSERT_EQ(std::sscanf(message.c_str() + at, " of the standing side (%d deg to %d deg about the axis", &lowest, &highest), 2) << message;
+    ASSERT_EQ(std::sscanf(message.c_str() + at, " of the stationary side (%d deg to %d deg about the axis", &lowest, &highest), 2)
+        << message;
     // The faces about the node were between nodes 2 and 4, and reach to 4.5; angle 0 of the shells is at -y.
     EXPECT_GE(lowest, std::floor((shells.stator_start + 2 * 2 * pi / 17) * 180 / pi - 90)) << message;
     EXPECT_LE(highest, std::ceil((shells.stator_start + 4.5 * 2 * pi / 17) * 180 / pi - 90)) << message;
