@@ -21,8 +21,8 @@ constexpr double rounding = 1e-15;
 std::vector<Side> pressure_sides(const Mesh& mesh, const BoundarySet& boundary) {
   std::vector<Side> sides;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    const Fixes fixes = boundary.fixes(static_cast<int>(p));
-    sides.push_back(fixes == Fixes::pressure ? Side::value : Side::slope);
+    const PrescribedQuantity fixes = boundary.fixes(static_cast<int>(p));
+    sides.push_back(fixes == PrescribedQuantity::pressure ? Side::value : Side::slope);
   }
   return sides;
 }
@@ -51,7 +51,7 @@ void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int b = f - mesh_.n_interior;
-      given_[b] = boundary.fixes(static_cast<int>(p)) == Fixes::pressure ? boundary.values().pressure[b] : wall_slope[b];
+      given_[b] = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure ? boundary.values().pressure[b] : wall_slope[b];
     }
   mesh_.halo.exchange(flow.pressure);
   squares_.gradient(mesh_.weight, flow.pressure, given_, slope_);
@@ -99,7 +99,7 @@ Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& va
 /// What the boundary gives to p': the change of the fixed pressure, or of the normal slope.
 void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const bool fixed = boundary.fixes(static_cast<int>(p)) == Fixes::pressure;
+    const bool fixed = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
       if (fixed) {
@@ -135,12 +135,12 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
 
 void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const Fixes fixes = boundary.fixes(static_cast<int>(p));
+    const PrescribedQuantity fixes = boundary.fixes(static_cast<int>(p));
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
-      if (fixes == Fixes::velocity) {
+      if (fixes == PrescribedQuantity::velocity) {
         flow.flux[f] = boundary.values().flux[b];
-      } else if (fixes == Fixes::symmetry) {
+      } else if (fixes == PrescribedQuantity::normal_velocity) {
         flow.flux[f] = flow.mesh_flux[f];
       } else {
         const Vec3 &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
@@ -158,7 +158,7 @@ void Continuity::set_coefficients(const BoundarySet& boundary) {
   coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
   for (int f = 0; f < mesh_.n_interior; ++f) coefficient_[f] = conductance(mesh_.face_vector[f], mesh_.delta[f]);
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const bool fixed = boundary.fixes(static_cast<int>(p)) == Fixes::pressure;
+    const bool fixed = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
       coefficient_[f] = fixed ? conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
   }

@@ -27,8 +27,10 @@ double seconds() { return std::chrono::duration<double>(std::chrono::steady_cloc
 std::vector<Side> velocity_sides(const Mesh& mesh, const BoundarySet& boundary) {
   std::vector<Side> sides;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    const Fixes fixes = boundary.fixes(static_cast<int>(p));
-    sides.push_back(fixes == Fixes::velocity ? Side::value : fixes == Fixes::pressure ? Side::slope : Side::mirror);
+    const PrescribedQuantity fixes = boundary.fixes(static_cast<int>(p));
+    sides.push_back(fixes == PrescribedQuantity::velocity   ? Side::value
+                    : fixes == PrescribedQuantity::pressure ? Side::slope
+                                                            : Side::mirror);
   }
   return sides;
 }

@@ -177,7 +177,7 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
 void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
   if (!flow.rotating_zone || !flow.rotating_zone->slides()) return;
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    if (boundary.fixes(static_cast<int>(p)) != Fixes::velocity) continue;
+    if (boundary.fixes(static_cast<int>(p)) != PrescribedQuantity::velocity) continue;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
       if (mesh_.cell_zone[mesh_.owner[f]] == flow.rotating_zone->zone())
         flux_[f] = boundary.values().flux[f - mesh_.n_interior] - flow.mesh_flux[f];
@@ -214,7 +214,7 @@ struct Momentum::BoundaryFace {
     const Mat3& G = equation.gradient_[P];
     const double F = flow.density * equation.flux_[f], mu = flow.face_viscosity[f];
     switch (boundary.fixes(patch)) {
-      case Fixes::velocity: {
+      case PrescribedQuantity::velocity: {
         const Vec3& u = boundary.values().velocity[b];
         const double c = conductance(S, d);
         friction_slope = {mu * c, mu * c, mu * c};
@@ -228,7 +228,7 @@ struct Momentum::BoundaryFace {
         if (flow.variable_viscosity) friction_source += mu * transposed_product(G, S);
         break;
       }
-      case Fixes::pressure: {
+      case PrescribedQuantity::pressure: {
         const double area = norm(S);
         const Vec3 n = S / area;
         if (flow.variable_viscosity) friction_source = mu * transposed_product(G, S);
@@ -238,8 +238,9 @@ struct Momentum::BoundaryFace {
           convection_source = F * (equation.flux_[f] + flow.mesh_flux[f]) / area * n;
         break;
       }
-      case Fixes::symmetry: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal part implicit;
-                               // mu grad u^T adds the same again
+      case PrescribedQuantity::normal_velocity: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal
+                                                   // part implicit;
+                                                   // mu grad u^T adds the same again
         const double area = norm(S);
         const Vec3 n = S / area;
         const double c = (flow.variable_viscosity ? 2 : 1) * mu * area / dot(d, n);

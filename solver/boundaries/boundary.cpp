@@ -110,7 +110,8 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
     conditions_[p].boundary->prepare(mesh, mesh.patches[p], conditions_);
     conditions_[p].turbulence.prepare(mesh, mesh.patches[p], conditions_[p].where);
-    fixes_pressure_ = fixes_pressure_ || (conditions_[p].boundary->fixes() == Fixes::pressure && mesh.patches[p].count_global > 0);
+    fixes_pressure_ =
+        fixes_pressure_ || (conditions_[p].boundary->fixes() == PrescribedQuantity::pressure && mesh.patches[p].count_global > 0);
   }
 }
 
@@ -157,7 +158,7 @@ void BoundarySet::restore_state(const std::vector<double>& state) {
 void BoundarySet::check_net_flux() const {
   double net = 0, total = 0;
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
-    if (fixes(static_cast<int>(p)) != Fixes::velocity) continue;
+    if (fixes(static_cast<int>(p)) != PrescribedQuantity::velocity) continue;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const auto b = static_cast<std::size_t>(f - mesh_.n_interior);
       // Also what a wall carries along itself: the fluxes of a drum that turns are round-off of that.

@@ -10,11 +10,11 @@
 
 namespace snag {
 
-/// What a patch fixes; all else follows from it.
-///   velocity:  u and the flux are given, p is extrapolated from inside (walls, inlets)
-///   pressure:  p is given, du/dn = 0; fluid that enters comes along the normal (outlets)
-///   symmetry:  u.n = 0, no friction, dp/dn = 0
-enum class Fixes { velocity, pressure, symmetry };
+/// What a condition prescribes on its patch; all else follows from it.
+///   velocity:         u and the flux are given, p is extrapolated from inside (walls, inlets)
+///   pressure:         p is given, du/dn = 0; fluid that enters comes along the normal (outlets)
+///   normal_velocity:  u.n = 0, no friction, dp/dn = 0 (planes of symmetry)
+enum class PrescribedQuantity { velocity, pressure, normal_velocity };
 
 /// Values at the boundary faces, face f at f - n_interior.
 struct BoundaryValues {
@@ -33,15 +33,15 @@ class Boundary {
   virtual ~Boundary() = default;
   /// Its keys in a [[boundary]] table; the records point into this object.
   virtual Section section() = 0;
-  virtual Fixes fixes() const = 0;
+  virtual PrescribedQuantity fixes() const = 0;
   /// True for solid walls, where wall functions act.
   virtual bool is_wall() const { return false; }
   /// True where water passes: not at walls and planes of symmetry.
-  bool is_open() const { return !is_wall() && fixes() != Fixes::symmetry; }
+  bool is_open() const { return !is_wall() && fixes() != PrescribedQuantity::normal_velocity; }
   /// True where the pressure is as given, false where its level follows from the flow.
-  virtual bool pressure_is_prescribed() const { return fixes() == Fixes::pressure; }
+  virtual bool pressure_is_prescribed() const { return fixes() == PrescribedQuantity::pressure; }
   /// True where what the water carries has left for good once it is beyond the patch.
-  virtual bool is_outlet() const { return fixes() == Fixes::pressure; }
+  virtual bool is_outlet() const { return fixes() == PrescribedQuantity::pressure; }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
   virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
   /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
@@ -83,7 +83,7 @@ class BoundarySet {
   /// Set all fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
   BoundaryValues exchange_for_rest_state();
   void restore(const BoundaryValues& values) { values_ = values; }
-  Fixes fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
+  PrescribedQuantity fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
   bool is_outlet(int patch) const { return conditions_[patch].boundary->is_outlet(); }

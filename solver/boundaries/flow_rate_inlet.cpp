@@ -28,7 +28,7 @@ struct FlowRateInlet final : Boundary {
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
-  Fixes fixes() const override { return Fixes::velocity; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     std::vector<Vec3> S(mesh.face_vector.begin() + patch.first, mesh.face_vector.begin() + patch.end());

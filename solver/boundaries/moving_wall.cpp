@@ -26,7 +26,7 @@ struct MovingWall final : Boundary {
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
-  Fixes fixes() const override { return Fixes::velocity; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool is_wall() const override { return true; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");

@@ -41,7 +41,7 @@ struct PressureInlet final : Boundary {
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
-  Fixes fixes() const override { return Fixes::pressure; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::pressure; }
   bool is_outlet() const override { return false; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");

@@ -44,7 +44,7 @@ struct PressureOutlet final : Boundary {
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
-  Fixes fixes() const override { return Fixes::pressure; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::pressure; }
   bool pressure_is_prescribed() const override { return !target_flow_rate; }
 
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>& all) override {

@@ -8,7 +8,7 @@ struct Symmetry final : Boundary {
   static constexpr const char* name = "symmetry";
 
   Section section() override { return {.name = name, .meaning = "Plane of symmetry or slip wall.", .parameters = {}}; }
-  Fixes fixes() const override { return Fixes::symmetry; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::normal_velocity; }
   void update(const Flow&, const Patch&, double, BoundaryValues&) const override {}
 };
 const bool registered = boundaries().add<Symmetry>();

@@ -33,7 +33,7 @@ struct VelocityInlet final : Boundary {
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
-  Fixes fixes() const override { return Fixes::velocity; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     if (normal_speed && norm(velocity) > 0)

@@ -20,7 +20,7 @@ struct Wall final : Boundary {
                                        "The wall stays at rest although its cells turn: a casing wall that is a surface of revolution."),
                                {.key = "fixed"})}};
   }
-  Fixes fixes() const override { return Fixes::velocity; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool is_wall() const override { return true; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     const RotatingZone* zone = stationary ? nullptr : flow.rotating_zone;

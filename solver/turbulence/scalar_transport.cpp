@@ -17,7 +17,7 @@ std::vector<Side> sides(const Mesh& mesh, const BoundarySet& boundary, Side at_w
   std::vector<Side> sides;
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const int p = static_cast<int>(patch);
-    const bool inlet = boundary.fixes(p) == Fixes::velocity && !boundary.is_wall(p);
+    const bool inlet = boundary.fixes(p) == PrescribedQuantity::velocity && !boundary.is_wall(p);
     sides.push_back(boundary.is_wall(p) ? at_walls : inlet ? Side::value : Side::slope);
   }
   return sides;
@@ -38,7 +38,7 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const int p = static_cast<int>(patch);
     open_.push_back(boundary.is_open(p));
-    fixes_velocity_.push_back(boundary.fixes(p) == Fixes::velocity);
+    fixes_velocity_.push_back(boundary.fixes(p) == PrescribedQuantity::velocity);
   }
 }
 

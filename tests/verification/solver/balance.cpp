@@ -24,7 +24,7 @@ void put_rag(Flow& flow, double force) {
 struct RisingPressure final : Boundary {
   double rate = 0;  // Pa/s
   Section section() override { return {}; }
-  Fixes fixes() const override { return Fixes::pressure; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::pressure; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     for (int f = patch.first; f < patch.end(); ++f) values.pressure[f - flow.mesh.n_interior] = rate * time;
   }

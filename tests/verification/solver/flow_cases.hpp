@@ -20,7 +20,7 @@ struct ExactVelocity final : Boundary {
   VectorField u;
   bool through = true;
   Section section() override { return {}; }
-  Fixes fixes() const override { return Fixes::velocity; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;

@@ -31,7 +31,7 @@ double exact_pressure(const Vec3& x, double t) {
 /// The exact velocity at the face and the exact flux through it, so that fluxes sum to zero:   int u.dS = U.S + closed integral psi dz
 struct ExactVortex final : Boundary {
   Section section() override { return {}; }
-  Fixes fixes() const override { return Fixes::velocity; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     const Mesh& mesh = flow.mesh;
     for (int f = patch.first; f < patch.end(); ++f) {
