@@ -277,8 +277,8 @@ void ContactSolver::unpack(const Tile& tile, std::span<const double> values) {
 const ContactMeasures& ContactSolver::measures() const { return state_->measures; }
 const std::vector<WallTouch>& ContactSolver::wall_touches() const { return state_->walls ? state_->walls->touched : state_->no_touches; }
 
-void ContactSolver::mark_line(const MarkedLine& line) {
-  if (state_->walls) state_->walls->marked = line;
+void ContactSolver::set_tongue(const TongueLine& tongue) {
+  if (state_->walls) state_->walls->tongue = tongue;
 }
 
 std::vector<Vec3> ContactSolver::forces(std::span<const Tile> tiles) const {

@@ -25,17 +25,17 @@ namespace snag {
 
 class WallSet;
 
-/// Where a particle touches walls: a wall that moves, one at rest near the marked line, any other at rest.
-enum class WallPlace { moving, marked, other };
-inline constexpr int n_wall_places = 3;
+/// Where a particle touches walls: a wall that moves, one at rest near the tongue of a volute, any other at rest.
+enum class ContactRegion { moving, tongue, other };
+inline constexpr int n_contact_regions = 3;
 
-/// A line, and how near to it a contact is one at the line: the tongue of a volute.
-struct MarkedLine {
+/// The edge of the tongue of a volute as a line; contacts within `reach` of it are contacts with the tongue.
+struct TongueLine {
   Vec3 point, direction;  // m; unit
   double reach = 0;       // m, from the line to the contact point
 };
 
-/// Particles of one rag that touch walls of one place, on this rank; a particle counts once in each place where it touches.
+/// Particles of one rag that touch walls of one region, on this rank; a particle counts once in each region where it touches.
 struct WallTouch {
   std::int64_t now = 0;          // at the last add_forces
   std::int64_t since_reset = 0;  // summed over all add_forces since the last reset
@@ -99,9 +99,9 @@ class ContactSolver {
   void unpack(const Tile& tile, std::span<const double> values);
 
   const ContactMeasures& measures() const;
-  /// From now on contacts with walls at rest near this line are counted separately.
-  void mark_line(const MarkedLine& line);
-  /// [n_rags][n_wall_places], row by row; empty without walls.
+  /// From now on contacts with walls at rest near the tongue are counted separately.
+  void set_tongue(const TongueLine& tongue);
+  /// [n_rags][n_contact_regions], row by row; empty without walls.
   const std::vector<WallTouch>& wall_touches() const;
   /// Sum of its contacts' forces on each particle of these owned tiles at the last add_forces, N; tile by tile in the order of
   /// for_particles. Zero for tiles that were not there then.

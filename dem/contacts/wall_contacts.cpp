@@ -43,7 +43,7 @@ WallContacts::WallContacts(const std::vector<Rag>& rags, const ContactSettings& 
   }
   poses_.resize(walls.bodies().size());
   max_overlap_over_radius.assign(rags.size(), 0);
-  touched.assign(rags.size() * n_wall_places, {});
+  touched.assign(rags.size() * n_contact_regions, {});
 }
 
 WallContacts::Reach WallContacts::reach(const WallBody& body) const {
@@ -240,19 +240,19 @@ void WallContacts::evaluate(ContactParticles& particles) {
   block.n = 0;
 }
 
-WallPlace WallContacts::place_of(const Touch& touch, const Vec3& centre) const {
-  if (walls_->bodies()[touch.body].motion.moves()) return WallPlace::moving;
-  if (!marked) return WallPlace::other;
-  const Vec3 away = centre - touch.distance * touch.direction - marked->point;
-  return norm(away - dot(away, marked->direction) * marked->direction) <= marked->reach ? WallPlace::marked : WallPlace::other;
+ContactRegion WallContacts::region_of(const Touch& touch, const Vec3& centre) const {
+  if (walls_->bodies()[touch.body].motion.moves()) return ContactRegion::moving;
+  if (!tongue) return ContactRegion::other;
+  const Vec3 away = centre - touch.distance * touch.direction - tongue->point;
+  return norm(away - dot(away, tongue->direction) * tongue->direction) <= tongue->reach ? ContactRegion::tongue : ContactRegion::other;
 }
 
 void WallContacts::count_touches(const Particle& p) {
-  std::array<bool, n_wall_places> here{};
-  for (const Touch& touch : acting_) here[static_cast<int>(place_of(touch, p.x))] = true;
-  for (int place = 0; place < n_wall_places; ++place) {
-    if (!here[place]) continue;
-    WallTouch& touch = touched[p.rag * n_wall_places + place];
+  std::array<bool, n_contact_regions> here{};
+  for (const Touch& touch : acting_) here[static_cast<int>(region_of(touch, p.x))] = true;
+  for (int region = 0; region < n_contact_regions; ++region) {
+    if (!here[region]) continue;
+    WallTouch& touch = touched[p.rag * n_contact_regions + region];
     ++touch.now, ++touch.since_reset;
   }
 }

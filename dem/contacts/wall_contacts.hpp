@@ -57,8 +57,8 @@ class WallContacts {
 
   std::int64_t n_contacts = 0;                  // now
   std::vector<double> max_overlap_over_radius;  // [n_rags] since reset
-  std::vector<WallTouch> touched;               // [n_rags][n_wall_places]
-  std::optional<MarkedLine> marked;
+  std::vector<WallTouch> touched;               // [n_rags][n_contact_regions]
+  std::optional<TongueLine> tongue;
 
   std::vector<ContactPair> pairs;  // [n_rags]
 
@@ -91,7 +91,7 @@ class WallContacts {
   bool repeats(const Touch& touch, std::size_t before) const;
   void put(ContactParticles& particles, const Particle& p, const Touch& touch);
   void evaluate(ContactParticles& particles);
-  WallPlace place_of(const Touch& touch, const Vec3& centre) const;
+  ContactRegion region_of(const Touch& touch, const Vec3& centre) const;
   void count_touches(const Particle& p);
   Vec3 old_slip(int body, const Vec3& direction);
   void note_beyond(const Particle& p, std::size_t& next_old);

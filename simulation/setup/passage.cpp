@@ -20,8 +20,8 @@ enum Count {
   past_inside,
   past_outside,
   touching,
-  touched = touching + n_wall_places,
-  n_counts = touched + n_wall_places
+  touched = touching + n_contact_regions,
+  n_counts = touched + n_contact_regions
 };
 
 bool is_beyond(const Vec3& x, const std::vector<Opening>& openings, bool is_outlet) {
@@ -29,14 +29,14 @@ bool is_beyond(const Vec3& x, const std::vector<Opening>& openings, bool is_outl
                      [&](const Opening& opening) { return opening.is_outlet == is_outlet && opening.beyond(x) > 0; });
 }
 
-/// In a pump the walls that move are the impeller's, and the marked line is the tongue.
-WallRegion region_of(WallPlace place) {
-  switch (place) {
-    case WallPlace::moving:
+/// In a pump the walls that move are the impeller's.
+WallRegion region_of(ContactRegion region) {
+  switch (region) {
+    case ContactRegion::moving:
       return WallRegion::impeller;
-    case WallPlace::marked:
+    case ContactRegion::tongue:
       return WallRegion::tongue;
-    case WallPlace::other:
+    case ContactRegion::other:
       break;
   }
   return WallRegion::other;
@@ -45,9 +45,9 @@ WallRegion region_of(WallPlace place) {
 void count_contacts(const ContactSolver& contacts, std::vector<std::int64_t>& counts) {
   const std::vector<WallTouch>& touches = contacts.wall_touches();
   for (std::size_t i = 0; i < touches.size(); ++i) {
-    const std::size_t rag = i / n_wall_places, place = i % n_wall_places;
-    counts[rag * n_counts + touching + place] = touches[i].now;
-    counts[rag * n_counts + touched + place] = touches[i].since_reset;
+    const std::size_t rag = i / n_contact_regions, region = i % n_contact_regions;
+    counts[rag * n_counts + touching + region] = touches[i].now;
+    counts[rag * n_counts + touched + region] = touches[i].since_reset;
   }
 }
 
@@ -56,9 +56,9 @@ RagSnapshot sighting(const std::int64_t* counts, const RagState& state, const st
   seen.n = state.n_particles, seen.n_upstream = counts[upstream], seen.n_out = counts[out];
   seen.n_in_discharge = counts[discharge], seen.n_outside_impeller = counts[outside_impeller];
   seen.n_past_inside = counts[past_inside], seen.n_past_outside = counts[past_outside];
-  for (int place = 0; place < n_wall_places; ++place) {
-    const WallRegion region = region_of(static_cast<WallPlace>(place));
-    seen.touching[region] = counts[touching + place], seen.touched[region] = counts[touched + place] > 0;
+  for (int i = 0; i < n_contact_regions; ++i) {
+    const WallRegion region = region_of(static_cast<ContactRegion>(i));
+    seen.touching[region] = counts[touching + i], seen.touched[region] = counts[touched + i] > 0;
   }
   seen.tension = state.max_bond_tension, seen.tension_place = state.max_bond_tension_place;
   if (!geometry) return seen;

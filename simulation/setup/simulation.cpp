@@ -170,7 +170,7 @@ void Simulation::build_rags(const CaseFile& file) {
   poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
-  if (way) rags->contacts()->mark_line({way->tongue(), way->direction(), way->tongue_reach()});
+  if (way) rags->contacts()->set_tongue({way->tongue(), way->direction(), way->tongue_reach()});
   passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, std::move(way),
                                       rags->rags().size());
 }

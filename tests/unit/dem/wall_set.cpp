@@ -174,7 +174,7 @@ TEST(WallContacts, ForcesOfWalls) {
   EXPECT_EQ(contacts.measures().max_wall_overlap_over_radius[0], 0);
 }
 
-// A particle counts once in each place where it touches: a wall that moves, one at rest near the marked line, any other at rest. Forces of
+// A particle counts once in each region where it touches: a wall that moves, one at rest near the tongue, any other at rest. Forces of
 // all contacts are told particle by particle.
 TEST(WallContacts, PlacesOfTouchAndForces) {
   const double r = 1e-3;
@@ -187,18 +187,18 @@ TEST(WallContacts, PlacesOfTouchAndForces) {
   pieces.add_sphere(Pieces::sphere(r, 540), {4 * r, 1 - 0.9 * r, 0.9 * r});  // on belt and floor, near the line
   pieces.add_sphere(Pieces::sphere(r, 540), {0.5, 0.5, 0.5});                // nowhere
   ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
-  contacts.mark_line({.point = {0, 0.3, 0}, .direction = {0, 1, 0}, .reach = 5 * r});
+  contacts.set_tongue({.point = {0, 0.3, 0}, .direction = {0, 1, 0}, .reach = 5 * r});
   for (int k = 0; k < 2; ++k) {
     pieces.clear_forces();
     contacts.add_forces(pieces.owned(), {}, 1e-6);
   }
-  const std::vector<std::vector<int>> expected{{0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 0, 0}};  // moving, marked, other
-  ASSERT_EQ(contacts.wall_touches().size(), expected.size() * n_wall_places);
+  const std::vector<std::vector<int>> expected{{0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0, 0, 0}};  // moving, tongue, other
+  ASSERT_EQ(contacts.wall_touches().size(), expected.size() * n_contact_regions);
   for (std::size_t rag = 0; rag < expected.size(); ++rag) {
-    for (std::size_t place = 0; place < n_wall_places; ++place) {
-      const WallTouch& touch = contacts.wall_touches()[rag * n_wall_places + place];
-      EXPECT_EQ(touch.now, expected[rag][place]) << rag << " " << place;
-      EXPECT_EQ(touch.since_reset, 2 * expected[rag][place]) << rag << " " << place;
+    for (std::size_t region = 0; region < n_contact_regions; ++region) {
+      const WallTouch& touch = contacts.wall_touches()[rag * n_contact_regions + region];
+      EXPECT_EQ(touch.now, expected[rag][region]) << rag << " " << region;
+      EXPECT_EQ(touch.since_reset, 2 * expected[rag][region]) << rag << " " << region;
     }
     const std::vector<Vec3> force = contacts.forces({pieces.tiles[rag].get(), 1});
     ASSERT_EQ(force.size(), 1U);

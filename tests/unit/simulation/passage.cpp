@@ -53,7 +53,7 @@ class Led {
     rags = std::make_unique<RagSystem>(MPI_COMM_WORLD, DemSettings{}, std::vector<RagPiece>{piece});
     rags->set_contacts(std::make_unique<ContactSolver>(ContactSettings{}, rags->rags(), &walls));
     if (passage.geometry())
-      rags->contacts()->mark_line({passage.geometry()->tongue(), passage.geometry()->direction(), passage.geometry()->tongue_reach()});
+      rags->contacts()->set_tongue({passage.geometry()->tongue(), passage.geometry()->direction(), passage.geometry()->tongue_reach()});
   }
 
   void look(const Vec3& centre) {
