@@ -44,7 +44,7 @@ class Attributor {
     // What changes no run is the base model under another name: friction of what touches nothing is no hypothesis.
     const auto changes_none = [&](int k) { return !model_.effects()[k].random && !screening.changes_runs(k); };
     std::erase_if(live, changes_none), std::erase_if(candidates_, changes_none);
-    result_.sham_rate = screening.sham_rate(model_.experiment().seed);
+    result_.placebo_rate = screening.placebo_rate(model_.experiment().seed);
     const std::vector<Screened> singles = screened_singles(screening);
     report("fits", 0.15);
     add(fitter_.fit({}, Eigen::VectorXd()));

@@ -30,7 +30,7 @@ struct Attribution {
   std::map<std::string, double> screening{}, weak_form{};  // gains over none
   std::map<std::string, double> probability{};
   Identifiability identifiability;
-  double sham_rate = 0;
+  double placebo_rate = 0;
   std::vector<std::string> notes{};
 
   int first() const;             // the likeliest fit

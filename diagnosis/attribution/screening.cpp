@@ -211,7 +211,7 @@ double Screening::cosine(int a, int b) const {
   return norm > 0 ? projected(columns_.at(a).front(), columns_.at(b).front()) / norm : 0;
 }
 
-double Screening::sham_rate(std::uint64_t seed) const {
+double Screening::placebo_rate(std::uint64_t seed) const {
   const int m = static_cast<int>(nuisances_.cols());
   const auto first = fitter_.first_rows();
   const auto evidence = [&](const Eigen::VectorXd& own, const Effect& effect) {
@@ -224,7 +224,7 @@ double Screening::sham_rate(std::uint64_t seed) const {
   };
   NormalNumbers random(seed);
   double best = solve(LinearModel{rho_, nuisances_, Eigen::VectorXd::Zero(m), Eigen::VectorXd(), Eigen::VectorXd()}).log_evidence;
-  std::vector<double> sham;
+  std::vector<double> placebo;
   for (const int k : candidates_) {
     const Effect& effect = model_.effects()[k];
     best = std::max(best, evidence(columns_.at(k).front(), effect));
@@ -234,12 +234,12 @@ double Screening::sham_rate(std::uint64_t seed) const {
         auto part = own.segment(first[p], first[p + 1] - first[p]);
         part = (random.uniform() < 0.5 ? -1 : 1) * part.reverse().eval();
       }
-      sham.push_back(evidence(own, effect));
+      placebo.push_back(evidence(own, effect));
     }
   }
-  return sham.empty() ? 0
-                      : static_cast<double>(std::count_if(sham.begin(), sham.end(), [&](double e) { return e > best; })) /
-                            static_cast<double>(sham.size());
+  return placebo.empty() ? 0
+                         : static_cast<double>(std::count_if(placebo.begin(), placebo.end(), [&](double e) { return e > best; })) /
+                               static_cast<double>(placebo.size());
 }
 
 }  // namespace snag

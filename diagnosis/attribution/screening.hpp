@@ -35,8 +35,8 @@ class Screening {
   std::string failure(int candidate) const;
   /// Cosine between two signatures in that metric.
   double cosine(int a, int b) const;
-  /// Share of sham effects (signatures that run backwards in time with random signs by point) that beat every candidate alone.
-  double sham_rate(std::uint64_t seed) const;
+  /// Share of placebo effects (signatures that run backwards in time with random signs by point) that beat every candidate alone.
+  double placebo_rate(std::uint64_t seed) const;
   const std::vector<int>& candidates() const { return candidates_; }
   /// Signatures by row of a training point, not whitened.
   const Eigen::VectorXd& signature(int candidate, int training_point) const {

@@ -97,7 +97,7 @@ std::string verdict_json(const Verdict& v) {
                       {"leave_one_point_out", numbers(v.leave_one_out)},
                       {"screening", numbers(v.screening)},
                       {"weak_form", numbers(v.weak_form)},
-                      {"sham_rate", v.sham_rate},
+                      {"sham_rate", v.placebo_rate},
                       {"temperature", v.temperature}};
   json["nuisances"] = numbers(v.nuisances);
   json["checks"] = Json::object();

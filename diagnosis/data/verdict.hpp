@@ -89,7 +89,7 @@ struct Verdict {
   std::map<std::string, double> nuisances{};  // fitted deviations under the first hypothesis, in standard uncertainties; name@points
   std::vector<PredictiveCheck> checks{};
   std::vector<std::string> notes{};  // guards that spoke, in sentences
-  double sham_rate = 0;              // of sham effects that a screening would have chosen
+  double placebo_rate = 0;           // of placebo effects that a screening would have chosen
   std::vector<GapCell> where{};
   std::vector<GapCurve> curves{};                         // of the largest differences
   std::map<std::string, Shrinkage> shrinkage{};           // of the chosen effect, by hypothesis

@@ -77,7 +77,7 @@ class Judge {
     drop_surplus_effects(model_, a_);
     set_probabilities(a_);
     v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.weak_form = a_.weak_form,
-    v_.sham_rate = a_.sham_rate;
+    v_.placebo_rate = a_.placebo_rate;
     v_.temperature = calibration().temperature;
     for (std::size_t i = 0; i < a_.fits.size(); ++i) {
       v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence - a_.fits[0].log_evidence;
@@ -223,8 +223,8 @@ class Judge {
             hold = false;
     }
     constexpr double working_false_rate = 0.2;
-    if (a_.sham_rate > working_false_rate)
-      v_.notes.push_back("Sham effects would be chosen in " + words(100 * a_.sham_rate) +
+    if (a_.placebo_rate > working_false_rate)
+      v_.notes.push_back("Placebo effects would be chosen in " + words(100 * a_.placebo_rate) +
                          " % of the cases: the screening cannot tell an effect from chance here."),
           hold = false;
     return hold;
