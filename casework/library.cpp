@@ -37,9 +37,10 @@ std::vector<CatalogueEffect> all_of_cases() {
   std::vector<CatalogueEffect> all;
   for (const std::string& name : fluid_forces().names()) {
     const auto force = fluid_forces().make(name, "diagnosis");
-    const Card card = force->card();
+    const ForceDescription description = force->description();
     // Gravity is no name in [coupling] forces: it acts where its table is given.
-    if (card.prior) all.push_back({.name = name, .prior = *card.prior, .is_force = name != "gravity", .forms = forms_of(*force)});
+    if (description.prior)
+      all.push_back({.name = name, .prior = *description.prior, .is_force = name != "gravity", .forms = forms_of(*force)});
   }
   for (const Candidate& candidate : dem_candidates()) all.push_back(setting_effect(candidate));
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });

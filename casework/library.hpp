@@ -1,5 +1,5 @@
 #pragma once
-// The candidates that are values of a case: forces by the priors on their cards, and settings of the particles.
+// The candidates that are values of a case: forces by the priors on their descriptions, and settings of the particles.
 #include <cstdint>
 #include <functional>
 #include <string>

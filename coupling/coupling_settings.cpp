@@ -118,10 +118,10 @@ std::vector<Section> coupling_sections() {
   static const auto shapes = kernel_shapes().make_all();
   std::vector<Section> sections{settings.section()};
   for (const auto& force : forces) {
-    const Card card = force->card();
-    sections.push_back({card.name == gravity ? gravity : "coupling." + card.name,
-                        card.equation + ". Source: " + card.source + ". Valid for: " + card.valid_for + "." +
-                            (card.reacts_on_fluid ? "" : " Does not react on the water."),
+    const ForceDescription description = force->description();
+    sections.push_back({description.name == gravity ? gravity : "coupling." + description.name,
+                        description.equation + ". Source: " + description.source + ". Valid for: " + description.valid_for + "." +
+                            (description.reacts_on_fluid ? "" : " Does not react on the water."),
                         force->parameters()});
   }
   const std::vector<std::string> names = kernel_shapes().names();  // in the order of make_all

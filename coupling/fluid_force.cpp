@@ -88,16 +88,16 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
                            .wall_distance = fields.field(state.wall_distance),
                            .wall_normal = fields.vector(state.wall_normal)};
   const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity};
-  const Card card = force.card();
-  std::vector<double> memory(static_cast<std::size_t>(card.memory) * tile.field_size);
+  const ForceDescription description = force.description();
+  std::vector<double> memory(static_cast<std::size_t>(description.memory) * tile.field_size);
   Particles particles(rag, tile);
   particles.step = state.step;
   particles.memory = memory.data(), particles.memory_stride = tile.field_size;
-  const bool changes_drag = card.role == Role::drag_replacement || card.role == Role::drag_modifier;
+  const bool changes_drag = description.role == Role::drag_replacement || description.role == Role::drag_modifier;
   const auto drag = fluid_forces().make("schiller_naumann", "sphere");
   if (changes_drag) drag->add(fluid, particles, forces);
   force.add(fluid, particles, forces);
-  if (card.role == Role::fluid) drag->add(fluid, particles, forces);
+  if (description.role == Role::fluid) drag->add(fluid, particles, forces);
   const int k = tile.index(1, 1);
   const auto at = [k](const VectorSum& v) { return Vec3{v.x[k], v.y[k], v.z[k]}; };
   return {at(forces.force), at(forces.torque), forces.slope[k], forces.added_mass[k]};

@@ -46,7 +46,7 @@ struct SampleSet {
 };
 
 /// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Of the fields only the velocity
-/// and what the force's card asks for may be read.
+/// and what the force's description asks for may be read.
 struct FluidSamples {
   double density = 0;                                  // rho, kg/m3
   double dynamic_viscosity = 0;                        // mu, Pa s
@@ -80,9 +80,10 @@ struct Particles {
   double mass;                                       // m, kg
   double volume;                                     // V_h, hydrodynamic, m3
   double step = 0;                                   // h, of the sub-step, s
-  double* memory =
-      nullptr;  // Card::memory numbers of each particle that stay with it: number i of place k is memory[i * memory_stride + k];
-  std::size_t memory_stride = 0;               // zero at birth
+  /// ForceDescription::memory numbers of each particle that stay with it: number i of place k is memory[i * memory_stride + k]; zero at
+  /// birth.
+  double* memory = nullptr;
+  std::size_t memory_stride = 0;
   std::int64_t id(int column, int row) const;  // of the particle in this column and row of the tile
 };
 
@@ -106,7 +107,7 @@ enum class Role {
 };
 
 /// What a model is, for the manual.
-struct Card {
+struct ForceDescription {
   std::string name, equation, source, valid_for;
   bool reacts_on_fluid = true;  // the water feels the opposite force
   SampleSet samples = {};
@@ -145,7 +146,7 @@ struct ReferenceCase {
 class FluidForce {
  public:
   virtual ~FluidForce() = default;
-  virtual Card card() const = 0;
+  virtual ForceDescription description() const = 0;
   /// Table [coupling.NAME] of the case file.
   virtual std::vector<Parameter> parameters() { return {}; }
   /// Whether the water feels the rags, for what was not given and depends on it. After reading.

@@ -30,17 +30,17 @@ inline double mean_relaxation(double theta) { return (1 + theta / 6) / (1 + thet
 }  // namespace
 
 FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::vector<Rag>& rags) : field_(field), rags_(rags) {
-  std::vector<std::pair<Card, const FluidForce*>> cards;
-  for (const auto& force : forces) cards.emplace_back(force->card(), force.get());
-  std::sort(cards.begin(), cards.end(),
+  std::vector<std::pair<ForceDescription, const FluidForce*>> descriptions;
+  for (const auto& force : forces) descriptions.emplace_back(force->description(), force.get());
+  std::sort(descriptions.begin(), descriptions.end(),
             [](const auto& a, const auto& b) { return std::tie(a.first.role, a.first.name) < std::tie(b.first.role, b.first.name); });
-  for (const auto& [card, force] : cards) {
-    needed_ = needed_ | card.samples;
-    forces_.push_back({force, card.reacts_on_fluid, card.role, memory_});
-    memory_ += card.memory;
-    changes_fluid_ = changes_fluid_ || card.role == Role::fluid;
-    all_react_ = all_react_ && card.reacts_on_fluid;
-    torque_ = torque_ || card.gives_torque, added_mass_ = added_mass_ || card.gives_added_mass;
+  for (const auto& [description, force] : descriptions) {
+    needed_ = needed_ | description.samples;
+    forces_.push_back({force, description.reacts_on_fluid, description.role, memory_});
+    memory_ += description.memory;
+    changes_fluid_ = changes_fluid_ || description.role == Role::fluid;
+    all_react_ = all_react_ && description.reacts_on_fluid;
+    torque_ = torque_ || description.gives_torque, added_mass_ = added_mass_ || description.gives_added_mass;
   }
 }
 

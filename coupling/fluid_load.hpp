@@ -55,7 +55,7 @@ class FluidLoad final : public TileForce {
   void add_torque(Tile& tile, double step);
   double* array(int f) { return scratch_.data() + f * scratch_size_; }
 
-  /// A force with what its card says.
+  /// A force with what its description says.
   struct Member {
     const FluidForce* force;
     bool reacts;

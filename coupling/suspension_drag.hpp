@@ -14,7 +14,7 @@ namespace snag {
 
 /// A drag law that needs the solid fraction of a computed flow.
 struct SuspensionDrag : SphereDrag {
-  Card card_of(const char* name, const char* equation, const char* source, const char* valid_for) const {
+  ForceDescription card_of(const char* name, const char* equation, const char* source, const char* valid_for) const {
     return {.name = name,
             .equation = equation,
             .source = source,

@@ -20,7 +20,7 @@ struct AddedMass final : FluidForce {
   std::string form = "free";
 
   bool at_wall() const { return form == "wall"; }
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = C_m rho V_h (Du/Dt - dv/dt)",
             .source = "Auton, Hunt and Prud'homme (1988); near walls Lamb (1932)",

@@ -30,7 +30,7 @@ struct CylinderSegments final : FluidForce {
   static constexpr const char* name = "cylinder_segments";
   double drag_factor = 1;
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = 1/2 mu l (C_n Re_n) w_n + pi mu l (0.55 Re^(1/2) + 0.084 Re^(2/3)) w_t",
             .source = "Casarella and Choo (1971)",

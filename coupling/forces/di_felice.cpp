@@ -14,7 +14,7 @@ namespace {
 struct DiFelice final : SuspensionDrag {
   static constexpr const char* name = "di_felice";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return card_of(name, "F = 1/2 rho C_d A epsilon^(2 - beta) |w| w, C_d = (0.63 + 4.8/Re_s^(1/2))^2", "di Felice (1994)",
                    "spheres, void fraction 0.4 to 1, all Re; solid fraction of a computed flow");
   }

@@ -14,7 +14,7 @@ struct DragExponent final : FluidForce {
   static constexpr const char* name = "drag_exponent";
   double exponent = 0, reference_reynolds = 100;
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "C_d -> C_d (max(Re, 1)/Re_ref)^theta",
             .source = "power law about a reference state",

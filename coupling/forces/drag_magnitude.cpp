@@ -10,7 +10,7 @@ struct DragMagnitude final : FluidForce {
   static constexpr const char* name = "drag_magnitude";
   double excess = 0;
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = (1 + theta) F_drag",
             .source = "definition",

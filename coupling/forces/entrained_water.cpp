@@ -16,7 +16,7 @@ struct EntrainedWater final : FluidForce {
   static constexpr const char* name = "entrained_water";
   double volume_ratio = 0;
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = theta rho V_h (Du/Dt - dv/dt)",
             .source = "Newton's second law for cloth and water together",

@@ -12,7 +12,7 @@ namespace {
 struct ErgunWenYu final : SuspensionDrag {
   static constexpr const char* name = "ergun_wen_yu";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return card_of(name, "F = K w by Ergun for epsilon < 0.8, by Wen and Yu above", "Ergun (1952), Wen and Yu (1966)",
                    "spheres, all Re; solid fraction of a computed flow");
   }

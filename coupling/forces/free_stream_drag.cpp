@@ -11,7 +11,7 @@ namespace {
 struct FreeStreamDrag final : SphereDrag {
   static constexpr const char* name = "free_stream_drag";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = 1/2 rho C_d A |w| w; C_d = 24/Re (Re <= 0.5), 24/Re (1 + 0.15 Re^0.687) (Re <= 1000), 0.44",
             .source = "Jensen (2018) Eq. 5.1",

@@ -13,7 +13,7 @@ namespace {
 struct Ganser final : ShapeDrag {
   static constexpr const char* name = "ganser";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "C_d = 24/(Re K_1) (1 + 0.1118 X^0.6567) + 0.4305 K_2/(1 + 3305/X), X = Re K_1 K_2",
             .source = "Ganser (1993)",

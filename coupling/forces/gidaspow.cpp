@@ -10,7 +10,7 @@ namespace {
 struct Gidaspow final : SuspensionDrag {
   static constexpr const char* name = "gidaspow";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return card_of(name, "F = ((1 - s) K_Ergun + s K_WenYu) w, s = 1/2 + arctan(262.5 (epsilon - 0.8))/pi",
                    "Gidaspow (1994), Huilin and Gidaspow (2003)", "spheres, all Re; solid fraction of a computed flow");
   }

@@ -14,7 +14,7 @@ struct Gravity final : FluidForce {
   static constexpr const char* name = "gravity";
   Vec3 acceleration{0, 0, -9.81};
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = (m - rho V_h) g",
             .source = "Archimedes",

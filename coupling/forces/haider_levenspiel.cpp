@@ -14,7 +14,7 @@ namespace {
 struct HaiderLevenspiel final : ShapeDrag {
   static constexpr const char* name = "haider_levenspiel";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "C_d = 24/Re (1 + A Re^B) + C/(1 + D/Re), A to D by sphericity",
             .source = "Haider and Levenspiel (1989)",

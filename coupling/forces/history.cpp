@@ -56,7 +56,7 @@ struct History final : FluidForce {
   double coefficient = 1, window = 0.1;
   std::string form = "basset";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = theta 3/2 d^2 (pi rho mu)^(1/2) int K(t - tau) d(u - v)/dtau dtau, K = t^(-1/2)",
             .source = "Basset (1888), Maxey and Riley (1983), van Hinsberg et al. (2011)",

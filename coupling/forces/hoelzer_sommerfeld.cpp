@@ -14,7 +14,7 @@ struct HoelzerSommerfeld final : ShapeDrag {
   static constexpr const char* name = "hoelzer_sommerfeld";
   double lengthwise_sphericity = 1, crosswise_sphericity = 1;
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "C_d = 8/Re phi_l^(-1/2) + 16/Re phi^(-1/2) + 3 Re^(-1/2) phi^(-3/4) + 0.42 10^(0.4 (-log10 phi)^0.2)/phi_c",
             .source = "Hoelzer and Sommerfeld (2008)",

@@ -26,7 +26,7 @@ struct Lift final : FluidForce {
   double coefficient = 1, rotation_coefficient = 1;
   std::string form = "mei";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = theta (1.615 C d^2 (rho mu/|omega|)^(1/2) w x omega + pi/8 rho d^3 (omega_p - omega/2) x (v - u))",
             .source = "Saffman (1965), Mei (1992), Rubinow and Keller (1961)",

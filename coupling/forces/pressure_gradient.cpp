@@ -24,7 +24,7 @@ struct PressureGradient final : FluidForce {
   double coefficient = 1;
   std::string form = "acceleration";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = theta V_h (-grad p + div tau) = theta rho V_h Du/Dt",
             .source = "Maxey and Riley (1983)",

@@ -18,7 +18,7 @@ struct Reconfiguration final : FluidForce {
   double exponent = -2.0 / 3, reference_speed = 0.5;
   std::string form = "cauchy";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = (1 + (|w|/w_0)^2)^(V/2) F_drag",
             .source = "Vogel (1984); Gosselin, de Langre and Machado-Almeida (2010)",

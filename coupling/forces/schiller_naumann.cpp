@@ -11,7 +11,7 @@ namespace {
 struct SchillerNaumann final : SphereDrag {
   static constexpr const char* name = "schiller_naumann";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = 1/2 rho C_d A |w| w; C_d = 24/Re (1 + 0.15 Re^0.687) (Re < 1000), 0.44",
             .source = "Schiller and Naumann (1933)",

@@ -23,7 +23,7 @@ struct SelfDisturbance final : FluidForce {
   static constexpr const char* name = "self_disturbance";
   double strength = 1;
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "u -> u + theta c/(1 - c) (u - v), c = f d/(2 pi^(1/2) delta (1 + 0.72 Re_delta))",
             .source = "steady Oseen flow about a Gaussian force; Balachandar, Liu and Lakhote (2019)",

@@ -54,7 +54,7 @@ struct SheetDrag final : FluidForce {
   bool is_two_way = false;
 
   bool viscous() const { return form == "viscous"; }
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = (1 - theta) F_drag + theta (1/2 rho C_n A |w_n| w_n + rho C_t A |w_t| w_t)",
             .source = "Taylor and Batchelor (1949); Hoerner (1965)",

@@ -17,7 +17,7 @@ struct Shielding final : FluidForce {
   double shelter = 0.5;
   std::string form = "bonded";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = (1 - theta s) F_drag",
             .source = "Hoerner (1965), chapter 8; form assumed",

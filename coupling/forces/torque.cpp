@@ -18,7 +18,7 @@ struct Torque final : FluidForce {
   double coefficient = 1;
   std::string form = "stokes";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "T = theta C pi mu d^3 (omega/2 - omega_p)",
             .source = "Kirchhoff (1876); Dennis, Singh and Ingham (1980)",

@@ -32,7 +32,7 @@ struct TurbulentDispersion final : FluidForce {
   int seed = 1;
   std::string form = "lagrangian";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "u -> u + theta sigma q, dq = -q dt/T + theta grad(sigma) dt/(1 + St) + (2/T)^(1/2) dW, T = C_T k/epsilon",
             .source = "Thomson (1987), Bocksell and Loth (2006)",

@@ -19,7 +19,7 @@ struct VolumeFraction final : FluidForce {
   double exponent = 2.7;
   std::string form = "power";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F = epsilon^(-theta) F_drag",
             .source = "Richardson and Zaki (1954), di Felice (1994)",

@@ -26,7 +26,7 @@ struct Wall final : FluidForce {
   double strength = 1, least_gap = 0.01;
   std::string form = "series";
 
-  Card card() const override {
+  ForceDescription description() const override {
     return {.name = name,
             .equation = "F -> (1 + theta (lambda_n - 1)) F_n + (1 + theta (lambda_t - 1)) F_t",
             .source = "Brenner (1961), Faxen (1923), Lorentz (1907)",

@@ -12,10 +12,11 @@ std::vector<Section> bond_law_sections() {
   static const auto laws = bond_laws().make_all();
   std::vector<Section> sections;
   for (const auto& law : laws) {
-    const BondCard card = law->card();
-    sections.push_back({"rag." + card.name,
-                        "A `bond_law` of `[[rag]]`; of `[[disc]]` and `[[fibre]]` the table is `[disc." + card.name + "]`, `[fibre." +
-                            card.name + "]`. " + card.equation + ". Source: " + card.source + ". Valid for: " + card.valid_for + ".",
+    const BondLawDescription description = law->description();
+    sections.push_back({"rag." + description.name,
+                        "A `bond_law` of `[[rag]]`; of `[[disc]]` and `[[fibre]]` the table is `[disc." + description.name +
+                            "]`, `[fibre." + description.name + "]`. " + description.equation + ". Source: " + description.source +
+                            ". Valid for: " + description.valid_for + ".",
                         law->parameters()});
   }
   return sections;

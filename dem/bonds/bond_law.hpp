@@ -40,7 +40,7 @@ class PieceBonds {
 };
 
 /// What a law is, for the manual.
-struct BondCard {
+struct BondLawDescription {
   std::string name, equation, source, valid_for;
 };
 
@@ -59,7 +59,7 @@ struct BondReference {
 class BondLaw {
  public:
   virtual ~BondLaw() = default;
-  virtual BondCard card() const = 0;
+  virtual BondLawDescription description() const = 0;
   /// Table [rag.NAME] of the case file, and likewise of [[disc]] and [[fibre]].
   virtual std::vector<Parameter> parameters() { return {}; }
   virtual std::unique_ptr<PieceBonds> bonds(const Rag& rag) const = 0;

@@ -25,9 +25,10 @@ std::vector<Section> contact_law_sections() {
   static const auto laws = contact_laws().make_all();
   std::vector<Section> sections;
   for (const auto& law : laws) {
-    const ContactCard card = law->card();
-    sections.push_back({"contact." + card.name,
-                        "A `law` of `[contact]`. " + card.equation + ". Source: " + card.source + ". Valid for: " + card.valid_for + ".",
+    const ContactLawDescription description = law->description();
+    sections.push_back({"contact." + description.name,
+                        "A `law` of `[contact]`. " + description.equation + ". Source: " + description.source +
+                            ". Valid for: " + description.valid_for + ".",
                         law->parameters()});
   }
   return sections;

@@ -117,7 +117,7 @@ inline StepRates tangential_rates(double stiffness, double dashpot, double mass,
 }
 
 /// What a law is, for the manual.
-struct ContactCard {
+struct ContactLawDescription {
   std::string name, equation, source, valid_for;
 };
 
@@ -135,7 +135,7 @@ struct ContactReference {
 class ContactLaw {
  public:
   virtual ~ContactLaw() = default;
-  virtual ContactCard card() const = 0;
+  virtual ContactLawDescription description() const = 0;
   /// Table [contact.NAME] of the case file.
   virtual std::vector<Parameter> parameters() { return {}; }
   virtual std::shared_ptr<const PairLaw> between(const ContactBodies& bodies) const = 0;

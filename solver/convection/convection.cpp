@@ -10,8 +10,9 @@ Registry<ConvectionScheme>& convection_schemes() {
 std::string convection_meaning() {
   std::string meaning = "Convection scheme of the momentum equation: value u_f at a face, C the cell upwind of it, D the cell downwind.";
   for (const std::string& name : convection_schemes().names()) {
-    const ConvectionCard card = convection_schemes().make(name, "manual")->card();
-    meaning += " " + name + ": " + card.equation + ", of order " + std::to_string(card.order) + " (" + card.source + ").";
+    const ConvectionDescription description = convection_schemes().make(name, "manual")->description();
+    meaning +=
+        " " + name + ": " + description.equation + ", of order " + std::to_string(description.order) + " (" + description.source + ").";
   }
   return meaning;
 }

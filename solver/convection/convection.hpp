@@ -35,7 +35,7 @@ struct InteriorFaces {
 };
 
 /// What a scheme is, for the manual.
-struct ConvectionCard {
+struct ConvectionDescription {
   std::string equation, source;
   int order = 0;  // of accuracy where the velocity is smooth
 };
@@ -43,7 +43,7 @@ struct ConvectionCard {
 class ConvectionScheme {
  public:
   virtual ~ConvectionScheme() = default;
-  virtual ConvectionCard card() const = 0;
+  virtual ConvectionDescription description() const = 0;
   /// True if the scheme takes its gradients times the factors of the limiter.
   virtual bool is_limited() const { return false; }
   /// True if no value at a face lies beyond those of the cells around it; of a limited scheme: with a limiter that bounds.

@@ -12,8 +12,8 @@ std::string limiter_meaning() {
       "Limiter of the gradients that linear_upwind extrapolates with: the least psi of all faces of a cell, y the largest change to a "
       "neighbour over the change to the face.";
   for (const std::string& name : limiters().names()) {
-    const LimiterCard card = limiters().make(name, "manual")->card();
-    meaning += " " + name + ": " + card.equation + (card.source.empty() ? "" : " (" + card.source + ")") + ".";
+    const LimiterDescription description = limiters().make(name, "manual")->description();
+    meaning += " " + name + ": " + description.equation + (description.source.empty() ? "" : " (" + description.source + ")") + ".";
   }
   return meaning;
 }

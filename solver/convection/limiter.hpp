@@ -12,14 +12,14 @@
 namespace snag {
 
 /// What a limiter is, for the manual.
-struct LimiterCard {
+struct LimiterDescription {
   std::string equation, source;
 };
 
 class Limiter {
  public:
   virtual ~Limiter() = default;
-  virtual LimiterCard card() const = 0;
+  virtual LimiterDescription description() const = 0;
   /// True if the values at the face centres stay between those of the cell and its neighbours.
   virtual bool bounds() const { return true; }
   /// Factor in [0, 1] of each row of the gradient G of u, `psi` [n_all_cells], ghosts filled. `reference_speed`, m/s: a limiter may leave

@@ -24,7 +24,7 @@ BondCoefficients coefficients(const Rag& rag, int direction) {
 struct ParallelBond final : BondLaw {
   static constexpr const char* name = "parallel_bond";
 
-  BondCard card() const override {
+  BondLawDescription description() const override {
     return {.name = name,
             .equation = "k_n = S_n A, k_s = S_t A, k_b = S_nb I, k_t = S_t J; A = pi r_p^2, I = pi r_p^4/4, J = 2 I",
             .source = "Potyondy and Cundall (2004); Jensen (2018) Eqs. 3.10-3.20, 3.24",

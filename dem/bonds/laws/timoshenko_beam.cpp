@@ -23,7 +23,7 @@ struct TimoshenkoBeam final : BondLaw {
   static constexpr const char* name = "timoshenko_beam";
   double shear_factor = 0.9;
 
-  BondCard card() const override {
+  BondLawDescription description() const override {
     return {.name = name,
             .equation =
                 "k_n = E A/l, 1/k_s = l^3/(12 E I) + l/(kappa G A), k_b = E I/l, k_t = G J/l; "

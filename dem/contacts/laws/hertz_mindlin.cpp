@@ -71,7 +71,7 @@ class HertzMindlinPair final : public BlockLaw<HertzMindlinForce> {
 struct HertzMindlin final : ContactLaw {
   static constexpr const char* name = "hertz_mindlin";
 
-  ContactCard card() const override {
+  ContactLawDescription description() const override {
     return {.name = name,
             .equation =
                 "F_n = 4/3 E* sqrt(R*) d^(3/2) + 2 sqrt(5/6) |B| sqrt(S_n m*) u_n, S_n = 2 E* sqrt(R* d); "

@@ -56,7 +56,7 @@ struct LinearSpring final : ContactLaw {
   static constexpr const char* name = "linear_spring";
   double stiffness_over_modulus = 0.4;
 
-  ContactCard card() const override {
+  ContactLawDescription description() const override {
     return {.name = name,
             .equation =
                 "F_n = k_n d + 2 |B| sqrt(k_n m*) u_n, k_n = s E* R*; F_t = -k_t xi - 2 |B| sqrt(k_t m*) u_t, "

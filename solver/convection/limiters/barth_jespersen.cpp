@@ -10,7 +10,7 @@ namespace {
 struct BarthJespersen final : CellLimiter<BarthJespersen> {
   static constexpr const char* name = "barth_jespersen";
 
-  LimiterCard card() const override { return {"psi = min(1, y)", "Barth and Jespersen 1989"}; }
+  LimiterDescription description() const override { return {"psi = min(1, y)", "Barth and Jespersen 1989"}; }
   static double factor(double a, double b, double) { return std::abs(a) <= std::abs(b) ? 1 : b / a; }
 };
 const bool registered = limiters().add<BarthJespersen>();

@@ -13,7 +13,7 @@ namespace {
 struct MichalakOllivierGooch final : CellLimiter<MichalakOllivierGooch> {
   static constexpr const char* name = "michalak_ollivier_gooch";
 
-  LimiterCard card() const override {
+  LimiterDescription description() const override {
     return {"psi = y - 4/27 y^3 up to y = 3/2, then 1; smooth, without a threshold", "Michalak and Ollivier-Gooch 2009"};
   }
   static double factor(double a, double b, double) {

@@ -9,7 +9,7 @@ namespace {
 struct NoLimiter final : Limiter {
   static constexpr const char* name = "none";
 
-  LimiterCard card() const override { return {"psi = 1, not bounded", ""}; }
+  LimiterDescription description() const override { return {"psi = 1, not bounded", ""}; }
   bool bounds() const override { return false; }
   void limit(const Mesh&, std::span<const Vec3>, std::span<const Mat3>, double, std::vector<Vec3>& psi) const override {
     std::fill(psi.begin(), psi.end(), Vec3{1, 1, 1});

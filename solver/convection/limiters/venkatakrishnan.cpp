@@ -16,7 +16,7 @@ constexpr double smooth_cells = 5;  // K, in the range that is usual
 struct Venkatakrishnan final : CellLimiter<Venkatakrishnan> {
   static constexpr const char* name = "venkatakrishnan";
 
-  LimiterCard card() const override {
+  LimiterDescription description() const override {
     return {"psi = (y^2 + 2 y)/(y^2 + y + 2), and near 1 where the velocity varies little, which keeps second order",
             "Venkatakrishnan 1995"};
   }

@@ -10,7 +10,9 @@ namespace {
 struct Central final : FaceScheme<Central> {
   static constexpr const char* name = "central";
 
-  ConvectionCard card() const override { return {"u_f interpolated linearly between C and D, not bounded", "Ferziger and Peric 2002", 2}; }
+  ConvectionDescription description() const override {
+    return {"u_f interpolated linearly between C and D, not bounded", "Ferziger and Peric 2002", 2};
+  }
   bool is_bounded() const override { return false; }
   static Vec3 high_order_part(ConvectedVelocity velocity, int f, double F) {
     const Mesh& mesh = velocity.mesh;

@@ -12,7 +12,7 @@ namespace {
 struct LimitedLinear final : FaceScheme<LimitedLinear> {
   static constexpr const char* name = "limited_linear";
 
-  ConvectionCard card() const override {
+  ConvectionDescription description() const override {
     return {"u_f interpolated linearly between C and D, limited by the ratio r of the slopes upwind and across the face, min(2 r, 1)",
             "Sweby 1984", 2};
   }

@@ -8,7 +8,7 @@ namespace {
 struct LinearUpwind final : FaceScheme<LinearUpwind> {
   static constexpr const char* name = "linear_upwind";
 
-  ConvectionCard card() const override {
+  ConvectionDescription description() const override {
     return {"u_f = u_C + psi grad u_C . (x_f - x_C) with the factor psi of the `limiter`", "Barth and Jespersen 1989", 2};
   }
   bool is_limited() const override { return true; }

@@ -8,7 +8,7 @@ namespace {
 struct Upwind final : FaceScheme<Upwind> {
   static constexpr const char* name = "upwind";
 
-  ConvectionCard card() const override { return {"u_f = u_C", "Courant, Isaacson and Rees 1952", 1}; }
+  ConvectionDescription description() const override { return {"u_f = u_C", "Courant, Isaacson and Rees 1952", 1}; }
   bool is_bounded() const override { return true; }
   static Vec3 high_order_part(ConvectedVelocity, int, double) { return {}; }
 };

@@ -7,10 +7,10 @@
 namespace snag {
 namespace {
 
-// Requirement: there is one prior of each force, that on its card; and gravity at its strength 1 is 9.81 m/s2 downwards.
+// Requirement: there is one prior of each force, that in its description; and gravity at its strength 1 is 9.81 m/s2 downwards.
 TEST(DiagnosisLibrary, PriorsAreThoseOfTheCards) {
   for (const std::string& name : fluid_forces().names()) {
-    const auto prior = fluid_forces().make(name, "test")->card().prior;
+    const auto prior = fluid_forces().make(name, "test")->description().prior;
     const CatalogueEffect* effect = catalogue_effect(name);
     ASSERT_EQ(effect != nullptr, prior.has_value()) << name;
     if (!effect) continue;

@@ -99,7 +99,7 @@ TEST(Forces, GalileanInvariance) {
 // Requirement: a force turns with the set-up, parameters that are vectors included; random numbers do not.
 TEST(Forces, Rotation) {
   for_each_force([](FluidForce& force, const std::string&) {
-    if (force.card().prior && force.card().prior->random) return;
+    if (force.description().prior && force.description().prior->random) return;
     const SphereState s = slanted_state();
     const auto straight = load_on_sphere(force, s);
     SphereState t = s;
@@ -123,7 +123,7 @@ SphereLoad base_load(const SphereState& s) { return load_on_sphere(*fluid_forces
 
 /// Sets theta, the number at the key of the prior.
 void set_strength(FluidForce& force, const std::string& name, double theta) {
-  const std::string key = force.card().prior->key, table = (name == "gravity" ? name : "coupling." + name) + ".";
+  const std::string key = force.description().prior->key, table = (name == "gravity" ? name : "coupling." + name) + ".";
   ASSERT_EQ(key.rfind(table, 0), 0u) << key;
   for (const auto& parameter : force.parameters()) {
     if (key_with_unit(parameter) != key.substr(table.size())) continue;
@@ -140,8 +140,8 @@ void set_strength(FluidForce& force, const std::string& name, double theta) {
 // has all it can need; all of the range of its prior is allowed by its key, in each of its forms.
 TEST(Forces, CandidatesAreTheBaseModelAtZero) {
   for_each_force([](FluidForce& force, const std::string& name) {
-    if (!force.card().prior || name == "gravity") return;  // the strength of gravity is a vector
-    const Prior prior = *force.card().prior;
+    if (!force.description().prior || name == "gravity") return;  // the strength of gravity is a vector
+    const Prior prior = *force.description().prior;
     EXPECT_TRUE(prior.minimum <= prior.mean && prior.mean <= prior.maximum && prior.sd > 0 && prior.minimum <= 0 && prior.maximum >= 0);
     std::vector<std::string> forms{""};
     for (const auto& parameter : force.parameters())
@@ -150,7 +150,7 @@ TEST(Forces, CandidatesAreTheBaseModelAtZero) {
       SCOPED_TRACE(form);
       for (const auto& parameter : force.parameters())
         if (parameter.key == "form") **std::get_if<std::string*>(&parameter.target) = form;
-      const bool on_drag = force.card().role != Role::force;
+      const bool on_drag = force.description().role != Role::force;
       const SphereState s = slanted_state();
       const SphereLoad base = on_drag ? base_load(s) : SphereLoad{};
       for (const double extreme : {prior.minimum, prior.maximum}) set_strength(force, name, extreme);
@@ -190,7 +190,7 @@ TEST(Forces, FiniteWhereSolidsOverlap) {
       const auto load = load_on_sphere(force, s);
       EXPECT_TRUE(std::isfinite(norm(load.force)) && std::isfinite(load.slope)) << solid;
       EXPECT_GE(load.slope, 0) << solid;
-      if (force.card().role == Role::drag) {
+      if (force.description().role == Role::drag) {
         EXPECT_GT(dot(load.force, s.fluid_velocity - s.velocity), 0) << solid;
         EXPECT_GT(load.slope, 0) << solid;
       }
@@ -204,25 +204,25 @@ TEST(Forces, SilentAreThoseThatTheWaterDoesNotFeel) {
   for_each_force([](FluidForce& force, const std::string& name) {
     const auto load = load_on_sphere(force, slanted_state());
     const bool couple = norm(load.torque) > 0 && norm(load.force) == 0;
-    EXPECT_EQ(force.card().reacts_on_fluid, !couple && name != "gravity" && name != "pressure_gradient");
+    EXPECT_EQ(force.description().reacts_on_fluid, !couple && name != "gravity" && name != "pressure_gradient");
   });
 }
 
-// Requirement: a force that gives torque or added mass says so on its card, for nothing else is read.
+// Requirement: a force that gives torque or added mass says so in its description, for nothing else is read.
 TEST(Forces, CardsDeclareWhatIsGiven) {
   for_each_force([](FluidForce& force, const std::string&) {
     const auto load = load_on_sphere(force, slanted_state());
-    EXPECT_EQ(norm(load.torque) > 0, force.card().gives_torque);
-    EXPECT_EQ(load.added_mass > 0, force.card().gives_added_mass);
+    EXPECT_EQ(norm(load.torque) > 0, force.description().gives_torque);
+    EXPECT_EQ(load.added_mass > 0, force.description().gives_added_mass);
   });
 }
 
 // Requirement: defaults lie in their ranges, every number has a unit that is known, and a meaning.
 TEST(Forces, ParametersAreComplete) {
   for_each_force([](FluidForce& force, const std::string& name) {
-    EXPECT_EQ(force.card().name, name);
-    EXPECT_FALSE(force.card().equation.empty());
-    EXPECT_FALSE(force.card().source.empty());
+    EXPECT_EQ(force.description().name, name);
+    EXPECT_FALSE(force.description().equation.empty());
+    EXPECT_FALSE(force.description().source.empty());
     for (const auto& parameter : force.parameters()) {
       SCOPED_TRACE(parameter.key);
       EXPECT_FALSE(parameter.meaning.empty());

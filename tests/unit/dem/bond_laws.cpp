@@ -96,15 +96,15 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::stri
 // Requirement: no law is dropped by the linker: the registry holds what its folder holds, and the default one is there.
 TEST(BondLaws, RegistryHoldsTheFolder) {
   EXPECT_EQ(bond_laws().names().size(), n_sources("dem/bonds/laws"));
-  EXPECT_EQ(bond_laws().make(default_bond_law, "test")->card().name, default_bond_law);
+  EXPECT_EQ(bond_laws().make(default_bond_law, "test")->description().name, default_bond_law);
 }
 
-// Requirement: a law has a card, its numbers have ranges that hold the defaults, and it gives the exact limits and published numbers that
-// it names, and names at least one.
+// Requirement: a law has a description, its numbers have ranges that hold the defaults, and it gives the exact limits and published numbers
+// that it names, and names at least one.
 TEST(BondLaws, ReferenceCases) {
   for_each_law([](BondLaw& law, int direction) {
-    const BondCard card = law.card();
-    EXPECT_FALSE(card.equation.empty() || card.source.empty() || card.valid_for.empty());
+    const BondLawDescription description = law.description();
+    EXPECT_FALSE(description.equation.empty() || description.source.empty() || description.valid_for.empty());
     for (const Parameter& parameter : law.parameters())
       if (const auto* number = std::get_if<double*>(&parameter.target)) {
         EXPECT_TRUE(**number >= parameter.minimum && **number <= parameter.maximum) << parameter.key;

@@ -33,15 +33,15 @@ ContactForce between(const PairLaw& law, const Vec3& r, const Vec3& u, const Vec
 // Requirement: no law is dropped by the linker: the registry holds what its folder holds, and the default one is there.
 TEST(ContactLaws, RegistryHoldsTheFolder) {
   EXPECT_EQ(contact_laws().names().size(), n_sources("dem/contacts/laws"));
-  EXPECT_EQ(contact_laws().make(default_contact_law, "test")->card().name, default_contact_law);
+  EXPECT_EQ(contact_laws().make(default_contact_law, "test")->description().name, default_contact_law);
 }
 
-// Requirement: a law has a card, its numbers have ranges that hold the defaults, and it gives the exact limits and published numbers that
-// it names, and names at least one.
+// Requirement: a law has a description, its numbers have ranges that hold the defaults, and it gives the exact limits and published numbers
+// that it names, and names at least one.
 TEST(ContactLaws, ReferenceCases) {
   for_each_law([](ContactLaw& law) {
-    const ContactCard card = law.card();
-    EXPECT_FALSE(card.equation.empty() || card.source.empty() || card.valid_for.empty());
+    const ContactLawDescription description = law.description();
+    EXPECT_FALSE(description.equation.empty() || description.source.empty() || description.valid_for.empty());
     for (const Parameter& parameter : law.parameters())
       if (const auto* number = std::get_if<double*>(&parameter.target)) {
         EXPECT_TRUE(**number >= parameter.minimum && **number <= parameter.maximum) << parameter.key;

@@ -90,12 +90,12 @@ TEST(Limiters, RegistryHoldsTheFolder) { EXPECT_EQ(limiters().names().size(), n_
 // Requirement: the manual says of each scheme and limiter what it is and where it comes from.
 TEST(ConvectionSchemes, Cards) {
   for_each(convection_schemes(), [](const ConvectionScheme& scheme) {
-    EXPECT_FALSE(scheme.card().equation.empty() || scheme.card().source.empty());
-    EXPECT_NE(convection_meaning().find(scheme.card().equation), std::string::npos);
+    EXPECT_FALSE(scheme.description().equation.empty() || scheme.description().source.empty());
+    EXPECT_NE(convection_meaning().find(scheme.description().equation), std::string::npos);
   });
   for_each(limiters(), [](const Limiter& limiter) {
-    EXPECT_FALSE(limiter.card().equation.empty() || (limiter.bounds() && limiter.card().source.empty()));
-    EXPECT_NE(limiter_meaning().find(limiter.card().equation), std::string::npos);
+    EXPECT_FALSE(limiter.description().equation.empty() || (limiter.bounds() && limiter.description().source.empty()));
+    EXPECT_NE(limiter_meaning().find(limiter.description().equation), std::string::npos);
   });
 }
 
@@ -114,7 +114,7 @@ TEST(ConvectionSchemes, UniformAndLinear) {
         const Vec3 exact = Vec3{1, 2, 3} + slope * mesh.face_centre[f];
         largest = std::max(largest, norm(value_at_face(scheme, mesh, guess, f, flux) - exact));
       }
-    if (scheme.card().order > 1)
+    if (scheme.description().order > 1)
       EXPECT_LT(largest, 1e-13);
     else
       EXPECT_GT(largest, 0.1);

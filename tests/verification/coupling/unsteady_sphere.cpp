@@ -185,8 +185,8 @@ TEST(UnsteadySphere, EffectsAtZeroAreTheBase) {
   const auto expected = run(base + "]\n");
   for (const std::string& name : fluid_forces().names()) {
     const auto force = fluid_forces().make(name, "test");
-    if (name == "gravity" || !force->card().prior) continue;
-    const std::string key = force->card().prior->key;
+    if (name == "gravity" || !force->description().prior) continue;
+    const std::string key = force->description().prior->key;
     std::vector<std::string> forms{""};
     for (const auto& parameter : force->parameters())
       if (parameter.key == "form") forms = parameter.choices;
