@@ -206,11 +206,11 @@ LatticePosition place_in_piece(const Tile& tile, const Rag& rag, int k, int colu
   return place;
 }
 
-void kick(RagSystem& rags, const UnmodelledForce& outside, double time, double dt) {
+void kick(RagSystem& rags, const UnmodelledForce& unmodelled, double time, double dt) {
   for (Tile& tile : rags.tiles()) {
     const Rag& rag = rags.rags()[static_cast<std::size_t>(tile.rag)];
     for_particles(tile, [&](int k, int column, int) {
-      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * outside(time, place_in_piece(tile, rag, k, column)));
+      tile.set_vector(Tile::vx, k, tile.vector(Tile::vx, k) + dt * unmodelled(time, place_in_piece(tile, rag, k, column)));
     });
   }
 }
@@ -229,7 +229,7 @@ void move(RagSystem& rags, const Restart& restart, double time) {
 
 }  // namespace
 
-std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& outside,
+std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled,
                                   FlowCache* store, const std::optional<Restart>& restart) {
   const log::Silence silence;
   Simulation run(file, MPI_COMM_SELF, {}, store);
@@ -249,7 +249,7 @@ std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Observ
   };
   if (!restart_and_look()) return observer.values();
   run.run([&] {
-    if (outside) kick(*run.rags, outside, run.time() - 0.5 * dt, dt);
+    if (unmodelled) kick(*run.rags, unmodelled, run.time() - 0.5 * dt, dt);
     return !run.passage->all_exited_at() && restart_and_look();
   });
   return observer.values();

@@ -34,7 +34,7 @@ using UnmodelledForce = std::function<Vec3(double time, const LatticePosition& p
 /// run is asked for; earlier, if every rag has left the mesh). NaN where there is no answer: a time beyond the end of the case, a retention
 /// time of a piece that stays, a window that was never reached. `store`: holds meshes and water between runs. `restart`: at the last step
 /// before its time; in a prescribed flow only. Throws Error.
-std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& outside = {},
+std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled = {},
                                   FlowCache* store = nullptr, const std::optional<Restart>& restart = {});
 
 }  // namespace snag

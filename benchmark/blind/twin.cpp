@@ -102,7 +102,7 @@ Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& f
     names.push_back(effect.name);
     if (!effect.random) of_pairs.push_back(effect.name);  // a diagnosis looks for random ones alone
   }
-  set.truth = planned_set(number, plan.seed, names, of_pairs, outside_truths(plan.twin), set.experiment.subsets);
+  set.truth = planned_set(number, plan.seed, names, of_pairs, unmodelled_truths(plan.twin), set.experiment.subsets);
   for (const Effect& effect : effects)
     if (effect.random && set.truth.theta.contains(effect.name)) set.random.insert(effect.name);
   draw_strengths(set.truth, effects, random);
@@ -110,9 +110,9 @@ Truth make_twin(const TwinPlan& plan, int number, const std::filesystem::path& f
     set.forms = other_forms(set.truth, random);
     set.picture_centre = {0.02 * random(), 0, 0.02 * random()};
   }
-  set.outside = outside_truth(set.truth.outside, set.truth.strength, set.experiment, random);
+  set.unmodelled = unmodelled_truth(set.truth.unmodelled, set.truth.strength, set.experiment, random);
   set.deviations = draw_deviations(set, random);
-  if (!set.truth.theta.empty() || set.outside.acts()) measure_gap(set);
+  if (!set.truth.theta.empty() || set.unmodelled.acts()) measure_gap(set);
   write_atomically(folder / "DIAGNOSIS.toml", twin_diagnosis(set, 1 + random.index(1000000)));
   write_atomically(folder / "data.csv", twin_data(set, random));
   return set.truth;

@@ -61,14 +61,15 @@ const TwinInstrument& TwinSet::instrument(const std::string& id) const {
 }
 
 std::vector<double> TwinSet::values(std::size_t point, const std::vector<ObservableRequest>& asked,
-                                    const std::map<std::string, double>& theta, bool outside_acts,
+                                    const std::map<std::string, double>& theta, bool unmodelled_acts,
                                     const std::map<std::string, double>& input_deviations, int replicate) const {
   CaseChange change = cases[point].change(theta, input_deviations, mixed(mixed(run_seed) + static_cast<std::uint64_t>(replicate)));
   for (const auto& [name, form] : forms)
     if (theta.contains(name)) change.overrides.push_back(form);
   change.overrides.push_back(cases[point].with_step_factor(0.5));
-  std::vector<double> values = run_in_memory(cases[point].with(change.overrides), asked, outside_acts ? outside.force : UnmodelledForce{});
-  const double ratio = outside_acts ? outside.pixel_ratio : 1;
+  std::vector<double> values =
+      run_in_memory(cases[point].with(change.overrides), asked, unmodelled_acts ? unmodelled.force : UnmodelledForce{});
+  const double ratio = unmodelled_acts ? unmodelled.pixel_ratio : 1;
   for (std::size_t i = 0; i < asked.size(); ++i)
     values[i] = pictured(asked[i].observable, values[i], change.picture_scale, ratio, picture_centre);
   return values;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/blind/twin_outside.hpp"
 #include "benchmark/blind/twin_points.hpp"
+#include "benchmark/blind/twin_unmodelled.hpp"
 #include "casework/case_run.hpp"
 #include "casework/point_case.hpp"
 #include "diagnosis/score/sealed_set.hpp"
@@ -34,7 +34,7 @@ struct TwinSet {
   std::map<std::string, std::string> forms{};               // by effect: the value of a key that chooses the other functional form
   std::vector<std::map<std::string, double>> deviations{};  // relative, of the inputs, by point
   Vec3 picture_centre{};                                    // about which the camera's scale is wrong
-  OutsideTruth outside{};
+  UnmodelledTruth unmodelled{};
 
   std::size_t n_training() const { return experiment.cases.size() - n_withheld; }
   std::vector<TwinInput> inputs() const;
@@ -42,9 +42,9 @@ struct TwinSet {
   std::vector<ObservableRequest> asked(const std::string& subset) const;
   std::vector<ObservableRequest> asked() const { return asked(truth.subset); }
   const TwinInstrument& instrument(const std::string& id) const;
-  /// Values without noise at a point with these effects in the form of the truth, and what is outside the library if `outside_acts`.
+  /// Values without noise at a point with these effects in the form of the truth, and what is not in the library if `unmodelled_acts`.
   std::vector<double> values(std::size_t point, const std::vector<ObservableRequest>& asked, const std::map<std::string, double>& theta,
-                             bool outside_acts, const std::map<std::string, double>& input_deviations, int replicate = 0) const;
+                             bool unmodelled_acts, const std::map<std::string, double>& input_deviations, int replicate = 0) const;
   /// With all that is true, or without what the truth adds.
   std::vector<double> true_values(std::size_t point, const std::vector<ObservableRequest>& asked, int replicate = 0) const {
     return values(point, asked, truth.theta, true, deviations[point], replicate);

@@ -15,7 +15,7 @@ namespace {
 /// Shares of the prior: how many effects of the library a model lacks is a Poisson number of mean one, each effect as likely as the others;
 /// a tenth is for what nobody listed. To be named, a second effect has to bring 6 nats (a surplus second effect mops up what the first
 /// leaves): a rule of the verdict, of which the probabilities know nothing.
-constexpr double prior_none = 0.36, prior_effects = 0.36, prior_outside = 0.1, nats_of_second = 6;
+constexpr double prior_none = 0.36, prior_effects = 0.36, prior_discrepancy = 0.1, nats_of_second = 6;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
 constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
@@ -55,8 +55,8 @@ class Attributor {
     fit_rivals_of_leader();
     refine_random_leader();
     if (model_.experiment().pairs) credit_other_pairs(live);
-    result_.outside = fit_discrepancy(model_, fitter_, result_.fits.front());
-    result_.outside_weight = result_.outside.log_evidence + std::log(prior_outside);
+    result_.discrepancy = fit_discrepancy(model_, fitter_, result_.fits.front());
+    result_.discrepancy_weight = result_.discrepancy.log_evidence + std::log(prior_discrepancy);
     for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
     set_probabilities(result_);
     return std::move(result_);
@@ -421,7 +421,7 @@ void set_probabilities(Attribution& attribution) {
   for (std::size_t i = 0; i < attribution.names.size(); ++i)
     add(attribution.names[i], attribution.fits[i].log_evidence - attribution.evidence_penalty[i], attribution.log_prior[i]);
   for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
-  add("outside", attribution.outside.log_evidence, std::log(prior_outside));
+  add("outside", attribution.discrepancy.log_evidence, std::log(prior_discrepancy));
   std::vector<double> logarithms;
   for (const auto& [name, weight] : weights) logarithms.push_back(weight);
   const double total = log_sum_exp(logarithms);

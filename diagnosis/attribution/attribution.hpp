@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/attribution/outside.hpp"
+#include "diagnosis/attribution/discrepancy.hpp"
 #include "diagnosis/attribution/screening.hpp"
 #include "diagnosis/data/verdict.hpp"
 #include "diagnosis/fitting/fit.hpp"
@@ -25,8 +25,8 @@ struct Attribution {
   std::vector<double> evidence_penalty;  // nats of each fit's evidence that a guard takes away
   std::map<std::string, NotFitted> not_fitted{};
   std::vector<double> leave_one_out;  // log predictive density of each fit
-  Outside outside;
-  double outside_weight = 0;
+  Discrepancy discrepancy;
+  double discrepancy_weight = 0;
   std::map<std::string, double> screening{}, weak_form{};  // gains over none
   std::map<std::string, double> probability{};
   Identifiability identifiability;

@@ -83,12 +83,12 @@ class Judge {
       v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence - a_.fits[0].log_evidence;
       v_.leave_one_out[a_.names[i]] = a_.leave_one_out[i] - a_.leave_one_out[0];
     }
-    v_.log_evidence["outside"] = a_.outside.log_evidence - a_.fits[0].log_evidence;
+    v_.log_evidence["outside"] = a_.discrepancy.log_evidence - a_.fits[0].log_evidence;
     const int first = a_.first();
-    const bool outside_leads = a_.outside_weight > a_.weight[first];
+    const bool discrepancy_leads = a_.discrepancy_weight > a_.weight[first];
     v_.checks = predictive_checks(model_, a_.fits[first], model_.experiment().seed);
-    if (outside_leads || fails_checks())
-      outside(outside_leads);
+    if (discrepancy_leads || fails_checks())
+      discrepancy(discrepancy_leads);
     else if (a_.fits[first].hypothesis.effects.empty())
       none();
     else
@@ -113,7 +113,7 @@ class Judge {
     return false;
   }
 
-  void outside(bool leads) {
+  void discrepancy(bool leads) {
     v_.verdict = v_.wording = "outside";
     // Checks that fail leave no hypothesis of the library standing, whatever their odds among each other.
     if (!leads) {
@@ -130,7 +130,7 @@ class Judge {
   void none() {
     constexpr double speaks = 1;  // nats
     const double none = a_.fits.front().log_evidence;
-    double against = a_.outside.log_evidence > none + speaks ? v_.probability.at("outside") : 0;
+    double against = a_.discrepancy.log_evidence > none + speaks ? v_.probability.at("outside") : 0;
     for (std::size_t i = 1; i < a_.fits.size(); ++i)
       if (a_.fits[i].log_evidence - a_.evidence_penalty[i] > none + speaks) against += v_.probability.at(a_.names[i]);
     if (against > v_.probability.at("none")) {

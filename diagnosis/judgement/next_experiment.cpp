@@ -89,9 +89,9 @@ std::string spoken(std::string name) {
 
 }  // namespace
 
-std::string next_experiment(const Responses& model, const Attribution& attribution, bool outside) {
+std::string next_experiment(const Responses& model, const Attribution& attribution, bool unexplained) {
   const int first = attribution.first();
-  if (outside) return what_remains(model, attribution.fits[first]);
+  if (unexplained) return what_remains(model, attribution.fits[first]);
   int second = -1;
   for (int i = 0; i < static_cast<int>(attribution.fits.size()); ++i)
     if (i != first && (second < 0 || attribution.weight[i] > attribution.weight[second])) second = i;

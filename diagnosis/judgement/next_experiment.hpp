@@ -8,6 +8,6 @@
 namespace snag {
 
 /// In a sentence: which observable at which point and when, and how many replicates; empty where there is nothing to separate.
-std::string next_experiment(const Responses& model, const Attribution& attribution, bool outside);
+std::string next_experiment(const Responses& model, const Attribution& attribution, bool unexplained);
 
 }  // namespace snag

@@ -35,20 +35,20 @@ std::string kind_of(int number, std::uint64_t seed) {
 }  // namespace
 
 std::string Truth::name() const {
-  if (!outside.empty()) return "outside";
+  if (!unmodelled.empty()) return "outside";
   std::string all;
   for (const auto& [effect, value] : theta) all += (all.empty() ? "" : "+") + effect;
   return all.empty() ? "none" : all;
 }
 
 Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>& effects, const std::vector<std::string>& of_pairs,
-                  const std::vector<std::string>& outside_forces, const std::vector<std::string>& subsets) {
+                  const std::vector<std::string>& unmodelled_forces, const std::vector<std::string>& subsets) {
   NormalNumbers random(seed * 1000003 + static_cast<std::uint64_t>(number));
   const auto one_of = [&](const auto& list) { return list[static_cast<std::size_t>(random.index(static_cast<int>(std::size(list))))]; };
   Truth truth;
   truth.number = number;
   truth.kind = kind_of(number, seed);
-  if (truth.kind == "outside" && outside_forces.empty()) truth.kind = "null";
+  if (truth.kind == "outside" && unmodelled_forces.empty()) truth.kind = "null";
   truth.subset = random.uniform() < 0.6 ? subsets.front() : one_of(subsets);
   truth.replicates = one_of(replicates);
   if (truth.kind == "single") {
@@ -59,7 +59,7 @@ Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>
     const std::string effect = one_of(of_pairs);
     truth.theta.try_emplace(effect, truth.strength = random.uniform() < 0.5 ? 0.5 : 1);
   }
-  if (truth.kind == "outside") truth.outside = one_of(outside_forces), truth.strength = random.uniform() < 0.5 ? 0.5 : 1;
+  if (truth.kind == "outside") truth.unmodelled = one_of(unmodelled_forces), truth.strength = random.uniform() < 0.5 ? 0.5 : 1;
   return truth;
 }
 
@@ -67,7 +67,7 @@ std::string seal(const Truth& truth, const std::filesystem::path& file) {
   const nlohmann::ordered_json json{{"number", truth.number},
                                     {"kind", truth.kind},
                                     {"theta", truth.theta},
-                                    {"outside", truth.outside},
+                                    {"outside", truth.unmodelled},
                                     {"strength", truth.strength},
                                     {"subset", truth.subset},
                                     {"replicates", truth.replicates},
@@ -87,7 +87,7 @@ Truth opened(const std::filesystem::path& file, const std::string& fingerprint) 
                                          sha256(*text).substr(0, 12) + ", sealed " + fingerprint.substr(0, 12) + "); make the set again");
   const auto json = nlohmann::json::parse(*text);
   Truth truth;
-  truth.number = json.at("number"), truth.kind = json.at("kind"), truth.outside = json.at("outside");
+  truth.number = json.at("number"), truth.kind = json.at("kind"), truth.unmodelled = json.at("outside");
   truth.theta = json.at("theta").get<std::map<std::string, double>>();
   truth.strength = json.at("strength"), truth.subset = json.at("subset"), truth.replicates = json.at("replicates");
   truth.detectability = json.at("detectability"), truth.gap_over_floor = json.at("gap_over_floor");

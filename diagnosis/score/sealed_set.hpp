@@ -16,7 +16,7 @@ struct Truth {
   int number = 0;
   std::string kind;                     // null | null_off | single | pair | outside
   std::map<std::string, double> theta;  // of the effects that act
-  std::string outside;                  // the force that acts instead
+  std::string unmodelled;               // the force that acts instead
   double strength = 0;                  // of what acts, over what is physically expected
   std::string subset;                   // of observables: all | picture | passage
   int replicates = 1;
@@ -35,7 +35,7 @@ struct Truth {
 /// Kind, effects, strengths, subset and replicates of set `number`, of effects that the twin can show, and of those that may be one of a
 /// pair. The same for the same seed.
 Truth planned_set(int number, std::uint64_t seed, const std::vector<std::string>& effects, const std::vector<std::string>& of_pairs,
-                  const std::vector<std::string>& outside_forces, const std::vector<std::string>& subsets);
+                  const std::vector<std::string>& unmodelled_forces, const std::vector<std::string>& subsets);
 
 /// Writes the truth; returns the fingerprint of the file. Throws Error(io).
 std::string seal(const Truth& truth, const std::filesystem::path& file);

@@ -13,7 +13,7 @@
 namespace snag {
 namespace {
 
-const std::vector<std::string> effects{"added_mass", "drag_magnitude", "lift"}, outside{"periodic"}, subsets{"all", "picture"};
+const std::vector<std::string> effects{"added_mass", "drag_magnitude", "lift"}, unmodelled{"periodic"}, subsets{"all", "picture"};
 
 Truth single(const std::string& effect, double detectability = 10) {
   Truth truth;
@@ -34,14 +34,14 @@ TEST(TwinPlan, IsDeterministicAndComplete) {
   std::set<double> strengths;
   bool differs = false;
   for (int number = 0; number < 300; ++number) {
-    const Truth a = planned_set(number, 1, effects, effects, outside, subsets),
-                b = planned_set(number, 1, effects, effects, outside, subsets);
+    const Truth a = planned_set(number, 1, effects, effects, unmodelled, subsets),
+                b = planned_set(number, 1, effects, effects, unmodelled, subsets);
     EXPECT_EQ(a.theta, b.theta);
-    differs = differs || a.theta != planned_set(number, 2, effects, effects, outside, subsets).theta;
+    differs = differs || a.theta != planned_set(number, 2, effects, effects, unmodelled, subsets).theta;
     ++kinds[a.kind];
     if (a.kind == "single") strengths.insert(a.strength);
     EXPECT_EQ(a.theta.size(), a.kind == "single" ? 1u : a.kind == "pair" ? 2u : 0u) << a.kind;
-    EXPECT_EQ(a.outside.empty(), a.kind != "outside");
+    EXPECT_EQ(a.unmodelled.empty(), a.kind != "outside");
   }
   EXPECT_TRUE(differs);
   EXPECT_EQ(strengths, (std::set<double>{0.125, 0.25, 0.5, 1}));
@@ -79,7 +79,7 @@ TEST(TwinScore, RowOfASet) {
 /// Requirement: hits, false attributions and abstentions are counted where they belong.
 TEST(TwinScore, Card) {
   Truth null, other, pair = single("lift");
-  null.kind = "null", other.kind = "outside", other.outside = "periodic", other.detectability = 9;
+  null.kind = "null", other.kind = "outside", other.unmodelled = "periodic", other.detectability = 9;
   pair.kind = "pair", pair.theta["added_mass"] = 0.4;
   const std::vector<ScoreRow> rows{
       scored(single("lift"), says("effects", {"lift"}, {{"lift", 0.95}, {"none", 0.05}}), 1, ""),

@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& file) {
 /// Requirement: truths outside the library are periodic force, stratification, gust, curved profile and skew camera; pieces with a shape
 /// may be curved, too.
 TEST(TwinSets, OutsideTruths) {
-  const auto of_sphere = outside_truths("sphere"), of_rag = outside_truths("rag");
+  const auto of_sphere = unmodelled_truths("sphere"), of_rag = unmodelled_truths("rag");
   for (const char* name : {"periodic", "stratified", "profile", "camera"})
     EXPECT_EQ(std::count(of_sphere.begin(), of_sphere.end(), name), 1) << name;
   EXPECT_EQ(std::count(of_sphere.begin(), of_sphere.end(), "curved"), 0);
@@ -31,8 +31,8 @@ TEST(TwinSets, OutsideTruths) {
   TwinExperiment experiment;
   experiment.times = {1}, experiment.tip_acceleration = 10;
   NormalNumbers random(3);
-  for (const std::string& name : of_rag) EXPECT_TRUE(outside_truth(name, 1, experiment, random).acts()) << name;
-  EXPECT_FALSE(outside_truth("", 1, experiment, random).acts());
+  for (const std::string& name : of_rag) EXPECT_TRUE(unmodelled_truth(name, 1, experiment, random).acts()) << name;
+  EXPECT_FALSE(unmodelled_truth("", 1, experiment, random).acts());
 }
 
 /// Requirement: what curves a piece neither pushes nor turns it.
@@ -40,7 +40,7 @@ TEST(TwinSets, CurvatureHasNoNetForce) {
   TwinExperiment experiment;
   experiment.times = {1}, experiment.tip_acceleration = 10;
   NormalNumbers random(3);
-  const OutsideTruth curved = outside_truth("curved", 1, experiment, random);
+  const UnmodelledTruth curved = unmodelled_truth("curved", 1, experiment, random);
   Vec3 force, torque;
   double most = 0;
   constexpr int n = 12;

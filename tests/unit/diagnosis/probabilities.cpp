@@ -9,10 +9,10 @@
 namespace snag {
 namespace {
 
-constexpr double prior_none = 0.6, prior_effect = 0.15, prior_outside = 0.1;
+constexpr double prior_none = 0.6, prior_effect = 0.15, prior_discrepancy = 0.1;
 
 /// None, two effects and their pair, each with this evidence.
-Attribution with_evidence(double none, double a, double b, double both, double outside) {
+Attribution with_evidence(double none, double a, double b, double both, double discrepancy) {
   Attribution attribution;
   const auto add = [&](const char* name, double log_evidence, double prior) {
     Fit fit;
@@ -22,7 +22,7 @@ Attribution with_evidence(double none, double a, double b, double both, double o
   };
   add("none", none, prior_none), add("a", a, prior_effect), add("b", b, prior_effect);
   add("a+b", both, prior_effect * prior_effect / prior_none);
-  attribution.outside.log_evidence = outside;
+  attribution.discrepancy.log_evidence = discrepancy;
   return attribution;
 }
 
@@ -31,11 +31,11 @@ TEST(Probabilities, ArePriorsWhereDataSayNothing) {
   Attribution attribution = with_evidence(-7, -7, -7, -7, -7);
   attribution.not_fitted["unseen"] = {-7, std::log(prior_effect)};
   set_probabilities(attribution);
-  const double total = prior_none + 3 * prior_effect + prior_effect * prior_effect / prior_none + prior_outside;
+  const double total = prior_none + 3 * prior_effect + prior_effect * prior_effect / prior_none + prior_discrepancy;
   EXPECT_NEAR(attribution.probability.at("none"), prior_none / total, 1e-12);
   EXPECT_NEAR(attribution.probability.at("unseen"), prior_effect / total, 1e-12);
   EXPECT_NEAR(attribution.probability.at("a+b"), prior_effect * prior_effect / prior_none / total, 1e-12);
-  EXPECT_NEAR(attribution.probability.at("outside"), prior_outside / total, 1e-12);
+  EXPECT_NEAR(attribution.probability.at("outside"), prior_discrepancy / total, 1e-12);
 }
 
 /// Requirement: evidence counts by its share of the temperature, and what a guard takes from a fit does not count.

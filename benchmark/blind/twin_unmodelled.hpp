@@ -10,7 +10,7 @@
 namespace snag {
 
 /// A force on the particles, or a camera that no candidate describes.
-struct OutsideTruth {
+struct UnmodelledTruth {
   UnmodelledForce force;
   double pixel_ratio = 1;  // of a picture: breadth over height of its pixels
 
@@ -19,9 +19,9 @@ struct OutsideTruth {
 
 /// Names of those that a twin can have: "periodic" body force, "stratified" density of the water, "gust", "profile" (the flow is curved,
 /// not linear), "curved" (a fibre or a rag that is bent by birth; not of a sphere), "camera" (pixels are not square).
-std::vector<std::string> outside_truths(const std::string& twin);
+std::vector<std::string> unmodelled_truths(const std::string& twin);
 
 /// One of them, drawn at random; "": nothing acts. `strength`: 1 is plain to see.
-OutsideTruth outside_truth(const std::string& name, double strength, const TwinExperiment& experiment, NormalNumbers& random);
+UnmodelledTruth unmodelled_truth(const std::string& name, double strength, const TwinExperiment& experiment, NormalNumbers& random);
 
 }  // namespace snag

@@ -1,4 +1,4 @@
-#include "benchmark/blind/twin_outside.hpp"
+#include "benchmark/blind/twin_unmodelled.hpp"
 
 #include <cmath>
 
@@ -6,16 +6,16 @@
 
 namespace snag {
 
-std::vector<std::string> outside_truths(const std::string& twin) {
+std::vector<std::string> unmodelled_truths(const std::string& twin) {
   std::vector<std::string> names{"periodic", "stratified", "gust", "profile", "camera"};
   if (twin != "sphere") names.push_back("curved");
   return names;
 }
 
-OutsideTruth outside_truth(const std::string& name, double strength, const TwinExperiment& experiment, NormalNumbers& random) {
+UnmodelledTruth unmodelled_truth(const std::string& name, double strength, const TwinExperiment& experiment, NormalNumbers& random) {
   const double end = experiment.times.back(), path = experiment.path;
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
-  OutsideTruth truth;
+  UnmodelledTruth truth;
   if (name == "periodic") {
     const double a = strength * between(0.5, 1.5), omega = between(15, 40), phase = between(0, 6);
     const Vec3 direction = unit(Vec3{between(-1, 1), between(-0.3, 0.3), between(-1, 1)});

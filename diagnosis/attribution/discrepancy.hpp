@@ -10,7 +10,7 @@
 
 namespace snag {
 
-struct Outside {
+struct Discrepancy {
   double log_evidence = 0;
   double length = 0;                // s over the duration
   bool growing = false;             // g = t/T
@@ -19,6 +19,6 @@ struct Outside {
 };
 
 /// `none`: the fit of no effect.
-Outside fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none);
+Discrepancy fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none);
 
 }  // namespace snag

@@ -1,4 +1,4 @@
-#include "diagnosis/attribution/outside.hpp"
+#include "diagnosis/attribution/discrepancy.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +47,7 @@ class GaussianProcess {
     double log_evidence = 0;
     Eigen::VectorXd nuisances;  // the likeliest, in standard uncertainties
   };
-  Marginal marginal(const Outside& process) const {
+  Marginal marginal(const Discrepancy& process) const {
     const Eigen::Index m = expanded_at_.size();
     Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(m, m);
     Eigen::VectorXd projected = Eigen::VectorXd::Zero(m);
@@ -67,13 +67,15 @@ class GaussianProcess {
   }
 
   /// How far the likeliest inputs of the best process are from those that the linear model was made at, in standard uncertainties.
-  double reach(const Outside& best) const { return expanded_at_.size() == 0 ? 0 : (best.nuisances - expanded_at_).cwiseAbs().maxCoeff(); }
+  double reach(const Discrepancy& best) const {
+    return expanded_at_.size() == 0 ? 0 : (best.nuisances - expanded_at_).cwiseAbs().maxCoeff();
+  }
 
   /// The best process of the grid, with the evidence of all of it.
-  Outside fit() const {
-    Outside best;
+  Discrepancy fit() const {
+    Discrepancy best;
     best.log_evidence = -std::numeric_limits<double>::infinity();
-    const auto better_of = [&](const Outside& tried) {
+    const auto better_of = [&](const Discrepancy& tried) {
       const Marginal found = marginal(tried);
       if (found.log_evidence > best.log_evidence)
         best = {found.log_evidence, tried.length, tried.growing, tried.amplitude, found.nuisances};
@@ -88,8 +90,8 @@ class GaussianProcess {
     // Then each observable may choose its own amplitude.
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (int o = 0; o < n_parts_; ++o)
-        for (const Outside& other : with_other_amplitude(best, o)) better_of(other);
-      for (const Outside& other : with_other_shape(best)) better_of(other);
+        for (const Discrepancy& other : with_other_amplitude(best, o)) better_of(other);
+      for (const Discrepancy& other : with_other_shape(best)) better_of(other);
     }
     // Each choice of the grid has its share of the prior; what the others bring is taken one choice at a time.
     double log_evidence = best.log_evidence;
@@ -134,17 +136,17 @@ class GaussianProcess {
     return part + 1 < n_parts_ ? std::span<const double>(amplitudes) : std::span<const double>(is_off);
   }
   // With another amplitude of one observable; at least one keeps one, or it would be the base model.
-  std::vector<Outside> with_other_amplitude(const Outside& best, int part) const {
-    std::vector<Outside> others;
+  std::vector<Discrepancy> with_other_amplitude(const Discrepancy& best, int part) const {
+    std::vector<Discrepancy> others;
     for (const double amplitude : choices(part)) {
-      Outside other = best;
+      Discrepancy other = best;
       other.amplitude[part] = amplitude;
       if (std::any_of(other.amplitude.begin(), other.amplitude.end(), [](double s) { return s > 0; })) others.push_back(other);
     }
     return others;
   }
-  static std::vector<Outside> with_other_shape(const Outside& best) {
-    std::vector<Outside> others;
+  static std::vector<Discrepancy> with_other_shape(const Discrepancy& best) {
+    std::vector<Discrepancy> others;
     for (const double length : lengths)
       for (const bool growing : {false, true}) {
         others.push_back(best);
@@ -153,13 +155,13 @@ class GaussianProcess {
     return others;
   }
   /// log of the mean over n choices of exp(evidence), over that of the best.
-  double log_mean(const std::vector<Outside>& choices, std::size_t n, const Outside& best) const {
+  double log_mean(const std::vector<Discrepancy>& choices, std::size_t n, const Discrepancy& best) const {
     std::vector<double> gains;
-    for (const Outside& choice : choices) gains.push_back(marginal(choice).log_evidence - best.log_evidence);
+    for (const Discrepancy& choice : choices) gains.push_back(marginal(choice).log_evidence - best.log_evidence);
     return log_sum_exp(gains) - std::log(static_cast<double>(n));
   }
 
-  static Eigen::MatrixXd covariance(const Block& block, const Outside& process) {
+  static Eigen::MatrixXd covariance(const Block& block, const Discrepancy& process) {
     const auto& amplitude = process.amplitude;
     Eigen::MatrixXd K = block.covariance;
     const auto& rows = block.point->rows;
@@ -189,13 +191,13 @@ class GaussianProcess {
 
 }  // namespace
 
-Outside fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none) {
+Discrepancy fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none) {
   const GaussianProcess at_base(model, fitter.base()), at_none(model, none.at);
-  const Outside from_base = at_base.fit(), from_none = at_none.fit();
+  const Discrepancy from_base = at_base.fit(), from_none = at_none.fit();
   // Inputs are not linear as far as they may have to go: the linear model nearest to where it leads is the one to go by, and one made
   // there is better.
   const double reach_of_base = at_base.reach(from_base), reach_of_none = at_none.reach(from_none);
-  const Outside& nearer = reach_of_base < reach_of_none ? from_base : from_none;
+  const Discrepancy& nearer = reach_of_base < reach_of_none ? from_base : from_none;
   constexpr double near = 0.5;  // standard uncertainties
   if (std::min(reach_of_base, reach_of_none) < near ||
       fitter.runs_left() < fitter.runs_of_fit(0) * static_cast<int>(model.training().size()))
