@@ -16,7 +16,7 @@ std::string triangle() {
   piece.point_arrays = {{"tension [N]", 1, {1, 2, 3}, true}};
   const auto file = std::filesystem::temp_directory_path() / ("snag_seed_" + std::to_string(getpid()) + ".vtp");
   write_vtk(file, VtkKind::polygons, piece);
-  const std::string content = file_text(file).value_or("");
+  std::string content = file_text(file).value_or("");
   std::filesystem::remove(file);
   return content;
 }

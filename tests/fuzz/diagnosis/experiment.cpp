@@ -12,7 +12,7 @@ const std::string folder = "cases/diagnose-sphere/";
 
 /// A folder with the other files of the experiment, beside the one that is damaged.
 std::filesystem::path beside(const std::filesystem::path& file) {
-  const auto made = file.parent_path() / (file.stem().string() + "_files");
+  std::filesystem::path made = file.parent_path() / (file.stem().string() + "_files");
   std::filesystem::create_directories(made);
   return made;
 }

@@ -25,7 +25,7 @@ std::string slot() {
     writer.text("poses", "flat");
     writer.finish();
   }
-  const std::string content = file_text(folder() / "slot_a.h5").value_or("");
+  std::string content = file_text(folder() / "slot_a.h5").value_or("");
   std::filesystem::remove_all(folder());
   return content;
 }

@@ -33,7 +33,10 @@ const std::vector<double> strengths{0, 0.1, 0.3, 0.6, 1, 1.5, 2};
 TEST(Emulator, PassesThroughRunsWithoutScatter) {
   const Emulator emulator = emulator_of(strengths, 0, 1);
   for (const double theta : strengths) EXPECT_NEAR(emulator.at(theta)[0].value[0], curve(theta), 1e-4);
-  for (double theta = 0.05; theta < 2; theta += 0.1) EXPECT_NEAR(emulator.at(theta)[0].value[0], curve(theta), 0.02) << theta;
+  for (int i = 0; i < 20; ++i) {
+    const double theta = 0.05 + 0.1 * i;
+    EXPECT_NEAR(emulator.at(theta)[0].value[0], curve(theta), 0.02) << theta;
+  }
 }
 
 /// Requirement: where runs scatter, what stands between them is nearer to the truth than the runs are.
