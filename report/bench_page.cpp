@@ -56,7 +56,7 @@ std::string bins(const ScoreCard& card) {
     if (bin.n > 0) rows.push_back({share_text(bin.stated), share_text(bin.right), std::to_string(bin.n)});
   return html::table({"Probability stated, mean", "share that was right", "sets"}, rows) +
          "<p>A diagnosis whose probabilities are exactly right would show a calibration error of " + share_text(card.ece_by_chance) +
-         " on average, as each dot stands on a few sets only.</p>\n";
+         " on average, because each dot has a few sets only.</p>\n";
 }
 
 /// Hits of single effects over the size of the gap, in bins of equal counts.
@@ -99,16 +99,14 @@ std::string confusion(const ScoreCard& card) {
 }
 
 constexpr const char* meaning =
-    "<p>Each set is a made-up experiment whose truth was written down and sealed before the diagnosis saw its data. Null: nothing is "
-    "missing. Outside: something acts that the library of effects does not hold. Detectable: what acts differs from the base model, and of "
-    "a "
-    "pair each effect from the other alone, by 3 standard uncertainties or more once the uncertain inputs are allowed to move. Sets that "
-    "can "
-    "be told: null and detectable ones.</p>\n";
+    "<p>Each set is a synthetic experiment whose truth was stored before the diagnosis read its data. Null: no effect is missing. Outside: "
+    "the cause is not in the library of effects. Detectable: the effect differs from the base model (each effect of a pair from the other "
+    "alone) by 3 standard uncertainties or more, for any values of the uncertain inputs. Sets that can be told: null and detectable "
+    "ones.</p>\n";
 
 constexpr const char* of_intervals =
-    "<p>No gap shrinks by more than all of it, so an interval can miss the ideal on one side only: right ones hold it in 97.5 % of the "
-    "sets.</p>\n";
+    "<p>No gap shrinks by more than 100 %, so an interval can miss the ideal on one side only: correct intervals contain it in 97.5 % of "
+    "the sets.</p>\n";
 
 }  // namespace
 

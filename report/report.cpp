@@ -52,10 +52,10 @@ PictureParts picture_parts(const Pictures& pictures) {
   }
   if (!small.empty())
     parts.instants =
-        "<p>The rag on its way, drawn over walls and water so that nothing hides it; its colour is the tension of its bonds. " +
+        "<p>The rag is drawn over walls and water so that nothing hides it; its colour is the tension of its bonds. " +
         std::string(is_pump ? "The pump is seen from its inlet, through its walls, with the impeller at its angle."
                             : "Walls are transparent, and a plane through the middle of the domain shows the speed of the water.") +
-        " All instants share one view and one scale; an event stands in the first picture after it.</p>\n"
+        " All instants have the same view and scale; an event is named in the first picture after it.</p>\n"
         "<div class=\"pictures\">\n" +
         small + "</div>\n" + scale + path;
   return parts;
@@ -85,7 +85,7 @@ std::string paraview_section(const std::filesystem::path& dir) {
   return "<p>Open these files of the run's folder in ParaView (File, Open; then Apply). Colour the rag by tension, give the walls an "
          "opacity of 0.1, and "
          "put a Slice through the water. Numbers over time are in <code>monitors/*.csv</code>, which any spreadsheet reads.</p>\n" +
-         html::table({"File", "What it holds"}, rows);
+         html::table({"File", "content"}, rows);
 }
 
 std::string folded(const std::string& title, const std::string& text) {

@@ -155,6 +155,7 @@ std::string run_table(const json& summary) {
             {"time_steps", "Time steps of the water", ""}},
            false);
   if (const double wall = real(summary, "wall_s"); std::isfinite(wall)) rows.push_back({"Duration of the run", duration(wall)});
+  if (real(member(summary, "mesh"), "cells") == 0) return table_of({}, rows);  // no water
   add_rows(rows, member(summary, "mesh"),
            {{"cells", "Cells of the mesh", ""},
             {"interior_faces", "Internal faces", ""},
@@ -206,8 +207,10 @@ std::string rag_tables(const json& summary) {
               {"max_overlap_over_radius", "Deepest overlap between particles, in particle radii", ""},
               {"bond_strain_p99", "Strain that 99 % of the bonds stay below", ""},
               {"max_bond_tension_N", "Largest tension of a bond", "N"}});
-    add_rows(rows, member(rag, "wall_contact_by_zone_s"),
-             {{"impeller", "Time in contact with the impeller", "s"},
+    const json& zones = member(rag, "wall_contact_by_zone_s");
+    const bool has_tongue = std::isfinite(real(zones, "tongue"));  // a pump
+    add_rows(rows, zones,
+             {{"impeller", has_tongue ? "Time in contact with the impeller" : "Time in contact with moving walls", "s"},
               {"tongue", "Time in contact with the tongue", "s"},
               {"other", "Time in contact with other walls", "s"}});
     std::erase_if(rows, [](const auto& row) { return row[0].empty(); });

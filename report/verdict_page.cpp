@@ -59,8 +59,8 @@ std::string which(const Verdict& v) {
   for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 10); ++i)
     all.push_back({sorted[i].second, percent(sorted[i].first), sorted[i].first, i == 0});
   return bars(all) +
-         "<p>Of an effect: how probable it is that it acts, alone or beside another; what these data cannot show is as probable as it was "
-         "before them. None: nothing is missing. Outside: what is missing is not in the library.</p>\n";
+         "<p>The bar of an effect is the probability that it acts, alone or together with another. For an effect that these data cannot "
+         "show it is the probability before the data. None: no effect is missing. Outside: the cause is not in the library.</p>\n";
 }
 
 std::string strengths(const Verdict& v) {
@@ -75,8 +75,8 @@ std::string strengths(const Verdict& v) {
 
 std::string how_far(const Verdict& v) {
   if (!v.gap.computable)
-    return "<p>Not computable: this takes paths or means of scalars at three operating points or more that the fit did not see, and runs "
-           "left in the budget for the chosen hypothesis there. Only the evidence speaks.</p>\n";
+    return "<p>Not computable: it needs paths or means of scalars at three or more withheld operating points, and enough runs in the "
+           "budget for the chosen hypothesis there. The verdict follows from the evidence alone.</p>\n";
   std::string text = bars({{"gap before", html::number(v.gap.before), v.gap.before, false},
                            {"gap after", html::number(v.gap.after), v.gap.after, true},
                            {"noise floor", html::number(v.gap.floor), v.gap.floor, false},
@@ -89,9 +89,9 @@ std::string how_far(const Verdict& v) {
   for (const auto& [name, s] : v.shrinkage_rejected) rows.push_back(row(name + ", rejected", s));
   rows.push_back(row("a correction without physics", v.shrinkage_regression));
   return text +
-         "<p>Mean square differences at the withheld points, in units of the data's own uncertainty, less what noise alone makes (the "
-         "noise "
-         "floor). Remainder: what is left of the gap after the best that was tried. A dash: the withheld points show no gap beyond "
+         "<p>Mean square differences at the withheld points, in units of the uncertainty of the data, minus the part that noise alone "
+         "makes "
+         "(the noise floor). Remainder: the gap that the best effects leave. A dash: the withheld points show no gap beyond "
          "noise.</p>\n" +
          html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
 }
@@ -199,7 +199,7 @@ std::string map_of_ways(const Verdict& v) {
          ends(axes[1], left - 22, height - bottom, left - 22, top + 8, "end") + "<text x=\"" + words(0.5 * (left + width - right)) +
          "\" y=\"" + words(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
          words(0.5 * height) + "\" transform=\"rotate(-90 14 " + words(0.5 * height) + ")\" text-anchor=\"middle\">measured " + axes[1] +
-         " [m]</text>\n</svg>\n<p>The measured ways, part by part of their time, in the same colours: the largest difference of a "
+         " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest difference of a "
          "coordinate over its "
          "uncertainty there.</p>\n";
 }
@@ -230,7 +230,7 @@ std::string curves(const Verdict& v) {
     };
     const std::string title = c.observable + " at " + c.point, label = c.observable + (c.unit == "1" ? "" : " [" + c.unit + "]");
     LinePlot path{.title = title, .x_label = "t [s]", .y_label = label, .lines = {}}, rest = path;
-    rest.title += ": simulated less measured", rest.y_label = "difference of " + label;
+    rest.title += ": simulated minus measured", rest.y_label = "difference of " + label;
     path.lines = {{.label = "measured", .x = c.time, .y = c.measured, .dotted = true}, {.label = "base model", .x = c.time, .y = c.base}};
     const std::vector<double> zero(c.time.size(), 0.0);
     rest.lines = {{.label = "measured", .x = c.time, .y = zero, .dotted = true},
@@ -247,8 +247,8 @@ std::string curves(const Verdict& v) {
     }
   }
   return plots.empty() ? ""
-                       : "<p>The paths that differ most. u: standard uncertainty of the measured mean, noise, scatter and bias; what is "
-                         "uncertain of the inputs comes on top of it for the base model.</p>\n<div class=\"plots\">" +
+                       : "<p>The paths that differ most. u: standard uncertainty of the measured mean from noise, scatter and bias; the "
+                         "uncertainty of the inputs of the base model is not included.</p>\n<div class=\"plots\">" +
                              plots + "</div>\n";
 }
 
@@ -269,8 +269,9 @@ std::string where(const Verdict& v) {
   const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
   return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
          " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
-         "standard uncertainty; points beside each other. Where a run that goes on from the measured state at the begin of a part differs "
-         "again, that part makes a gap of its own (framed: born here); where it agrees, the gap is inherited from before.</p>\n" +
+         "standard uncertainty; one column for each point. A run is started again from the measured state at the beginning of each part: "
+         "if it "
+         "differs again, a gap begins in that part (framed: born here); if it agrees, the gap is inherited from an earlier part.</p>\n" +
          map_of_gap(v) + map_of_ways(v) + curves(v) + html::table(header, rows) +
          (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
 }
@@ -293,7 +294,8 @@ std::string evidence(const Verdict& v) {
 
 std::string next(const Verdict& v) {
   std::string text;
-  for (const auto& tie : v.identifiability.ties) text += "<p>These look alike in this experiment: " + escaped(joined(tie)) + ".</p>\n";
+  for (const auto& tie : v.identifiability.ties)
+    text += "<p>These effects have the same signature in this experiment: " + escaped(joined(tie)) + ".</p>\n";
   if (!v.identifiability.next_experiment.empty()) text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});
@@ -303,7 +305,7 @@ std::string next(const Verdict& v) {
 }  // namespace
 
 std::string verdict_sentence(const Verdict& v) {
-  if (v.verdict == "none") return "No gap beyond the uncertainty: nothing is missing that these data could show.";
+  if (v.verdict == "none") return "No gap beyond the uncertainty: no effect is missing that these data could show.";
   if (v.verdict == "outside")
     return "There is a gap, and no effect of the library explains it." +
            (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");

@@ -114,11 +114,11 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
   constexpr double wanted_nats = 6, most_replicates = 1000;
   const double replicates = std::ceil(2 * wanted_nats / std::max(best.T, 1e-300));
   if (replicates > most_replicates)
-    return "No number of repeats of these measurements would tell " + both + "; that takes another operating point or observable.";
-  return "To tell " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
-         (std::isnan(best.time) ? "" : ", above all around t = " + words(best.time) + " s") +
-         ": there the two predict what differs most, by " + two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
-         (replicates > 1 ? words(replicates) + " more repeats" : "One more") + " would settle it.";
+    return "No number of repeats of these measurements would distinguish " + both + "; that needs another operating point or observable.";
+  return "To distinguish " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
+         (std::isnan(best.time) ? "" : ", especially near t = " + words(best.time) + " s") + ": there their predictions differ most, by " +
+         two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
+         (replicates > 1 ? words(replicates) + " more repeats are enough." : "One more repeat is enough.");
 }
 
 }  // namespace snag
