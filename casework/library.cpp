@@ -76,7 +76,7 @@ const char* reason_against(Need need, const CaseFeatures& facts) {
 std::string reason_against(const Prior& prior, const CaseFeatures& facts) {
   if (prior.acts_on_water && facts.prescribed) return "it acts on the water, which is prescribed";
   for (const Need need : prior.needs)
-    if (const std::string reason = reason_against(need, facts); !reason.empty()) return reason;
+    if (std::string reason = reason_against(need, facts); !reason.empty()) return reason;
   return "";
 }
 

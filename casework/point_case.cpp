@@ -117,7 +117,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
 
 std::string PointCase::input_name(const std::string& key, const std::string& where) const {
   const auto former = former_inputs.find(key);
-  const std::string present = former != former_inputs.end() ? former->second : case_file_.with_present_names(key);
+  std::string present = former != former_inputs.end() ? former->second : case_file_.with_present_names(key);
   if (present != key) log::warning_once(former_name_note(where + " input_u ", key, present));
   return present;
 }

@@ -35,7 +35,7 @@ std::map<std::string, std::string> other_forms(const Truth& truth, NormalNumbers
 
 void draw_strengths(Truth& truth, const std::vector<Effect>& effects, NormalNumbers& random) {
   for (auto& [name, theta] : truth.theta) {
-    const auto effect = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; });
+    const auto effect = std::find_if(effects.begin(), effects.end(), [&wanted = name](const Effect& e) { return e.name == wanted; });
     const double sign = effect->minimum < 0 && effect->maximum > 0 && random.uniform() < 0.5 ? -1 : 1;
     theta = std::clamp(sign * theta * effect->mean * (0.8 + 0.4 * random.uniform()), effect->minimum, effect->maximum);
   }

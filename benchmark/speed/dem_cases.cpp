@@ -22,9 +22,10 @@ RagPiece cloth(int n_columns, int n_rows, const Vec3& centre, bool breakage = tr
 }
 
 DemBenchCase built(MPI_Comm comm, std::vector<RagPiece> pieces, const WallSet& walls, const ContactSettings& contacts) {
-  DemBenchCase made{std::make_unique<WallSet>(walls), std::make_unique<RagSystem>(comm, DemSettings(), std::move(pieces))};
-  made.rags->set_contacts(std::make_unique<ContactSolver>(contacts, made.rags->rags(), made.walls.get()));
-  return made;
+  auto own_walls = std::make_unique<WallSet>(walls);
+  auto rags = std::make_unique<RagSystem>(comm, DemSettings(), std::move(pieces));
+  rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), own_walls.get()));
+  return {std::move(own_walls), std::move(rags)};
 }
 
 }  // namespace
