@@ -169,7 +169,7 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
                          .diagonal = diagonal_,
                          .right_side = right_side_});
   add_boundary(flow, boundary);
-  const auto report = gauss_seidel<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
+  const auto report = solve_rows<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
   record_boundary(flow, boundary);
   return report;
 }

@@ -62,14 +62,21 @@ void ScalarTransport::begin(const Flow& flow, const TimeScheme& time) {
 
 SweepReport ScalarTransport::solve(const ScalarHistory& history, const ScalarTerms& terms, const GivenCells& given,
                                    std::vector<double>& phi) {
-  known_at_boundary(history.guess, terms.entering);
-  squares_.gradient(history.guess, known_, gradient_);
+  if (!gradient_is_new_) gradient(history.guess, terms.entering);
+  gradient_is_new_ = false;
   start_rows(history, terms);
   add_interior(history.guess, terms.diffusivity);
   add_boundary(terms);
   close_rows(history.guess, given);
   std::copy(history.guess.begin(), history.guess.end(), phi.begin());
-  return gauss_seidel<double>(mesh_, matrix_, diagonal_, right_side_, phi, tolerance, max_sweeps);
+  return solve_rows<double>(mesh_, matrix_, diagonal_, right_side_, phi, tolerance, max_sweeps, true);
+}
+
+const std::vector<Vec3>& ScalarTransport::gradient(std::span<const double> guess, std::span<const double> entering) {
+  known_at_boundary(guess, entering);
+  squares_.gradient(guess, known_, gradient_);
+  gradient_is_new_ = true;
+  return gradient_;
 }
 
 /// Values where fluid enters by a given velocity; elsewhere the slope zero, and at such a patch where it leaves, the value inside.

@@ -53,6 +53,8 @@ class ScalarTransport {
   void mesh_turned();
   /// Volume fluxes relative to the mesh, and the step. Local.
   void begin(const Flow& flow, const TimeScheme& time);
+  /// Gradient of a first guess, [n_all_cells]; `entering` as in ScalarTerms. A solve() with the same guess takes it over. Collective.
+  const std::vector<Vec3>& gradient(std::span<const double> guess, std::span<const double> entering);
   /// Solve into phi, [n_all_cells], ghosts filled. `given` cells keep their value. Collective.
   SweepReport solve(const ScalarHistory& history, const ScalarTerms& terms, const GivenCells& given, std::vector<double>& phi);
   /// Rate at which fluid leaves a cell over its volume, 1/s, of the last begin(). [n_cells]
@@ -78,6 +80,7 @@ class ScalarTransport {
   std::vector<double> flux_;   // [n_faces] of the step: the number of facets changes as a mesh turns
   std::vector<double> known_;  // at boundary faces, for gradients
   std::vector<Vec3> gradient_;
+  bool gradient_is_new_ = false;  // of the guess of the next solve()
 };
 
 }  // namespace snag

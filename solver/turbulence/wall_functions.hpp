@@ -10,9 +10,7 @@
 // A cell centre nearer to the wall than y*_lam is treated as if it were at y*_lam, the lower end of the log layer. The standard k-epsilon
 // model is not valid in the viscous layer below: there it computes a friction that is too large by half.
 //
-// u_t: part along the wall. A cell with several wall faces takes the mean of both, weighted with the areas of the faces. The velocity
-// gradient in the cell at the wall is that of the shear in force, tau_w / (mu + mu_t), and not (u_P - u_w)/y, which is several times as
-// steep.
+// u_t: part along the wall.
 //
 // Limit: on a turning wall the pressure follows from the acceleration of the water that the wall carries
 // (Continuity::acceleration_at_wall). On a curved wall at rest the curvature of the streamlines is not known, and the pressure at the wall
@@ -20,7 +18,7 @@
 // along it), and angular momentum is lost there to the order of the friction torque: the torques of two cylinders differ.
 #include <vector>
 
-#include "solver/boundaries/boundary.hpp"
+#include "solver/turbulence/wall_faces.hpp"
 
 namespace snag {
 
@@ -37,8 +35,7 @@ struct WallLaw {
   double friction_speed(double k) const;
 };
 
-/// The faces of all walls and the cells at them.
-class WallFunctions {
+class WallFunctions : public WallFaces {
  public:
   WallFunctions() = default;
   /// Local.
@@ -48,23 +45,12 @@ class WallFunctions {
   void set_viscosity(Flow& flow, const std::vector<double>& k) const;
   /// Production, m2/s3, and epsilon, m2/s3, of the wall cells from k and the velocity of the flow; [cells().size()]. Local.
   void equilibrium(const Flow& flow, const BoundarySet& boundary, const std::vector<double>& k);
-  /// Replaces the velocity at wall faces by that which the gradient in the wall cell leads to. Local.
-  void slip(const Flow& flow, const BoundarySet& boundary, std::vector<Vec3>& velocity) const;
 
-  const std::vector<int>& cells() const { return cells_; }
   const std::vector<double>& production() const { return production_; }
   const std::vector<double>& dissipation() const { return dissipation_; }
 
  private:
-  struct WallFace {
-    int boundary_face, wall_cell;  // f - n_interior, which stays as a turning mesh changes its facets; place in cells_
-    double share;                  // of the area of the cell's wall faces
-
-    int face(const Mesh& mesh) const { return mesh.n_interior + boundary_face; }
-  };
   WallLaw law_;
-  std::vector<WallFace> faces_;
-  std::vector<int> cells_;
   std::vector<double> production_, dissipation_;
 };
 

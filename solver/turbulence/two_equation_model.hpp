@@ -1,0 +1,114 @@
+#pragma once
+// What models of k and a second scalar phi (epsilon, omega) share: history, first guesses, entering and initial turbulence, viscosities of
+// the faces, checkpoint. A model adds its equations and its walls.
+//
+// A guess a* is extrapolated from a^n and a^(n-1), linearly where a grows and with 1/a linear where it falls: positive, and exact for the
+// turnover time k/epsilon of decaying turbulence, which grows linearly. Where a step is longer than the turnover time or the Courant number
+// large, the guess goes over to a^n, which is first order and robust.
+//
+// The equation of phi has sources P - b phi^2. With phi_e = (P/b)^(1/2), at which they balance,
+//
+//   b phi^2 ~ b (phi* + phi_e) phi - b phi_e phi*,      error b (phi - phi*) (phi - phi_e)
+//
+// so that at large steps sources alone lead to phi_e at once, and decay without production to phi = 1/(b dt), as it should. With b phi* phi
+// a high phi* gives a low phi and that a high one: phi would go to and fro between phi* and P/(b phi*).
+#include <cmath>
+#include <optional>
+
+#include "solver/turbulence/scalar_transport.hpp"
+#include "solver/turbulence/turbulence.hpp"
+#include "solver/turbulence/wall_faces.hpp"
+
+namespace snag {
+
+/// k, phi: far below any turbulence, far above what underflows in k^2/epsilon.
+inline constexpr double smallest_scalar = 1e-60;
+
+/// 2 D:D of a velocity gradient, D its symmetric part, 1/s2.
+double twice_strain_squared(const Mat3& G);
+
+class TwoEquationModel : public Turbulence {
+ public:
+  void prepare(Flow& flow, const BoundarySet& boundary) override;
+  void start(Flow& flow, const BoundarySet& boundary) override;
+  void mesh_turned(Flow& flow, const BoundarySet& boundary) override;
+  void begin_step(Flow& flow, const TimeScheme& time) override;
+  const std::vector<Vec3>& velocity_for_gradient(const Flow& flow, const BoundarySet& boundary) override;
+  std::vector<StoredField> stored() override;
+  void restore(Flow& flow, const BoundarySet& boundary) override;
+
+ protected:
+  /// k or phi.
+  struct Scalar {
+    std::string symbol;
+    std::vector<double>* now = nullptr;     // of the flow, [n_all_cells]
+    std::vector<double> old, older, guess;  // [n_all_cells]
+    std::vector<double> entering;           // [n_faces - n_interior]
+    std::optional<ScalarTransport> equation;
+
+    ScalarHistory history() const { return {old, older, guess}; }
+  };
+
+  explicit TwoEquationModel(const std::string& symbol_of_phi) { k_.symbol = "k", phi_.symbol = symbol_of_phi; }
+
+  // A model's own part.
+  virtual std::vector<double>& field_of_phi(Flow& flow) const = 0;
+  /// phi of k and epsilon; and the rate epsilon/k, 1/s, of k and phi.
+  virtual double phi_of(const TurbulenceValues& values) const = 0;
+  virtual double turnover_rate(double k, double phi) const = 0;
+  /// nu_t, m2/s, without what depends on the strain: of fluid that enters.
+  virtual double entering_viscosity(double k, double phi) const = 0;
+  /// flow.eddy_viscosity from k and phi, [n_all_cells] of both. Collective.
+  virtual void set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& phi) = 0;
+  /// Walls and all else that depends on the mesh. Collective.
+  virtual void prepare_walls(const Flow& flow, const BoundarySet& boundary) = 0;
+  virtual const WallFaces& walls() const = 0;
+  /// What the treatment of walls draws from the velocity, before the first step. Local.
+  virtual void start_walls(const Flow&, const BoundarySet&) {}
+  /// The viscosity of the faces of walls, and flow.y_plus. Local.
+  virtual void set_wall_viscosity(Flow& flow) = 0;
+  /// The viscosity of interior faces, Pa s; by default that of the cells, interpolated.
+  virtual void set_interior_viscosity(Flow& flow);
+  /// Beyond phi: what others read of a model that transports another scalar. Local.
+  virtual void fill_other_fields(Flow&) {}
+
+  /// Keys that all models share.
+  std::vector<Parameter> initial_parameters();
+  Parameter tolerance_parameter();
+  static Parameter constant(const char* key, double* target, double low, double high);
+
+  /// First part of a correction: fluxes, entering fluid, guesses, eddy viscosity of them. Collective.
+  void begin_correction(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer);
+  /// production_ and sink_ of the equation of phi in a cell, from its sources P - b phi^2.
+  void set_sources_of_phi(int c, double P, double b) {
+    const double root = std::sqrt(P * b);  // b phi_e
+    production_[c] = P + root * phi_.guess[c], sink_[c] = root + b * phi_.guess[c];
+  }
+  /// Last part: raises, viscosities, report. Collective.
+  TurbulenceReport end_correction(Flow& flow, const SweepReport& k, const SweepReport& phi);
+  /// Into diffusivity_ from that of turbulence in the cells, m2/s, [n_all_cells]; `share`: of it, of nu_t, in fluid that enters.
+  void set_diffusivity(const Flow& flow, const std::vector<double>& of_cells, double share);
+
+  /// Dissipation rate of the flow, [n_all_cells], m2/s3.
+  std::vector<double>* epsilon() const { return epsilon_; }
+
+  Scalar k_, phi_;
+  double C_mu_ = 0.09;
+  std::vector<double> production_, sink_, strain_;  // [n_cells]; strain_: 2 S:S, 1/s2
+  std::vector<double> diffusivity_;                 // [n_faces], m2/s
+
+ private:
+  void fill_initial(const Flow& flow, const BoundarySet& boundary);
+  void set_entering(const Flow& flow, const BoundarySet& boundary);
+  void guess(Flow& flow, const TimeScheme& time, int outer);
+  double boundary_eddy_viscosity(const Flow& flow, int f) const;
+  void set_viscosity(Flow& flow);
+  std::int64_t raise(const Mesh& mesh);
+
+  std::optional<double> initial_k_, initial_epsilon_;
+  double tolerance_ = 1e-8;
+  std::vector<double>* epsilon_ = nullptr;   // of the flow
+  std::vector<Vec3> velocity_for_gradient_;  // [n_faces - n_interior]
+};
+
+}  // namespace snag
