@@ -42,7 +42,9 @@ struct Flow {
 
   // of a turbulence model, empty without one
   std::vector<double> turbulent_kinetic_energy, dissipation_rate, eddy_viscosity;  // k, m2/s2; epsilon, m2/s3; nu_t, m2/s; [n_all_cells]
-  std::vector<double> y_plus;               // [n_faces - n_interior], of the cell at a wall face, C_mu^(1/4) k^(1/2) y/nu; 0 elsewhere
+  std::vector<double> specific_dissipation_rate;  // omega = epsilon/(C_mu k), 1/s, of a model that transports it; likewise
+  std::vector<double> y_plus;               // [n_faces - n_interior], u y/nu of the cell at a wall face, u the friction velocity of the
+                                            // model or C_mu^(1/4) k^(1/2); 0 elsewhere
   std::vector<std::uint8_t> wall_function;  // likewise: 1 where face_viscosity (u_P - u_w)/y is the shear of a wall function
 
   // from the rags, [n_cells]

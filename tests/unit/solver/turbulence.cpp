@@ -37,7 +37,7 @@ TEST(WallLaw, profile) {
 // Every model registers itself: none of the folder is dropped by the linker; and the manual shows the choice and each model.
 TEST(Turbulence, registry) {
   EXPECT_EQ(turbulence_models().names().size(), n_sources("solver/turbulence/models"));
-  const std::vector<std::string> known{"k_epsilon", "laminar"};
+  const std::vector<std::string> known{"k_epsilon", "k_omega_sst", "laminar"};
   EXPECT_EQ(turbulence_models().names(), known);
   EXPECT_EQ(turbulence_sections().size(), known.size() + 1);
 }

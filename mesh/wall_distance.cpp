@@ -1,0 +1,107 @@
+// The nearest point of a triangle a b c to x: the foot of x on its plane where that lies inside, else the nearest of its three edges.
+#include "mesh/wall_distance.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "mesh/wall_surface.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr int leaf_size = 4;  // triangles of a box that is not divided
+constexpr double far_away = std::numeric_limits<double>::infinity();
+
+Vec3 nearest_on_edge(const Vec3& a, const Vec3& b, const Vec3& x) {
+  const Vec3 way = b - a;
+  const double length2 = norm_squared(way);
+  return a + (length2 > 0 ? std::clamp(dot(x - a, way) / length2, 0.0, 1.0) : 0.0) * way;
+}
+
+Vec3 nearest_on_triangle(const WallTriangle& triangle, const Vec3& x) {
+  const auto& [a, b, c] = triangle.node;
+  const Vec3& n = triangle.normal;
+  const auto inside = [&](const Vec3& from, const Vec3& to) { return dot(cross(to - from, x - from), n) >= 0; };
+  if (inside(a, b) && inside(b, c) && inside(c, a)) return x - dot(x - a, n) * n;
+  Vec3 best;
+  double best2 = far_away;
+  for (const Vec3& point : {nearest_on_edge(a, b, x), nearest_on_edge(b, c, x), nearest_on_edge(c, a, x)})
+    if (const double d2 = norm_squared(x - point); d2 < best2) best = point, best2 = d2;
+  return best;
+}
+
+double distance_squared(const Vec3& lower, const Vec3& upper, const Vec3& x) {
+  double d2 = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double beyond = std::max({lower[i] - x[i], x[i] - upper[i], 0.0});
+    d2 += beyond * beyond;
+  }
+  return d2;
+}
+
+Vec3 centroid(const WallTriangle& t) { return (t.node[0] + t.node[1] + t.node[2]) / 3; }
+
+}  // namespace
+
+WallTree::WallTree(const std::vector<WallTriangle>& triangles) : triangles_(triangles), order_(triangles.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!triangles.empty()) build(0, static_cast<int>(triangles.size()));
+}
+
+/// Divided at the median of the centroids along the longest side; returns the place of the box.
+int WallTree::build(int first, int end) {
+  const int place = static_cast<int>(boxes_.size());
+  Box box{{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}, first, end};
+  for (int i = first; i < end; ++i)
+    for (const Vec3& node : triangles_[order_[i]].node)
+      for (int d = 0; d < 3; ++d) box.lower[d] = std::min(box.lower[d], node[d]), box.upper[d] = std::max(box.upper[d], node[d]);
+  boxes_.push_back(box);
+  if (end - first <= leaf_size) return place;
+  const Vec3 size = box.upper - box.lower;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  const int middle = (first + end) / 2;
+  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + end, [&](int a, int b) {
+    const double x = centroid(triangles_[a])[axis], y = centroid(triangles_[b])[axis];
+    return x < y || (x == y && a < b);
+  });
+  build(first, middle);
+  const int right = build(middle, end);
+  boxes_[place].right = right;
+  return place;
+}
+
+WallPoint WallTree::nearest(const Vec3& place) const {
+  if (boxes_.empty()) return {far_away, {}};
+  double best2 = far_away;
+  Vec3 best;
+  std::vector<std::pair<double, int>> open{{0.0, 0}};  // boxes to look into, with the squares of their distances
+  while (!open.empty()) {
+    const auto [box_distance2, b] = open.back();
+    open.pop_back();
+    if (box_distance2 >= best2) continue;
+    const Box& box = boxes_[b];
+    if (box.right == 0) {
+      for (int i = box.first; i < box.end; ++i) {
+        const Vec3 point = nearest_on_triangle(triangles_[order_[i]], place);
+        if (const double d2 = norm_squared(place - point); d2 < best2) best = point, best2 = d2;
+      }
+      continue;
+    }
+    const std::pair<double, int> left{distance_squared(boxes_[b + 1].lower, boxes_[b + 1].upper, place), b + 1},
+        right{distance_squared(boxes_[box.right].lower, boxes_[box.right].upper, place), box.right};
+    open.push_back(std::max(left, right)), open.push_back(std::min(left, right));
+  }
+  return {std::sqrt(best2), unit(place - best)};
+}
+
+std::vector<WallPoint> wall_distances(const Mesh& mesh, const std::vector<std::string>& walls) {
+  const WallSurface surface = wall_surface(mesh, walls);
+  const WallTree tree(surface.triangles);
+  std::vector<WallPoint> of_cells(static_cast<std::size_t>(mesh.n_all_cells()));
+  for (std::size_t c = 0; c < of_cells.size(); ++c) of_cells[c] = tree.nearest(mesh.cell_centre[c]);
+  return of_cells;
+}
+
+}  // namespace snag
