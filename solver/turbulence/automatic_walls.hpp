@@ -7,7 +7,7 @@
 //   omega_P^2 = omega_vis^2 + omega_log^2,   omega_vis = 6 nu/(beta_1 y^2),   omega_log = u_tau/(beta*^(1/2) kappa y)
 //
 // The blend of omega: Menter, Kuntz, Langtry (2003), section "near wall treatment"; their u_tau is a blend of the two layers, (u_vis^4 +
-// u_log^4)^(1/4), which is off Spalding's curve by up to 5 % between them.
+// u_log^4)^(1/4), which is 3 % above that of Spalding's curve at y+ 9.
 //
 // A cell with several wall faces has one u_tau, the mean of those of its faces, weighted with their areas.
 #include "solver/turbulence/wall_faces.hpp"

@@ -61,7 +61,7 @@ class ScalarTransport {
   std::span<const double> rate() const { return rate_; }
 
   double tolerance = 1e-8;  // root mean square of the relative changes of a sweep
-  int max_sweeps = 400;
+  int max_sweeps = 1000;
 
  private:
   void start_rows(const ScalarHistory& history, const ScalarTerms& terms);

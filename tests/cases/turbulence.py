@@ -28,6 +28,7 @@ report = false
 """
 MESH = ("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="tetrahedra"', "size_mm=20", "wall_ratio=1")
 NAMES = {"turbulent_kinetic_energy [m2/s2]", "dissipation_rate [m2/s3]", "eddy_viscosity [m2/s]"}
+OMEGA = "specific_dissipation_rate [1/s]"
 
 
 def cell_fields(file):
@@ -50,10 +51,17 @@ class Turbulence(harness.CaseTest):
         numpy.testing.assert_allclose(nu_t, 0.09 * k**2 / epsilon, rtol=1e-5)
         self.assertTrue(0.001 < k.min() < 1.5 * (0.1 * 2) ** 2 < k.max() < 1, f"k from {k.min()} to {k.max()} m2/s2")
 
+    def test_fields_of_sst(self):
+        run = self.run_case(self.channel("k_omega_sst", "turbulence_intensity = 0.1"), 2)
+        found = cell_fields(sorted((run.folder / "fields").glob("*.pvtu"))[-1])
+        k, epsilon, nu_t, omega = (found[n] for n in ("turbulent_kinetic_energy [m2/s2]", "dissipation_rate [m2/s3]", "eddy_viscosity [m2/s]", OMEGA))
+        numpy.testing.assert_allclose(epsilon, 0.09 * k * omega, rtol=1e-5)
+        self.assertTrue((nu_t <= k / omega * 1.00001).all() and (nu_t > 0).all())
+
     def test_laminar_has_none(self):
         run = self.run_case(self.channel("laminar"), 1)
         for file in (run.folder / "fields").glob("*.pvtu"):
-            self.assertFalse(NAMES & set(cell_fields(file)), file.name)
+            self.assertFalse((NAMES | {OMEGA}) & set(cell_fields(file)), file.name)
 
     def test_unknown_model(self):
         run = self.run_case(self.channel("k_epsilom"), 1, code=2)

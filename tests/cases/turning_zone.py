@@ -1,13 +1,13 @@
 # timeout: 600
 # processors: 2
 # cost: 16
-"""Requirement: a run with a turning zone and k-epsilon agrees to 1e-6 on any number of ranks, and one resumed in mid-turn equals the uninterrupted one to the bit on the same ranks."""
+"""Requirement: a run with a turning zone and a turbulence model agrees to 1e-6 on any number of ranks, and one resumed in mid-turn equals the uninterrupted one to the bit on the same ranks."""
 import math
 
 import numpy
 
 import harness
-from small_cases import K_EPSILON, pump_case, tight_flow
+from small_cases import pump_case, tight_flow
 
 STEP = 1e-3  # s
 START = "initial_k_m2_s2 = 0.01\ninitial_epsilon_m2_s3 = 0.1\n"
@@ -74,17 +74,17 @@ class TurningZone(harness.CaseTest):
     n_steps, n_before_checkpoint = 26, 16
     ranks = {"sliding": (2, 3), "frame": (2,)}  # that are compared with one rank
 
-    def rings(self, motion="sliding"):
+    def rings(self, motion="sliding", model="k_epsilon"):
         mesh = self.shared / "rings.msh"
         Rings().write(mesh)
         rotor = f'motion = "{motion}"\nrotation_speed = "1200 rpm"\nramp = "0.02 s"\nstart_angle = "5 deg"'
         return self.case(pump_case(
             "turning-rings", mesh, rotor=rotor, time=f"end_s = {self.n_steps * STEP}\nstep_s = {STEP}", flow=tight_flow("1e-11"),
-            flow_rate_L_s=2, walls=RING_WALLS, more=K_EPSILON + START,
-            output=f"single_precision = false\n[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}"), motion)
+            flow_rate_L_s=2, walls=RING_WALLS, more=f'[turbulence]\nmodel = "{model}"\n' + START,
+            output=f"single_precision = false\n[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}"), f"{motion}-{model}")
 
-    def agree(self, motion):
-        case = self.rings(motion)
+    def agree(self, motion, model="k_epsilon"):
+        case = self.rings(motion, model)
         one = self.run_once(case, 1)
         self.assertEqual(one.summary["time_steps"], self.n_steps)
         self.assertGreater(numpy.abs(one.monitor("pump").column("torque")).max(), 1e-3, "the blades must move water, else the case shows nothing")
@@ -97,14 +97,17 @@ class TurningZone(harness.CaseTest):
     def test_sliding_on_any_number_of_ranks(self):
         self.agree("sliding")
 
+    def test_sliding_with_sst_on_any_number_of_ranks(self):
+        self.agree("sliding", "k_omega_sst")
+
     def test_frame_on_any_number_of_ranks(self):
         self.agree("frame")
 
-    def crash_and_resume(self, ranks, motion="sliding"):
+    def crash_and_resume(self, ranks, motion="sliding", model="k_epsilon"):
         def final_fields(run):
             return sorted((run.folder / "fields").glob(f"water_{self.n_steps:06}_*.vtu"))
 
-        case = self.rings(motion)
+        case = self.rings(motion, model)
         whole = self.run_once(case, ranks)
         resumed = self.crashed_and_resumed(whole, case, final_fields, self.n_before_checkpoint * STEP)
         self.assert_equal_to_the_bit(whole, resumed, final_fields)
@@ -114,6 +117,9 @@ class TurningZone(harness.CaseTest):
 
     def test_resume_on_two_ranks(self):
         self.crash_and_resume(2)
+
+    def test_resume_with_sst(self):
+        self.crash_and_resume(2, model="k_omega_sst")
 
     def test_resume_in_a_frame(self):
         self.crash_and_resume(1, "frame")

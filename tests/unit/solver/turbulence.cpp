@@ -6,6 +6,7 @@
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
 #include "solver/monitors.hpp"
+#include "solver/turbulence/automatic_walls.hpp"
 #include "solver/turbulence/wall_functions.hpp"
 #include "tests/sources.hpp"
 
@@ -32,6 +33,55 @@ TEST(WallLaw, profile) {
   EXPECT_EQ(law.distance(1e-3, 0.1, 1e-6), 1e-3);
   EXPECT_NEAR(law.viscosity_ratio(law.y_laminar * (1 + 1e-12)), 1, 1e-11);
   EXPECT_DOUBLE_EQ(law.viscosity_ratio(100), 0.41 * 100 / std::log(9.8 * 100));
+}
+
+// Spalding's law is u+ = y+ at the wall and the logarithm far from it, grows, and each of its inverses gives back what it was made of.
+TEST(SpaldingLaw, profile) {
+  const SpaldingLaw law;
+  EXPECT_NEAR(law.u_plus(0.1) / 0.1, 1, 1e-6);
+  EXPECT_NEAR(law.u_plus(1000), std::log(9.8 * 1000) / 0.41, 0.01);
+  double before = 0;
+  for (double y = 1e-6; y < 1e6; y *= 1.3) {
+    const double u = law.u_plus(y);
+    EXPECT_GT(u, before);
+    EXPECT_NEAR(law.y_plus(u) / y, 1, 1e-10);
+    EXPECT_NEAR(law.u_plus_of_product(u * y) / u, 1, 1e-10);
+    EXPECT_NEAR((law.y_plus(u * (1 + 1e-6)) - law.y_plus(u * (1 - 1e-6))) / (2e-6 * u) / law.slope(u), 1, 1e-5);
+    before = u;
+  }
+}
+
+// Automatic walls: the shear on a wall is that of Spalding's law, viscous for a thin cell, and omega is the blend of both layers.
+TEST(AutomaticWalls, shear_and_omega) {
+  for (const double speed : {1e-4, 0.01, 5.0}) {
+    const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 0.1}, {2, 2, 10}, {true, true, false});
+    const FlowSolver solver(mesh, {}, conditions("[[boundary]]\npatches = [\"z0\", \"z1\"]\nkind = \"wall\"\n"), turbulence(model));
+    Flow flow(mesh);
+    flow.y_plus.resize(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior));
+    flow.face_viscosity.assign(static_cast<std::size_t>(mesh.n_faces), 0);
+    std::fill(flow.velocity.begin(), flow.velocity.end(), Vec3{0, speed, 0.3});  // what runs against the wall does not count
+    const SpaldingLaw law;
+    const AutomaticWalls walls(mesh, solver.boundary(), law);
+    std::vector<double> friction_velocity(static_cast<std::size_t>(mesh.n_all_cells()));
+    walls.find(flow, solver.boundary(), friction_velocity);
+    walls.set_viscosity(flow, friction_velocity);
+    constexpr double y = 0.005;
+    const double nu = flow.dynamic_viscosity / flow.density;
+    const std::vector<double> omega = walls.omega(flow, friction_velocity, 0.09, 0.075);
+    for (std::size_t i = 0; i < walls.cells().size(); ++i) {
+      const double u_tau = friction_velocity[walls.cells()[i]];
+      EXPECT_NEAR(law.y_plus(speed / u_tau) / (u_tau * y / nu), 1, 1e-9);
+      EXPECT_NEAR(omega[i] / std::hypot(6 * nu / (0.075 * y * y), u_tau / (0.3 * 0.41 * y)), 1, 1e-12);
+      if (speed < 1e-3) {
+        EXPECT_NEAR(u_tau * u_tau / (nu * speed / y), 1, 1e-3);
+      }
+    }
+    for (int f = mesh.patches[0].first; f < mesh.n_faces; ++f) {
+      const double u_tau = friction_velocity[mesh.owner[f]];
+      EXPECT_NEAR(flow.face_viscosity[f] * speed / y / (flow.density * u_tau * u_tau), 1, 1e-9);
+      EXPECT_NEAR(flow.y_plus[f - mesh.n_interior] / (u_tau * y / nu), 1, 1e-12);
+    }
+  }
 }
 
 // Every model registers itself: none of the folder is dropped by the linker; and the manual shows the choice and each model.
