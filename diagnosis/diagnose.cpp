@@ -6,9 +6,11 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 #include "diagnosis/attribution/attribution.hpp"
 #include "diagnosis/attribution/restart.hpp"
+#include "diagnosis/data/noise.hpp"
 #include "diagnosis/judgement/curves.hpp"
 #include "diagnosis/judgement/how_far.hpp"
 #include "diagnosis/judgement/judgement.hpp"
@@ -43,6 +45,19 @@ void check_budget(const Experiment& experiment, const Simulator& simulator) {
                                      " runs; raise it, or name fewer candidates");
 }
 
+void note_noise(const Experiment& experiment, Verdict& verdict) {
+  const std::vector<NoiseModel> all = noise_of_repeats(experiment);
+  for (std::size_t o = 0; o < all.size(); ++o) {
+    const NoiseModel& noise = all[o];
+    if (noise.nats == 0) continue;
+    const std::string& id = experiment.observables[o].id;
+    verdict.noise[id] = {noise.factor, noise.correlation_time, noise.nats};
+    verdict.notes.push_back("The repeats of " + id + " scatter " + words(noise.factor) + " times as much as noise_u says" +
+                            (noise.correlation_time > 0 ? ", and their noise lasts " + words(noise.correlation_time) + " s" : "") +
+                            "; this noise is used. Correct noise_u, or find what the repeats differ by.");
+  }
+}
+
 }  // namespace
 
 Verdict diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options) {
@@ -54,12 +69,15 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   Fitter fitter(model);
   Attribution attribution = attribute(model, fitter, options.progress);
   const int chosen = judge(model, attribution, verdict);
+  note_noise(experiment, verdict);
+  verdict.notes.insert(verdict.notes.end(), model.notes().begin(), model.notes().end());
   verdict.identifiability = attribution.identifiability;
   verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == "outside");
   verdict.where = gap_cells(model, fitter);
   verdict.curves = gap_curves(model, fitter, chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr, verdict.where);
   if (options.progress) options.progress("withheld points", 0.9);
   measure_shrinkage(model, attribution, chosen, verdict);
+  withdraw_what_shrinks_nothing(verdict);
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
   if (const int taken = simulator.n_imported(); taken > 0)

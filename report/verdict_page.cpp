@@ -296,7 +296,9 @@ std::string next(const Verdict& v) {
   std::string text;
   for (const auto& tie : v.identifiability.ties)
     text += "<p>These effects have the same signature in this experiment: " + escaped(joined(tie)) + ".</p>\n";
-  if (!v.identifiability.next_experiment.empty()) text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
+  // A cause that is attributed needs no more repeats.
+  if (!v.identifiability.next_experiment.empty() && v.wording != "attributed")
+    text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});
   return text + (rows.empty() ? "" : html::table({"Effect at its expected strength", "signal over uncertainty", ""}, rows));
@@ -311,7 +313,18 @@ std::string verdict_sentence(const Verdict& v) {
            (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
   if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
   if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
-  return "The gap comes from " + joined(v.effects) + ": " + v.wording + ", probability " + percent(v.p_effects) + ".";
+  // Shares are told where there is more than one: of several effects, or of what stays.
+  std::string causes;
+  const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
+  for (std::size_t i = 0; i < v.effects.size(); ++i) {
+    causes += (i > 0 ? ", " : "") + v.effects[i];
+    constexpr double told = 0.005;
+    if (has_shares && i < v.causes.size() && v.causes[i].share >= told) causes += " (" + percent(v.causes[i].share) + " of it)";
+  }
+  const std::string rest = v.unexplained > 0 ? "; " + percent(v.unexplained) + " of it stays unexplained" : "";
+  const bool doubted = v.wording == "suspected" && v.p_effects >= 0.9;
+  return "The gap comes from " + causes + rest + ": " + v.wording +
+         (doubted ? ", for a check of the verdict failed (see The evidence)." : ", probability " + percent(v.p_effects) + ".");
 }
 
 std::string verdict_page(const Verdict& v) {

@@ -13,14 +13,18 @@ namespace snag {
 namespace {
 
 /// Shares of the prior: how many effects of the library a model lacks is a Poisson number of mean one, each effect as likely as the others;
-/// a tenth is for what nobody listed. To be named, a second effect has to bring 6 nats (a surplus second effect mops up what the first
-/// leaves): a rule of the verdict, of which the probabilities know nothing.
-constexpr double prior_none = 0.36, prior_effects = 0.36, prior_discrepancy = 0.1, nats_of_second = 6;
+/// a tenth is for what nobody listed, another for the mistakes that inputs and data may hold. To be named, an effect beyond the first has
+/// to bring 6 nats (a surplus effect takes up what the others leave): a rule of the verdict, of which the probabilities know nothing.
+constexpr double prior_none = 0.36, prior_effects = 0.36, prior_discrepancy = 0.1, prior_mistakes = 0.1;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
 constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
-constexpr int min_candidates = 3, max_candidates = 8, most_pairs = 5, most_pairs_around_base = 2, n_screened_again = 3;
+constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2, n_screened_again = 3,
+              most_effects = 5, most_a_round = 2;
 constexpr double blind_detectability = 3;
+/// Nats that an effect beyond the first has to promise in a screening to be fitted: the linear model may be off by some. And standard
+/// uncertainties that it is expected to show beside the others.
+constexpr double gain_wanted = nats_of_rule - 3, least_of_further = 1;
 
 class Attributor {
  public:
@@ -29,7 +33,8 @@ class Attributor {
 
   Attribution attribute() {
     std::vector<int> live = live_candidates(model_, result_.identifiability.blind);
-    n_singles_ = std::max<int>(1, static_cast<int>(live.size()));
+    n_mistakes_ = static_cast<int>(std::count_if(live.begin(), live.end(), [&](int k) { return model_.effects()[k].is_mistake; }));
+    n_singles_ = std::max<int>(1, static_cast<int>(live.size()) - n_mistakes_);
     for (const int k : live) (model_.effects()[k].random ? random_ : candidates_).push_back(k);
     report("signatures", 0.05);
     const Screening screening(model_, fitter_, candidates_, fitter_.base());
@@ -41,6 +46,11 @@ class Attributor {
     };
     std::erase_if(live, fails), std::erase_if(candidates_, fails);
     identify(screening);
+    std::vector<int> other_names;
+    for (const int k : candidates_)
+      if (is_effect_by_another_name(screening, k)) other_names.push_back(k), forget(model_.effects()[k].name);
+    const auto is_other_name = [&](int k) { return std::count(other_names.begin(), other_names.end(), k) > 0; };
+    std::erase_if(live, is_other_name), std::erase_if(candidates_, is_other_name);
     // What changes no run is the base model under another name: friction of what touches nothing is no hypothesis.
     const auto changes_none = [&](int k) { return !model_.effects()[k].random && !screening.changes_runs(k); };
     std::erase_if(live, changes_none), std::erase_if(candidates_, changes_none);
@@ -53,6 +63,7 @@ class Attributor {
     fit_random_effects();
     if (model_.experiment().pairs) fit_pairs(screening);
     fit_rivals_of_leader();
+    if (model_.experiment().pairs) fit_in_rounds();
     refine_random_leader();
     if (model_.experiment().pairs) credit_other_pairs(live);
     result_.discrepancy = fit_discrepancy(model_, fitter_, result_.fits.front());
@@ -109,19 +120,46 @@ class Attributor {
     }
   }
 
+  double prior_of(int k) const { return model_.effects()[k].is_mistake ? prior_mistakes / n_mistakes_ : prior_effects / n_singles_; }
+
   // Each effect is there or not whatever the others are.
   double log_prior(const Hypothesis& hypothesis) const {
-    return std::log(prior_none) + static_cast<double>(hypothesis.effects.size()) * std::log(prior_effects / n_singles_ / prior_none);
+    double sum = std::log(prior_none);
+    for (const int k : hypothesis.effects) sum += std::log(prior_of(k) / prior_none);
+    return sum;
+  }
+
+  // Effects beyond the first, and mistakes, have to bring the nats of the rule.
+  double log_prior_of_verdict(const Hypothesis& hypothesis) const {
+    if (hypothesis.effects.empty()) return std::log(prior_none);
+    double best = 0;
+    int n_priced = static_cast<int>(hypothesis.effects.size()) - 1;
+    for (const int k : hypothesis.effects) best = std::max(best, prior_of(k)), n_priced += model_.effects()[k].is_mistake;
+    return std::log(best) - n_priced * nats_of_rule;
   }
 
   void add(Fit fit) {
     result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
     result_.not_fitted.erase(result_.names.back());
     result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.evidence_penalty.push_back(0);
-    const bool is_pair = fit.hypothesis.effects.size() > 1;
-    result_.weight.push_back(fit.log_evidence +
-                             (is_pair ? std::log(prior_effects / n_singles_) - nats_of_second : result_.log_prior.back()));
+    result_.remainder.push_back(fit_remainder(model_, result_.fits.empty() ? fit : result_.fits.front(), fit));
+    result_.weight.push_back(fit.log_evidence + result_.remainder.back().gain + log_prior_of_verdict(fit.hypothesis));
     result_.fits.push_back(std::move(fit));
+  }
+
+  // An input that does the same as an effect (the flow of all points as operating_point, the drag law as drag_magnitude) is that effect.
+  bool is_effect_by_another_name(const Screening& screening, int k) const {
+    constexpr double same = 0.999;
+    return model_.effects()[k].is_mistake && !model_.effects()[k].fixed &&
+           std::any_of(candidates_.begin(), candidates_.end(),
+                       [&](int other) { return !model_.effects()[other].is_mistake && std::abs(screening.cosine(k, other)) > same; });
+  }
+  void forget(const std::string& name) {
+    Identifiability& i = result_.identifiability;
+    i.detectability.erase(name), i.blind.erase(name), i.cosines.erase(name);
+    for (auto& [other, row] : i.cosines) row.erase(name);
+    for (auto& group : i.ties) std::erase(group, name);
+    std::erase_if(i.ties, [](const auto& group) { return group.size() < 2; });
   }
 
   void identify(const Screening& screening) {
@@ -171,12 +209,16 @@ class Attributor {
     if (singles.empty()) return {};
     const double width = std::max(screening_width, share_not_linear * (singles.front().log_evidence - none_screened_));
     std::vector<Screened> kept;
+    int n_effects = 0, n_mistakes = 0;
     const auto weak_gain = [&](const Screened& s) { return result_.weak_form.at(model_.effects()[s.hypothesis.effects[0]].name); };
     const auto first =
         std::max_element(singles.begin(), singles.end(), [&](const Screened& a, const Screened& b) { return weak_gain(a) < weak_gain(b); });
     for (auto s = singles.begin(); s != singles.end(); ++s) {
-      const bool by_paths = std::ssize(kept) < max_candidates &&
-                            (std::ssize(kept) < min_candidates || s->log_evidence >= singles.front().log_evidence - width);
+      const bool is_mistake = model_.effects()[s->hypothesis.effects[0]].is_mistake;
+      const bool near = s->log_evidence >= singles.front().log_evidence - width;
+      const bool by_paths =
+          is_mistake ? near && n_mistakes < max_mistakes : n_effects < max_candidates && (n_effects < min_candidates || near);
+      if (by_paths) ++(is_mistake ? n_mistakes : n_effects);
       if (by_paths || (s == first && weak_gain(*s) > weak_form_threshold)) kept.push_back(*s);
     }
     return kept;
@@ -203,10 +245,13 @@ class Attributor {
     return theta;
   }
 
-  Hypothesis pair_of(int a, int b) const {
-    if (model_.effects()[b].name < model_.effects()[a].name) std::swap(a, b);
-    return {{a, b}};
+  // The hypothesis that holds effect k too.
+  Hypothesis with(Hypothesis hypothesis, int k) const {
+    const auto before = [&](int a, int b) { return model_.effects()[a].name < model_.effects()[b].name; };
+    hypothesis.effects.insert(std::upper_bound(hypothesis.effects.begin(), hypothesis.effects.end(), k, before), k);
+    return hypothesis;
   }
+  Hypothesis pair_of(int a, int b) const { return with({{a}}, b); }
 
   // The fits of single effects that are not random, the best first.
   std::vector<int> best_singles() const {
@@ -221,9 +266,7 @@ class Attributor {
   // far from linear, and either of them, or a third that stands for both, may lead among the single ones.
   void fit_pairs(const Screening& first_screening) {
     if (candidates_.size() < 2) return;
-    constexpr double gain_wanted = nats_of_second - 3;  // the linear model may be off by some nats
-    constexpr double least_of_second = 1;               // standard uncertainties that a second effect is expected to show beside the first
-    std::map<std::string, Screened> pairs;              // by name, each where it looks best
+    std::map<std::string, Screened> pairs;  // by name, each where it looks best
     const std::vector<int> singles = best_singles();
     for (std::size_t i = 0; i < singles.size() && i < n_screened_again; ++i) {
       const Fit& single = result_.fits[singles[i]];
@@ -235,7 +278,7 @@ class Attributor {
       report("second effects beside " + result_.names[singles[i]], 0.6);
       const Screening second(model_, fitter_, candidates_, single.at);
       for (const int k : candidates_) {
-        if (k == own || second.detectability(k) < least_of_second) continue;
+        if (k == own || second.detectability(k) < least_of_further) continue;
         Screened screened = second.screen(pair_of(own, k));
         const std::string name = name_of(screened.hypothesis, model_.effects());
         if (screened.log_evidence + price_of_inputs(single) < result_.fits[singles.front()].log_evidence + gain_wanted) {
@@ -256,8 +299,53 @@ class Attributor {
     order.resize(std::min<std::size_t>(order.size(), most_pairs));
     order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
     for (std::size_t i = 0; i < order.size() && affordable(fitter_.runs_of_fit(2)); ++i) {
+      // Far behind what is fitted, and a linear model of a large gap is off by a share of it.
+      const double best = result_.fits[static_cast<std::size_t>(result_.first())].log_evidence, none = result_.fits.front().log_evidence;
+      if (order[i].log_evidence < best - std::max(screening_width, share_not_linear * (best - none))) continue;
       report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
       add(fit_of(order[i]));
+    }
+  }
+
+  // Further effects, one a round: around the leading fit, which holds what was found, the others are screened again, and what promises most
+  // is fitted with all that was found; then each effect that was there before is left out in its turn: it may have stood for what was
+  // missing. The rounds end where none brings a better hypothesis.
+  void fit_in_rounds() {
+    for (int leader = -1; leader != result_.first();) {
+      leader = result_.first();
+      const Hypothesis found = result_.fits[static_cast<std::size_t>(leader)].hypothesis;
+      const auto n = static_cast<int>(found.effects.size());
+      if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
+      report("a further effect beside " + result_.names[static_cast<std::size_t>(leader)], 0.86);
+      const Fit around = result_.fits[static_cast<std::size_t>(leader)];
+      const Screening further(model_, fitter_, candidates_, around.at);
+      std::map<std::string, Screened> larger;
+      for (const int k : candidates_) {
+        if (std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further) continue;
+        Screened screened = further.screen(with(found, k));
+        if (screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted)
+          larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
+      }
+      const std::vector<Screened> order = best_first(std::move(larger));
+      for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));
+      if (result_.first() != leader) fit_without_each(result_.first(), found);
+    }
+  }
+
+  // A fit without each of the effects that were there before, where there is none yet.
+  void fit_without_each(int larger, const Hypothesis& before) {
+    const Fit all = result_.fits[static_cast<std::size_t>(larger)];
+    for (const int k : before.effects) {
+      Screened rest{.hypothesis = {}, .theta = Eigen::VectorXd(all.theta.size() - 1)};
+      for (std::size_t e = 0; e < all.hypothesis.effects.size(); ++e) {
+        if (all.hypothesis.effects[e] == k) continue;
+        rest.theta[static_cast<Eigen::Index>(rest.hypothesis.effects.size())] = all.theta[static_cast<Eigen::Index>(e)];
+        rest.hypothesis.effects.push_back(all.hypothesis.effects[e]), rest.forms.push_back(all.at.state.form(e));
+      }
+      const std::string name = name_of(rest.hypothesis, model_.effects());
+      if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+      if (!affordable(runs_of(rest))) return;
+      add(fit_of(rest));
     }
   }
 
@@ -325,9 +413,10 @@ class Attributor {
     const Refinement refinement{leader.theta[0], model_.n_seeds_of_distribution(leader.at.state)};
     if (model_.base_is_random() || !affordable(refinement.n_seeds)) return;
     report("more runs of " + result_.names[i], 0.87);
-    result_.weight[i] -= leader.log_evidence;
+    result_.weight[i] -= leader.log_evidence + result_.remainder[i].gain;
     leader = emulated(leader.hypothesis.effects[0], refinement);
-    result_.weight[i] += leader.log_evidence;
+    result_.remainder[i] = fit_remainder(model_, result_.fits.front(), leader);
+    result_.weight[i] += leader.log_evidence + result_.remainder[i].gain;
   }
 
   bool look_alike(int a, int b) const {
@@ -381,7 +470,7 @@ class Attributor {
     for (std::size_t a = 0; a < candidates_.size(); ++a) {
       for (std::size_t b = a + 1; b < candidates_.size(); ++b) {
         Screened screened = screening.screen(pair_of(candidates_[a], candidates_[b]));
-        if (screened.log_evidence > best_single + nats_of_second)
+        if (screened.log_evidence > best_single + nats_of_rule)
           pairs.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
       }
     }
@@ -393,8 +482,8 @@ class Attributor {
   const std::function<void(const std::string&, double)>& progress_;
   Attribution result_;
   std::vector<int> candidates_, random_;
-  int n_singles_ = 1;
-  double none_screened_ = 0;  // log evidence of the base model in the screening
+  int n_singles_ = 1, n_mistakes_ = 0;  // live effects, mistakes
+  double none_screened_ = 0;            // log evidence of the base model in the screening
 };
 
 }  // namespace
@@ -408,6 +497,23 @@ int Attribution::best_with_effect() const {
   return best;
 }
 
+int Attribution::best_part_of(int fit, int without) const {
+  const auto& all = fits[static_cast<std::size_t>(fit)].hypothesis.effects;
+  int best = -1;
+  for (int j = 0; j < static_cast<int>(fits.size()); ++j) {
+    const auto& part = fits[static_cast<std::size_t>(j)].hypothesis.effects;
+    const auto is_there = [&](int k) { return k != without && std::count(all.begin(), all.end(), k) > 0; };
+    if (part.size() + 1 != all.size() || !std::all_of(part.begin(), part.end(), is_there)) continue;
+    if (best < 0 || weight[static_cast<std::size_t>(j)] > weight[static_cast<std::size_t>(best)]) best = j;
+  }
+  return best;
+}
+
+double Attribution::log_evidence(int fit) const {
+  const auto i = static_cast<std::size_t>(fit);
+  return fits[i].log_evidence + remainder[i].gain - evidence_penalty[i];
+}
+
 Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress) {
   return Attributor(model, fitter, progress).attribute();
 }
@@ -419,7 +525,7 @@ void set_probabilities(Attribution& attribution) {
     weights.emplace_back(name, (log_evidence - attribution.fits.front().log_evidence) / calibration().temperature + log_prior);
   };
   for (std::size_t i = 0; i < attribution.names.size(); ++i)
-    add(attribution.names[i], attribution.fits[i].log_evidence - attribution.evidence_penalty[i], attribution.log_prior[i]);
+    add(attribution.names[i], attribution.log_evidence(static_cast<int>(i)), attribution.log_prior[i]);
   for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
   add("outside", attribution.discrepancy.log_evidence, std::log(prior_discrepancy));
   std::vector<double> logarithms;

@@ -1,11 +1,13 @@
 #pragma once
-// Which effect: screening, re-simulation of what is left, evidence, probabilities, and the cross-check by points left out.
+// Which effects: screening, re-simulation of what is left, further effects in rounds, remainders, evidence, probabilities, and the
+// cross-check by points left out.
 #include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "diagnosis/attribution/discrepancy.hpp"
+#include "diagnosis/attribution/remainder.hpp"
 #include "diagnosis/attribution/screening.hpp"
 #include "diagnosis/data/verdict.hpp"
 #include "diagnosis/fitting/fit.hpp"
@@ -24,6 +26,7 @@ struct Attribution {
   std::vector<double> log_prior;         // of each fit
   std::vector<double> evidence_penalty;  // nats of each fit's evidence that a guard takes away
   std::map<std::string, NotFitted> not_fitted{};
+  std::vector<Remainder> remainder;   // beside each fit; its gain is in the weight
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Discrepancy discrepancy;
   double discrepancy_weight = 0;
@@ -35,7 +38,15 @@ struct Attribution {
 
   int first() const;             // the likeliest fit
   int best_with_effect() const;  // the likeliest fit that names an effect; 0 if there is none
+  /// The likeliest fit of all effects of this one but one, or but effect `without` (an index of Simulator::effects); -1 if there is none.
+  int best_part_of(int fit, int without = -1) const;
+  /// Evidence of a fit with the choice of a remainder, without what a guard takes away.
+  double log_evidence(int fit) const;
 };
+
+/// Nats that outside, a mistake, or an effect beyond the first has to bring more than the simpler account of the data, to be said. They can
+/// take up what the form of a law leaves, so that chance alone makes some nats.
+inline constexpr double nats_of_rule = 6;
 
 /// Candidates of the experiment that this base case can show, by index; why the others cannot goes to `blind`.
 std::vector<int> live_candidates(const Responses& model, std::map<std::string, std::string>& blind);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "diagnosis/attribution/discrepancy_shape.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -14,12 +15,12 @@ namespace snag {
 namespace {
 
 constexpr std::array amplitudes{0.0, 0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0};
-constexpr std::array lengths{0.1, 0.3, 1.0};
 constexpr std::array is_off{0.0, 1.0};
 
 class GaussianProcess {
  public:
-  explicit GaussianProcess(const Responses& model, const Linearization& at) : model_(model), expanded_at_(at.state.nuisances) {
+  GaussianProcess(const Responses& model, const Linearization& at, const Linearization& base)
+      : model_(model), expanded_at_(at.state.nuisances) {
     const auto& training = model.training();
     n_parts_ = static_cast<int>(model.experiment().observables.size()) + 1;
     for (std::size_t p = 0; p < training.size(); ++p) {
@@ -36,7 +37,7 @@ class GaussianProcess {
           block.nuisances.col(static_cast<Eigen::Index>(j)) = (residual(point, at.by_nuisance[j][p], none) - origin) / nuisance_step;
       }
       block.difference = residual(point, at.responses[p], none) - block.nuisances * expanded_at_;
-      block.range = ranges(point, at.responses[p]);
+      block.range = ranges(point, base.responses[p]);
       n_gaussian_ += g;
       log_ratio_ += log_variance_ratio(point, at.responses[p]);
       blocks_.push_back(std::move(block));
@@ -80,7 +81,7 @@ class GaussianProcess {
       if (found.log_evidence > best.log_evidence)
         best = {found.log_evidence, tried.length, tried.growing, tried.amplitude, found.nuisances};
     };
-    for (const double length : lengths)
+    for (const double length : discrepancy_lengths)
       for (const bool growing : {false, true})
         for (std::size_t a = 1; a < amplitudes.size(); ++a) {
           std::vector<double> amplitude(n_parts_, amplitudes[a]);
@@ -96,7 +97,7 @@ class GaussianProcess {
     // Each choice of the grid has its share of the prior; what the others bring is taken one choice at a time.
     double log_evidence = best.log_evidence;
     for (int o = 0; o < n_parts_; ++o) log_evidence += log_mean(with_other_amplitude(best, o), choices(o).size(), best);
-    best.log_evidence = log_evidence + log_mean(with_other_shape(best), 2 * lengths.size(), best);
+    best.log_evidence = log_evidence + log_mean(with_other_shape(best), 2 * discrepancy_lengths.size(), best);
     return best;
   }
 
@@ -147,7 +148,7 @@ class GaussianProcess {
   }
   static std::vector<Discrepancy> with_other_shape(const Discrepancy& best) {
     std::vector<Discrepancy> others;
-    for (const double length : lengths)
+    for (const double length : discrepancy_lengths)
       for (const bool growing : {false, true}) {
         others.push_back(best);
         others.back().length = length, others.back().growing = growing;
@@ -165,8 +166,6 @@ class GaussianProcess {
     const auto& amplitude = process.amplitude;
     Eigen::MatrixXd K = block.covariance;
     const auto& rows = block.point->rows;
-    const double duration = std::max(block.point->duration, 1e-300);
-    const auto time = [&](const Row& row) { return row.kind == Row::Kind::path ? 0.5 * (row.begin + row.end) / duration : 1; };
     for (int i = 0; i < static_cast<int>(rows.size()); ++i) {
       // What moves the mean of the replicates may leave them as far apart as they were.
       if ((rows[i].kind == Row::Kind::spread ? amplitude.back() : amplitude[rows[i].observable]) == 0) continue;
@@ -174,9 +173,8 @@ class GaussianProcess {
       if (!is_gaussian(rows[i])) K(i, i) += deviance_scale * deviance_scale;
       if (!is_gaussian(rows[i])) continue;
       for (int j = 0; j < block.point->n_gaussian; ++j) {
-        if (rows[j].observable != rows[i].observable) continue;
-        const double s = amplitude[rows[i].observable], a = time(rows[i]), b = time(rows[j]), apart = (a - b) / process.length;
-        K(i, j) += s * block.range[i] * s * block.range[j] * (process.growing ? a * b : 1) * std::exp(-0.5 * apart * apart);
+        const double s = amplitude[rows[i].observable];
+        K(i, j) += s * block.range[i] * s * block.range[j] * discrepancy_correlation(*block.point, i, j, {process.length, process.growing});
       }
     }
     return K;
@@ -192,7 +190,7 @@ class GaussianProcess {
 }  // namespace
 
 Discrepancy fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& none) {
-  const GaussianProcess at_base(model, fitter.base()), at_none(model, none.at);
+  const GaussianProcess at_base(model, fitter.base(), fitter.base()), at_none(model, none.at, fitter.base());
   const Discrepancy from_base = at_base.fit(), from_none = at_none.fit();
   // Inputs are not linear as far as they may have to go: the linear model nearest to where it leads is the one to go by, and one made
   // there is better.
@@ -204,7 +202,7 @@ Discrepancy fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& n
     return nearer;
   State state = model.base();
   state.nuisances = nearer.nuisances;
-  return GaussianProcess(model, fitter.linearize(state, {})).fit();
+  return GaussianProcess(model, fitter.linearize(state, {}), fitter.base()).fit();
 }
 
 }  // namespace snag

@@ -4,8 +4,8 @@
 //
 //   y - f0 ~ N(J nu, C + K),   K = (s L)^2 g(t) g(t') exp(-(t - t')^2 / 2 l^2),   g = 1 or t/T
 //
-// s: amplitude by observable, over the range L of the motion; l: length. Both from a grid, each choice with its share of the prior. f0 and
-// J are taken where the inputs nu are likeliest under the process.
+// s: amplitude by observable, over the range L of the motion of the base model; l: length. Both from a grid, each choice with its share of
+// the prior. f0 and J are taken where the inputs nu are likeliest under the process.
 #include "diagnosis/fitting/fit.hpp"
 
 namespace snag {

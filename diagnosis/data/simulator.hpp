@@ -25,6 +25,8 @@ struct Effect {
   std::string blind{};                // why this base case cannot show it; empty: it can
   int n_forms = 1;                    // functional forms under which its law is written; a run takes one by its index
   int n_deviations = 0;               // indices after them: one standard deviation of something else that its law leaves open
+  double least = 0;                   // strengths below this size are not named
+  bool is_mistake = false;            // of inputs or data (mistakes.hpp), no effect that the model lacks
 };
 
 /// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "diagnosis/data/noise.hpp"
 #include "diagnosis/statistics/lifetimes.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 #include "observe/observables.hpp"
@@ -22,6 +23,7 @@ double transformed(const Observable& observable, double value) { return observab
 // The samples of one observable at one point, by time and replicate.
 struct Series {
   const Observable* observable;
+  const NoiseModel* noise;
   int observable_index = 0;
   std::map<int, int> replicates;                  // name -> 0 ..
   std::map<double, std::map<int, double>> value;  // time -> replicate -> value (transformed)
@@ -29,8 +31,9 @@ struct Series {
 
 class PointSummarizer {
  public:
-  PointSummarizer(const Experiment& experiment, const Simulator& simulator, int point, bool spread, int max_bins)
-      : experiment_(experiment), spread_(spread), max_bins_(max_bins) {
+  PointSummarizer(const Experiment& experiment, const std::vector<NoiseModel>& noise, const Simulator& simulator, int point, bool spread,
+                  int max_bins)
+      : experiment_(experiment), noise_(noise), spread_(spread), max_bins_(max_bins) {
     result_.point = point;
     const auto& slots = simulator.slots(point);
     for (std::size_t s = 0; s < slots.size(); ++s) slots_.emplace(key(slots[s].observable, slots[s].time), static_cast<int>(s));
@@ -130,7 +133,7 @@ class PointSummarizer {
   }
 
   void add_series(std::span<const Datum> data, const Observable& observable) {
-    Series series{&observable, data[0].observable, {}, {}};
+    Series series{&observable, &noise_[static_cast<std::size_t>(data[0].observable)], data[0].observable, {}, {}};
     const double period = angle_period(observable);
     for (const Datum& d : data) {
       const int replicate = series.replicates.emplace(d.replicate, static_cast<int>(series.replicates.size())).first->second;
@@ -146,7 +149,7 @@ class PointSummarizer {
     std::vector<Row> rows;
     for (const auto& bin : times) rows.push_back(path_row(series, bin));
     result_.duration = std::max(result_.duration, series.value.rbegin()->first - std::min(0.0, series.value.begin()->first));
-    blocks_.push_back(series_covariance(series, rows));
+    blocks_.push_back(series_covariance(series, rows, times));
     if (spread_ && series.replicates.size() >= 3 && observable.noise_u > 0) add_spread(series, times);
     for (Row& row : rows) result_.rows.push_back(std::move(row));
   }
@@ -155,7 +158,7 @@ class PointSummarizer {
     Row row;
     row.observable = series.observable_index;
     row.begin = times.front(), row.end = times.back();
-    row.noise_u = series.observable->noise_u;
+    row.noise_u = series.noise->factor * series.observable->noise_u;
     row.n_replicates = static_cast<int>(series.replicates.size());
     double samples = 0;
     for (const double time : times) samples += static_cast<double>(series.value.at(time).size());
@@ -168,8 +171,22 @@ class PointSummarizer {
       row.means.push_back(mean);
       row.value += row.weights.back() * mean;
     }
-    row.u = row.noise_u / std::sqrt(samples);
+    row.u = std::sqrt(noise_between(series, row, times, row, times));
     return row;
+  }
+
+  // Covariance that the noise makes between the means of two bins.
+  static double noise_between(const Series& series, const Row& a, const std::vector<double>& times_a, const Row& b,
+                              const std::vector<double>& times_b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < times_a.size(); ++i)
+      for (std::size_t j = 0; j < times_b.size(); ++j) {
+        const double correlation = series.noise->correlation(times_a[i] - times_b[j]);
+        if (correlation == 0) continue;
+        const std::size_t most = std::max(series.value.at(times_a[i]).size(), series.value.at(times_b[j]).size());
+        sum += a.weights[i] * b.weights[j] * correlation / static_cast<double>(most);
+      }
+    return a.noise_u * b.noise_u * sum;
   }
 
   // Mean over a bin of each replicate's deviation from the mean of all: [bins] x [replicates], NaN where a replicate has no sample.
@@ -193,12 +210,13 @@ class PointSummarizer {
     return times;
   }
 
-  // Noise/n on the diagonal and, where replicates scatter more than their noise, that excess: its variance from bin to bin, correlated
-  // as exp(-|t - t'|/tau).
-  static Eigen::MatrixXd series_covariance(const Series& series, std::vector<Row>& rows) {
+  // Noise/n and, where replicates scatter more than their noise, that excess: its variance from bin to bin, correlated as
+  // exp(-|t - t'|/tau).
+  static Eigen::MatrixXd series_covariance(const Series& series, std::vector<Row>& rows, const std::vector<std::vector<double>>& times) {
     const int n = static_cast<int>(rows.size()), R = static_cast<int>(series.replicates.size());
     Eigen::MatrixXd C = Eigen::MatrixXd::Zero(n, n);
-    for (int i = 0; i < n; ++i) C(i, i) = rows[i].u * rows[i].u;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) C(i, j) = noise_between(series, rows[i], times[i], rows[j], times[j]);
     if (R < 2) return C;
     const Eigen::MatrixXd D = deviations(series, rows, all_times(series));
     Eigen::VectorXd variance(n), next(n);
@@ -208,7 +226,9 @@ class PointSummarizer {
       variance[i] = product(D, i, i), next[i] = i + 1 < n ? product(D, i, i + 1) : 0;
       ratio += stated ? variance[i] / (C(i, i) * R) / n : 0;
     }
-    if (stated && ratio < 1 + 3.1 * std::sqrt(2.0 / ((R - 1.0) * n))) return C;
+    const double next_bin = n > 1 ? C(0, 1) / std::sqrt(C(0, 0) * C(1, 1)) : 0;  // as many bins are independent as so correlated ones tell
+    const double independent = std::max(1.0, n * (1 - next_bin * next_bin) / (1 + next_bin * next_bin));
+    if (stated && ratio < 1 + 3.1 * std::sqrt(2.0 / ((R - 1.0) * independent))) return C;
     Eigen::VectorXd excess(n);
     for (int i = 0; i < n; ++i) {
       const int begin = std::max(0, i - 2), width = std::min(n, i + 3) - begin;
@@ -244,7 +264,7 @@ class PointSummarizer {
       row.kind = Row::Kind::spread;
       row.observable = series.observable_index;
       row.n_replicates = static_cast<int>(series.replicates.size());
-      row.noise_u = series.observable->noise_u;
+      row.noise_u = series.noise->factor * series.observable->noise_u;
       double square = 0, degrees = 0;
       const std::size_t begin = part * times.size() / parts, end = (part + 1) * times.size() / parts;
       row.begin = times[begin].front(), row.end = times[end - 1].back();
@@ -267,6 +287,7 @@ class PointSummarizer {
   }
 
   const Experiment& experiment_;
+  const std::vector<NoiseModel>& noise_;  // by observable
   bool spread_;
   int max_bins_;
   std::map<std::pair<int, long long>, int> slots_;
@@ -285,12 +306,13 @@ double wrapped(double difference, double period) { return difference - period * 
 
 std::vector<PointSummary> summarize(const Experiment& experiment, const Simulator& simulator, bool spread, int max_bins) {
   std::vector<PointSummary> summaries;
+  const std::vector<NoiseModel> noise = noise_of_repeats(experiment);
   const std::span<const Datum> data(experiment.data);
   std::size_t begin = 0;
   for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) {
     std::size_t end = begin;
     while (end < data.size() && data[end].point == p) ++end;
-    summaries.push_back(PointSummarizer(experiment, simulator, p, spread, max_bins).summarize(data.subspan(begin, end - begin)));
+    summaries.push_back(PointSummarizer(experiment, noise, simulator, p, spread, max_bins).summarize(data.subspan(begin, end - begin)));
     begin = end;
   }
   return summaries;

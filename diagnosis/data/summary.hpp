@@ -5,8 +5,8 @@
 //   time       median of a lognormal scalar, some of whose values may be censored;
 //   count      sum of counts;     event      number of events;
 //   spread     logarithm of the variance between replicates in a part of the time, where effects are random.
-// Path, scalar rows are Gaussian together, with the covariance `covariance`; the others have a likelihood of their own, whose signed
-// deviance residual stands for them.
+// The noise of paths is as stated, or as the repeats show it (noise.hpp). Path, scalar rows are Gaussian together, with the covariance
+// `covariance`; the others have a likelihood of their own, whose signed deviance residual stands for them.
 #include <Eigen/Dense>
 #include <vector>
 

@@ -80,6 +80,10 @@ std::string verdict_json(const Verdict& v) {
   Json json{{"name", v.name}, {"verdict", v.verdict}, {"effects", v.effects}, {"wording", v.wording}, {"tie", v.tie}};
   json["probability"] = numbers(v.probability);
   json["acts"] = numbers(v.acts);
+  json["causes"] = Json::array();
+  for (const Cause& cause : v.causes)
+    json["causes"].push_back({{"effect", cause.effect}, {"share", number(cause.share)}, {"nats", number(cause.nats)}});
+  json["unexplained"] = number(v.unexplained);
   json["parameters"] = Json::object();
   for (const auto& [name, e] : v.parameters) json["parameters"][name] = parameter(e);
   json["where"] = Json::array();
@@ -94,12 +98,17 @@ std::string verdict_json(const Verdict& v) {
                                  : Json("not computable");
   json["identifiability"] = identifiability(v.identifiability);
   json["evidence"] = {{"log_evidence", numbers(v.log_evidence)},
+                      {"remainder", numbers(v.remainder)},
                       {"leave_one_point_out", numbers(v.leave_one_out)},
                       {"screening", numbers(v.screening)},
                       {"weak_form", numbers(v.weak_form)},
                       {"sham_rate", v.placebo_rate},
                       {"temperature", v.temperature}};
   json["nuisances"] = numbers(v.nuisances);
+  json["noise"] = Json::object();
+  for (const auto& [observable, noise] : v.noise)
+    json["noise"][observable] = {
+        {"factor", number(noise.factor)}, {"correlation_time_s", number(noise.correlation_time)}, {"nats", number(noise.nats)}};
   json["checks"] = Json::object();
   for (const PredictiveCheck& check : v.checks) json["checks"][check.name] = {{"value", number(check.value)}, {"p", number(check.p)}};
   json["notes"] = v.notes;

@@ -72,6 +72,19 @@ struct PredictiveCheck {
   double value = 0, p = 1;
 };
 
+/// A named effect and what it does to the gap at the training points.
+struct Cause {
+  std::string effect;
+  double share = std::numeric_limits<double>::quiet_NaN();  // of the square of the gap; all causes and what stays unexplained sum to 1
+  double nats = std::numeric_limits<double>::quiet_NaN();   // of evidence that are lost without it; NaN: the rest was not fitted
+};
+
+/// Noise of an observable that its repeats show, where it is not as stated (noise.hpp).
+struct NoiseFound {
+  double factor = 1, correlation_time = 0;  // over noise_u; s
+  double nats = 0;                          // by which the repeats speak for it
+};
+
 struct Verdict {
   std::string name;                    // of the experiment
   std::string verdict;                 // effects | none | outside | tie | blind
@@ -81,12 +94,16 @@ struct Verdict {
   std::vector<std::string> tie{};      // hypotheses that share the verdict of a tie
   std::map<std::string, double> probability{};    // of each hypothesis
   std::map<std::string, double> acts{};           // of each effect: that it acts, alone or with another
-  std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, nats, relative to none
+  std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, with the choice of a remainder, nats, relative to none
+  std::map<std::string, double> remainder{};      // of them: nats that a small unexplained remainder brings
   std::map<std::string, double> screening{};      // the same by signatures only
   std::map<std::string, double> weak_form{};      // of single effects by the accelerations of the paths only, relative to none
   std::map<std::string, double> leave_one_out{};  // log predictive density, one operating point left out at a time, relative to none
+  std::vector<Cause> causes{};                    // of a verdict that names effects, in their order
+  double unexplained = std::numeric_limits<double>::quiet_NaN();  // share of the gap that stays beside them; NaN: no effect is named
   std::map<std::string, EffectEstimate> parameters{};
   std::map<std::string, double> nuisances{};  // fitted deviations under the first hypothesis, in standard uncertainties; name@points
+  std::map<std::string, NoiseFound> noise{};  // by observable; absent: as stated
   std::vector<PredictiveCheck> checks{};
   std::vector<std::string> notes{};  // guards that spoke, in sentences
   double placebo_rate = 0;           // of placebo effects that a screening would have chosen

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "base/error.hpp"
@@ -64,7 +66,10 @@ double variance_between(const Row& row, const Observable& observable, std::span<
 }  // namespace
 
 Responses::Responses(const Experiment& experiment, Simulator& simulator)
-    : experiment_(experiment), simulator_(simulator), points_(summarize(experiment, simulator, random_effects_may_show(simulator))) {
+    : experiment_(experiment),
+      simulator_(simulator),
+      effects_(simulator.effects()),
+      points_(summarize(experiment, simulator, random_effects_may_show(simulator))) {
   for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) (experiment.points[p].withheld ? withheld_ : training_).push_back(p);
   std::set<std::string> told, calibrations;
   for (const Observable& observable : experiment.observables)
@@ -81,7 +86,46 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
       nuisances_.push_back({"bias of " + observable.id, 1, all, o, true});
   }
   find_randomness();
-  leave_out_rows_without_answer();
+  const std::vector<Response> answers = run(base(), all);
+  find_mistakes(answers);
+  leave_out_rows_without_answer(answers);
+}
+
+// Where runs are random a mistake would need as many of them as an effect, and few of its rows are paths: it is not looked for there.
+void Responses::find_mistakes(const std::vector<Response>& answers) {
+  if (base_is_random_) return;
+  const auto add = [&](std::vector<Mistake> found) {
+    for (Mistake& mistake : found) effects_.push_back(mistake.effect), mistakes_.push_back(std::move(mistake));
+  };
+  add(mistakes_of_inputs(experiment_, simulator_.nuisances()));
+  add(mistakes_of_measurement(experiment_));
+  std::map<std::string, std::pair<double, double>> products;  // by unit: of data and simulation, of simulation with itself
+  for (const int p : training_)
+    for (int i = 0; i < points_[p].n_gaussian; ++i) {
+      const Row& row = points_[p].rows[i];
+      const Observable& observable = experiment_.observables[static_cast<std::size_t>(row.observable)];
+      const double simulated = answers[p].value[i];
+      if (row.kind != Row::Kind::path || observable.kind != Observable::Kind::gaussian || !std::isfinite(simulated)) continue;
+      auto& [both, own] = products[observable.unit];
+      both += row.value * simulated, own += simulated * simulated;
+    }
+  for (const auto& [unit, product] : products)
+    if (product.second > 0) add(mistakes_of_unit(experiment_, unit, product.first / product.second));
+}
+
+const Mistake* Responses::mistake(int effect) const {
+  const auto first = static_cast<int>(effects_.size() - mistakes_.size());
+  return effect < first ? nullptr : &mistakes_[static_cast<std::size_t>(effect - first)];
+}
+
+// What the data would say of these runs if the mistakes of the state were made.
+void Responses::mismeasure(const State& state, int point, std::span<RunResult> results) const {
+  for (const auto& [k, theta] : state.effects) {
+    const Mistake* made = mistake(k);
+    if (made == nullptr || made->kind == Mistake::Kind::input || theta == 0) continue;
+    for (RunResult& result : results)
+      if (result.failure.empty()) snag::mismeasure(*made, theta, simulator_.slots(point), result.values);
+  }
 }
 
 bool Responses::acts_at(int nuisance, int point) const {
@@ -135,6 +179,11 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
   for (std::size_t e = 0; e < request.state.effects.size(); ++e) {
     const auto& [k, theta] = request.state.effects[e];
     if (theta == 0) continue;
+    if (const Mistake* made = mistake(k); made != nullptr) {
+      const bool there = std::count(made->points.begin(), made->points.end(), request.point) > 0;
+      if (made->kind == Mistake::Kind::input && there) run.nuisances[made->input] += theta;
+      continue;
+    }
     run.effects[effects()[k].name] = theta;
     if (request.state.form(e) != 0) run.forms[effects()[k].name] = request.state.form(e);
   }
@@ -224,13 +273,14 @@ std::vector<Response> Responses::run(const std::vector<Request>& requests) {
     for (const Part& part : parts.back())
       for (RunRequest& run : requests_of(part.request)) runs.push_back(std::move(run));
   }
-  const std::vector<RunResult> results = simulator_.run(runs);
+  std::vector<RunResult> results = simulator_.run(runs);
   std::vector<Response> responses;
   std::size_t begin = 0;
   for (const std::vector<Part>& all : parts) {
     std::vector<Response> of_parts;
     for (const Part& part : all) {
       const std::size_t n = static_cast<std::size_t>(seeds_of(part.request));
+      mismeasure(part.request.state, part.request.point, std::span(results).subspan(begin, n));
       of_parts.push_back(response(part.request, std::span(results).subspan(begin, n)));
       begin += n;
     }
@@ -264,12 +314,33 @@ void Responses::find_randomness() {
   seeds_of_random_ = std::clamp(experiment_.max_runs / (60 * static_cast<int>(points_.size())), 2, most_seeds);
 }
 
+void Responses::note_rows_left_out(std::size_t point, const Response& answer) {
+  struct Left {
+    int n = 0, of = 0;
+    double from = std::numeric_limits<double>::infinity();
+  };
+  std::map<int, Left> all;  // by observable
+  const std::vector<Row>& rows = points_[point].rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].kind != Row::Kind::path) continue;
+    Left& left = all[rows[i].observable];
+    ++left.of;
+    if (!std::isfinite(answer.value[static_cast<Eigen::Index>(i)])) ++left.n, left.from = std::min(left.from, rows[i].begin);
+  }
+  const double end = simulator_.run_end(static_cast<int>(point));
+  for (const auto& [observable, left] : all) {
+    if (left.n == 0) continue;
+    notes_.push_back(experiment_.observables[static_cast<std::size_t>(observable)].id + " at point " + experiment_.points[point].id + ": " +
+                     std::to_string(left.n) + " of " + std::to_string(left.of) + " rows, from " + words(left.from) +
+                     " s on, are not compared, for the runs have no number there" +
+                     (left.from > end ? "; they end at " + words(end) + " s: raise [time] end_s of the case." : "."));
+  }
+}
+
 // Rows that the base model has no number for (it left before, it was not retained) cannot be compared.
-void Responses::leave_out_rows_without_answer() {
-  std::vector<int> all(points_.size());
-  for (std::size_t p = 0; p < all.size(); ++p) all[p] = static_cast<int>(p);
-  const auto answers = run(base(), all);
+void Responses::leave_out_rows_without_answer(const std::vector<Response>& answers) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
+    note_rows_left_out(p, answers[p]);
     PointSummary& point = points_[p];
     std::vector<Row> rows;
     std::vector<int> kept;

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/data/mistakes.hpp"
 #include "diagnosis/data/summary.hpp"
 
 namespace snag {
 
 /// The model with some effects and some deviations of its inputs.
 struct State {
-  std::vector<std::pair<int, double>> effects{};  // index into Simulator::effects, theta
+  std::vector<std::pair<int, double>> effects{};  // index into Responses::effects, theta
   Eigen::VectorXd nuisances;                      // in standard uncertainties, by index of Nuisances
   std::vector<int> forms{};                       // that leads, by effect; what is not there: the first
   Eigen::VectorXd shares{};                       // of the other forms, in standard deviations, see other_forms(); what is not there: 0
@@ -63,7 +64,8 @@ class Responses {
   Responses(const Experiment& experiment, Simulator& simulator);
 
   const Experiment& experiment() const { return experiment_; }
-  const std::vector<Effect>& effects() const { return simulator_.effects(); }
+  /// Those of the simulator, then the mistakes that inputs and data may hold.
+  const std::vector<Effect>& effects() const { return effects_; }
   const std::vector<FreeNuisance>& nuisances() const { return nuisances_; }
   const std::vector<PointSummary>& points() const { return points_; }
   const std::vector<int>& training() const { return training_; }
@@ -79,6 +81,8 @@ class Responses {
   int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
   State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }
   bool acts_at(int nuisance, int point) const;
+  /// What of the data is not compared, in sentences.
+  const std::vector<std::string>& notes() const { return notes_; }
   bool restarts(int point) const { return simulator_.restarts(point); }
 
   struct Request {
@@ -103,13 +107,20 @@ class Responses {
   void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
   Response response(const Request& request, std::span<const RunResult> results) const;
   void find_randomness();
-  void leave_out_rows_without_answer();
+  void note_rows_left_out(std::size_t point, const Response& answer);
+  void leave_out_rows_without_answer(const std::vector<Response>& answers);
+  void find_mistakes(const std::vector<Response>& answers);
+  const Mistake* mistake(int effect) const;
+  void mismeasure(const State& state, int point, std::span<RunResult> results) const;
 
   const Experiment& experiment_;
   Simulator& simulator_;
+  std::vector<Effect> effects_;
+  std::vector<Mistake> mistakes_;  // the last of the effects
   std::vector<FreeNuisance> nuisances_;
   std::vector<PointSummary> points_;
   std::vector<int> training_, withheld_;
+  std::vector<std::string> notes_;
   bool base_is_random_ = false;
   int seeds_of_random_ = 8;
 };

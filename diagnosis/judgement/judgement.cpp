@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/words.hpp"
@@ -23,25 +24,51 @@ std::vector<std::string> effect_names(const Responses& model, const Fit& fit) {
   return names;
 }
 
-// A second effect without a cell of its own is not believed: its weight falls below that of its better half.
+// A strength of less than two standard deviations is no effect, and an input within three of its uncertainties is as it is known.
+bool has_weak_effect(const Responses& model, const Fit& fit) {
+  constexpr double seen = 2;
+  for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e) {
+    const auto i = static_cast<Eigen::Index>(e);
+    const Effect& effect = model.effects()[fit.hypothesis.effects[e]];
+    if (!effect.fixed && std::abs(fit.theta[i]) < std::max(seen * fit.theta_sd[i], effect.least)) return true;
+  }
+  return false;
+}
+
+bool has_absorbing_effect(const Responses& model, const Fit& fit) {
+  const auto all = estimates(model, fit);
+  return std::any_of(all.begin(), all.end(), [](const EffectEstimate& e) { return e.absorbing; });
+}
+
+// An effect whose strength may be zero is not believed, nor a second one without a cell of its own, nor a further one with which a strength
+// is absorbing: the weight of its hypothesis falls below that of the others of it, the smaller hypotheses first.
 void drop_surplus_effects(const Responses& model, Attribution& a) {
-  for (std::size_t i = 0; i < a.fits.size(); ++i) {
-    if (a.fits[i].hypothesis.effects.size() < 2) continue;
-    int half = -1;
-    for (std::size_t j = 0; j < a.fits.size(); ++j) {
-      const auto& effects = a.fits[i].hypothesis.effects;
-      const bool part =
-          a.fits[j].hypothesis.effects.size() == 1 && std::count(effects.begin(), effects.end(), a.fits[j].hypothesis.effects[0]) > 0;
-      if (part && (half < 0 || a.weight[j] > a.weight[half])) half = static_cast<int>(j);
-    }
-    if (half < 0 || has_cell_of_its_own(model, a.fits[i], a.fits[half])) continue;
+  std::vector<int> order;
+  for (int i = 1; i < static_cast<int>(a.fits.size()); ++i) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
+    return a.fits[static_cast<std::size_t>(i)].hypothesis.effects.size() < a.fits[static_cast<std::size_t>(j)].hypothesis.effects.size();
+  });
+  for (const int fit : order) {
+    const auto i = static_cast<std::size_t>(fit);
+    const int part = a.best_part_of(fit);
+    if (part < 0) continue;
+    const Fit& rest = a.fits[static_cast<std::size_t>(part)];
+    const bool weak = has_weak_effect(model, a.fits[i]);
+    const std::size_t n_rest = rest.hypothesis.effects.size();
+    const bool absorbing = n_rest > 1 && has_absorbing_effect(model, a.fits[i]);
+    const bool unseen = n_rest == 1 && !has_cell_of_its_own(model, a.fits[i], rest);
+    if (!weak && !absorbing && !unseen) continue;
     constexpr double behind = 1;
-    if (a.weight[i] > a.weight[half] - behind) {
-      a.notes.push_back("The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
-      a.weight[i] = a.weight[half] - behind;
-      // What it is credited with beside its better half is what chance gives: nothing.
-      a.evidence_penalty[i] = std::max(0.0, a.fits[i].log_evidence - a.fits[static_cast<std::size_t>(half)].log_evidence);
-    }
+    if (a.weight[i] <= a.weight[static_cast<std::size_t>(part)] - behind) continue;
+    if (a.first() == fit)
+      a.notes.push_back(weak ? "A strength of " + a.names[i] +
+                                   " is less than 2 standard deviations from zero, or an input less than 3 u off: it is not named."
+                        : absorbing ? "A strength of " + a.names[i] +
+                                          " is more than 3 standard deviations from its expected value: its last effect is not named."
+                                    : "The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
+    a.weight[i] = a.weight[static_cast<std::size_t>(part)] - behind;
+    // What it is credited with beside the others is what chance gives: nothing.
+    a.evidence_penalty[i] = std::max(0.0, a.log_evidence(fit) - a.log_evidence(part));
   }
 }
 
@@ -65,7 +92,7 @@ bool all_blind(const Responses& model, const Attribution& a) {
   std::map<std::string, std::string> unused;
   auto live = live_candidates(model, unused);
   // A random effect has no signature to be too small.
-  std::erase_if(live, [&](int k) { return model.effects()[k].random; });
+  std::erase_if(live, [&](int k) { return model.effects()[k].random || model.effects()[k].is_mistake; });
   return std::all_of(live.begin(), live.end(), [&](int k) { return a.identifiability.blind.contains(model.effects()[k].name); });
 }
 
@@ -80,15 +107,16 @@ class Judge {
     v_.placebo_rate = a_.placebo_rate;
     v_.temperature = calibration().temperature;
     for (std::size_t i = 0; i < a_.fits.size(); ++i) {
-      v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence - a_.fits[0].log_evidence;
+      v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence + a_.remainder[i].gain - a_.fits[0].log_evidence;
+      if (!a_.fits[i].hypothesis.effects.empty()) v_.remainder[a_.names[i]] = a_.remainder[i].log_evidence;
       v_.leave_one_out[a_.names[i]] = a_.leave_one_out[i] - a_.leave_one_out[0];
     }
     v_.log_evidence["outside"] = a_.discrepancy.log_evidence - a_.fits[0].log_evidence;
     const int first = a_.first();
-    const bool discrepancy_leads = a_.discrepancy_weight > a_.weight[first];
+    discrepancy_leads_by_ = a_.discrepancy_weight - a_.weight[first];
     v_.checks = predictive_checks(model_, a_.fits[first], model_.experiment().seed);
-    if (discrepancy_leads || fails_checks())
-      discrepancy(discrepancy_leads);
+    if (discrepancy_leads_by_ > nats_of_rule)
+      discrepancy();
     else if (a_.fits[first].hypothesis.effects.empty())
       none();
     else
@@ -99,31 +127,40 @@ class Judge {
     const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.best_with_effect();
     for (const int i : std::set<int>{reported, a_.best_with_effect()}) note_parameters(i);
     note_inputs(a_.fits[first]);
+    note_checks(first);
     return reported;
   }
 
  private:
-  bool fails_checks() {
+  // Checks say that the data are not as the hypothesis expects them, not what else holds: they are told and decide nothing.
+  void note_checks(int first) {
     for (const PredictiveCheck& check : v_.checks) {
       if (check.p >= check_limit) continue;
-      v_.notes.push_back("Data like these are not expected under " + a_.names[a_.first()] + ": " + check.name + " is " +
-                         words(check.value) + ", p = " + words(check.p) + ".");
-      return true;
+      v_.notes.push_back("Data like these are not expected under " + a_.names[static_cast<std::size_t>(first)] + ": " + check.name +
+                         " is " + words(check.value) + ", p = " + words(check.p) + ".");
+      return;
     }
-    return false;
   }
 
-  void discrepancy(bool leads) {
+  void discrepancy() {
     v_.verdict = v_.wording = "outside";
-    // Checks that fail leave no hypothesis of the library standing, whatever their odds among each other.
-    if (!leads) {
-      const double kept = 0.05;
-      for (auto& [name, p] : v_.probability) p = name == "outside" ? 1 - kept * (1 - p) : kept * p;
-    }
     const int best = a_.best_with_effect();
     if (best == 0) return;
     v_.effects = effect_names(model_, a_.fits[best]);
     v_.notes.push_back(a_.names[best] + " describes the gap best among the effects of the library, but only in part; it is not the cause.");
+  }
+
+  // What each named effect has of the gap, and what stays.
+  void note_causes(int fit) {
+    const Remainder& remainder = a_.remainder[static_cast<std::size_t>(fit)];
+    const auto& effects = a_.fits[static_cast<std::size_t>(fit)].hypothesis.effects;
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      Cause cause{.effect = v_.effects[e]};
+      if (e < remainder.share_of_effect.size()) cause.share = remainder.share_of_effect[e];
+      if (const int rest = a_.best_part_of(fit, effects[e]); rest >= 0) cause.nats = a_.log_evidence(fit) - a_.log_evidence(rest);
+      v_.causes.push_back(cause);
+    }
+    if (!remainder.share_of_effect.empty()) v_.unexplained = remainder.share;
   }
 
   // Effects that cannot be seen are as likely as ever, but they are no gap. A tie is where data that speak against none weigh as much.
@@ -131,8 +168,8 @@ class Judge {
     constexpr double speaks = 1;  // nats
     const double none = a_.fits.front().log_evidence;
     double against = a_.discrepancy.log_evidence > none + speaks ? v_.probability.at("outside") : 0;
-    for (std::size_t i = 1; i < a_.fits.size(); ++i)
-      if (a_.fits[i].log_evidence - a_.evidence_penalty[i] > none + speaks) against += v_.probability.at(a_.names[i]);
+    for (int i = 1; i < static_cast<int>(a_.fits.size()); ++i)
+      if (a_.log_evidence(i) > none + speaks) against += v_.probability.at(a_.names[static_cast<std::size_t>(i)]);
     if (against > v_.probability.at("none")) {
       tie(shared_verdict(a_));
       return;
@@ -153,7 +190,9 @@ class Judge {
     // Whether a further effect acts that is too weak to be named does not make the named ones less certain.
     const double p = v_.p_effects = probability_of(a_, v_.effects);
     const bool several_points = model_.training().size() > 1;
-    if (p < suspected) {
+    if (discrepancy_leads_by_ > 0) {
+      tie({a_.names[first], "outside"});
+    } else if (p < suspected) {
       tie(shared_verdict(a_));
     } else if (const int twin = equal_rival(first); twin >= 0) {
       tie({a_.names[first], a_.names[twin]});
@@ -164,6 +203,7 @@ class Judge {
     } else {
       v_.verdict = "effects";
       v_.wording = p >= attributed && guards_hold(first) ? "attributed" : "suspected";
+      note_causes(first);
       note_weak_second(first);
     }
   }
@@ -177,7 +217,7 @@ class Judge {
     if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
     v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + words(v_.probability.at(a_.names[first])) + ") is " +
                        likeliest->first + " (" + words(likeliest->second) +
-                       "), but a second effect is named only where it brings 6 nats and has a cell of its own.");
+                       "), but an effect beyond the first is named only where it brings 6 nats and has a cell of its own.");
   }
 
   // Another hypothesis with as many effects that the data cannot tell from the first; -1 if there is none.
@@ -252,10 +292,20 @@ class Judge {
   const Responses& model_;
   Attribution& a_;
   Verdict& v_;
+  double discrepancy_leads_by_ = 0;  // nats over the likeliest fit
 };
 
 }  // namespace
 
 int judge(const Responses& model, Attribution& attribution, Verdict& verdict) { return Judge(model, attribution, verdict).judge(); }
+
+void withdraw_what_shrinks_nothing(Verdict& verdict) {
+  if (verdict.verdict != "effects" || verdict.shrinkage.empty()) return;
+  const auto& [name, shrunk] = *verdict.shrinkage.begin();
+  if (!(shrunk.mean <= 0)) return;
+  verdict.verdict = "tie", verdict.wording = "undecided", verdict.tie = {name, "outside"};
+  verdict.causes.clear(), verdict.unexplained = std::numeric_limits<double>::quiet_NaN();
+  verdict.notes.push_back("The evidence is for " + name + ", but the gap at the withheld points does not shrink by it: it is not named.");
+}
 
 }  // namespace snag

@@ -52,7 +52,8 @@ Held least(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, const std::vector
   return result;
 }
 
-// Minimum within the bounds: with at most two bounded parameters every choice of bounds can be tried.
+// Minimum within the bounds: Phi is convex, so that the free minimum is the answer where it lies inside; else every choice of bounds is
+// tried, 243 of five parameters.
 Held least_within(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   const int k = static_cast<int>(lower.size());
   Held best;
@@ -67,14 +68,29 @@ Held least_within(const Eigen::MatrixXd& H, const Eigen::VectorXd& g, const Eige
     bool inside = true;
     for (int i = 0; i < k; ++i) inside = inside && tried.d[i] >= lower[i] - 1e-12 && tried.d[i] <= upper[i] + 1e-12;
     if (inside && tried.value < best.value) best = std::move(tried);
+    if (inside && choice == 0) break;
   }
   return best;
 }
 
-// log of the integral of exp(-g.x - x.A x/2) over the box, x relative to the optimum.
-double log_box_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  if (g.size() == 0) return 0;
-  if (g.size() == 1) return log_truncated_gaussian(g[0], A(0, 0), lower[0], upper[0]);
+// Mean and variance of a standard normal number within bounds.
+struct Truncated {
+  double mean = 0, variance = 1;
+};
+
+Truncated truncated_normal(double lower, double upper) {
+  const double log_mass = log_normal_mass(lower, upper);
+  const auto density = [&](double z) { return std::isinf(z) ? 0 : std::exp(-0.5 * z * z - 0.5 * log_2pi - log_mass); };
+  const auto times = [](double z, double d) { return d == 0 ? 0 : z * d; };
+  const double at_lower = density(lower), at_upper = density(upper), mean = at_lower - at_upper;
+  const double variance = 1 + times(lower, at_lower) - times(upper, at_upper) - mean * mean;
+  const double width = std::isfinite(upper - lower) ? upper - lower : 1;
+  return {std::clamp(mean, lower, upper), std::clamp(variance, 1e-12 * width * width, 1.0)};
+}
+
+// As above, of two parameters.
+double log_rectangle_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A, const Eigen::VectorXd& lower,
+                              const Eigen::VectorXd& upper) {
   const double own = A(0, 0) - A(0, 1) * A(0, 1) / A(1, 1), width = 1 / std::sqrt(own);
   const double centre = std::clamp(-(g[0] - A(0, 1) * g[1] / A(1, 1)) / own, lower[0], upper[0]);
   const double begin = std::max(lower[0], centre - 10 * width), end = std::min(upper[0], centre + 10 * width);
@@ -93,6 +109,32 @@ double log_box_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A, cons
 double log_truncated_gaussian(double g, double a, double lower, double upper) {
   const double centre = -g / a, width = 1 / std::sqrt(a);
   return 0.5 * g * g / a + std::log(width) + 0.5 * log_2pi + log_normal_mass((lower - centre) / width, (upper - centre) / width);
+}
+
+double log_box_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  if (g.size() == 0) return 0;
+  if (g.size() == 1) return log_truncated_gaussian(g[0], A(0, 0), lower[0], upper[0]);
+  if (g.size() == 2) return log_rectangle_integral(g, A, lower, upper);
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  const Eigen::MatrixXd& L = factor.matrixLLT();
+  Eigen::VectorXd mean = -factor.solve(g);
+  Eigen::MatrixXd V = factor.solve(Eigen::MatrixXd::Identity(g.size(), g.size()));
+  double log_integral = -0.5 * g.dot(mean) + 0.5 * static_cast<double>(g.size()) * log_2pi - L.diagonal().array().log().sum();
+  std::vector<Eigen::Index> open(static_cast<std::size_t>(g.size()));
+  for (std::size_t i = 0; i < open.size(); ++i) open[i] = static_cast<Eigen::Index>(i);
+  while (!open.empty()) {
+    const auto score = [&](double bound, Eigen::Index i) { return (bound - mean[i]) / std::sqrt(V(i, i)); };
+    const auto log_mass = [&](Eigen::Index i) { return log_normal_mass(score(lower[i], i), score(upper[i], i)); };
+    const auto next = std::min_element(open.begin(), open.end(), [&](auto a, auto b) { return log_mass(a) < log_mass(b); });
+    const Eigen::Index i = *next;
+    open.erase(next);
+    log_integral += log_mass(i);
+    const Truncated own = truncated_normal(score(lower[i], i), score(upper[i], i));
+    const Eigen::VectorXd column = V.col(i) / std::sqrt(V(i, i));
+    mean += own.mean * column;
+    V -= (1 - own.variance) * column * column.transpose();
+  }
+  return log_integral;
 }
 
 LinearSolution solve(const Eigen::MatrixXd& JtJ, const Eigen::VectorXd& Jt_rho, double rho_square, const Eigen::VectorXd& prior,

@@ -12,7 +12,7 @@ struct LinearModel {
   Eigen::VectorXd rho;           // whitened residual at d = 0
   Eigen::MatrixXd J;             // its derivative, bounded parameters first
   Eigen::VectorXd prior;         // means of the priors of d
-  Eigen::VectorXd lower, upper;  // of the bounded ones, at most two
+  Eigen::VectorXd lower, upper;  // of the bounded ones
 };
 
 struct LinearSolution {
@@ -30,5 +30,11 @@ LinearSolution solve(const Eigen::MatrixXd& JtJ, const Eigen::VectorXd& Jt_rho, 
 
 /// log of the integral of exp(-g x - a x^2/2) from lower to upper, a > 0; also far in the tails.
 double log_truncated_gaussian(double g, double a, double lower, double upper);
+
+/// log of the integral of exp(-g.x - x.A x/2) over the box, A positive definite. Of two parameters by quadrature; of more, one after the
+/// other is integrated out, the one with the least mass within its bounds first, and what it leaves of the others is taken as Gaussian
+/// again, with the mean and variance that the truncation gives: exact for independent parameters and for those far from their bounds.
+/// Source: Mendell and Elston (1974), Biometrics 30, 41-57.
+double log_box_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
 }  // namespace snag

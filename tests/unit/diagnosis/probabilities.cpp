@@ -19,6 +19,7 @@ Attribution with_evidence(double none, double a, double b, double both, double d
     fit.log_evidence = log_evidence;
     attribution.fits.push_back(fit), attribution.names.emplace_back(name);
     attribution.log_prior.push_back(std::log(prior)), attribution.evidence_penalty.push_back(0);
+    attribution.remainder.emplace_back();
   };
   add("none", none, prior_none), add("a", a, prior_effect), add("b", b, prior_effect);
   add("a+b", both, prior_effect * prior_effect / prior_none);

@@ -104,6 +104,45 @@ class Straight final : public Constant {
   std::vector<Slot> path_;
 };
 
+/// As above, of runs that end before the last samples.
+class EndsEarly final : public Simulator {
+ public:
+  explicit EndsEarly(double end) : end_(end) {
+    for (int i = 0; i < 10; ++i) path_.push_back({.observable = 0, .time = 0.1 * i});
+  }
+  const std::vector<Effect>& effects() const override { return effects_; }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  const std::vector<Slot>& slots(int) const override { return path_; }
+  double run_end(int) const override { return end_; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    RunResult result;
+    for (const Slot& slot : path_) result.values.push_back(slot.time <= end_ ? slot.time : std::numeric_limits<double>::quiet_NaN());
+    return std::vector<RunResult>(requests.size(), result);
+  }
+  int n_runs() const override { return 0; }
+
+ private:
+  double end_;
+  std::vector<Effect> effects_;
+  std::vector<Nuisance> nuisances_;
+  std::vector<Slot> path_;
+};
+
+/// Requirement: rows that are left out because the runs end before them are told with their number and the remedy.
+TEST(Rows, ThoseAfterTheEndOfARunAreTold) {
+  std::vector<Datum> data;
+  for (int i = 0; i < 10; ++i) data.push_back({.time = 0.1 * i, .value = 0.1 * i});
+  const Experiment experiment = of_one_row({.id = "x", .unit = "m", .noise_u = 0.01, .calibration_group = ""}, data);
+  EndsEarly early(0.65), whole(1);
+  const Responses some(experiment, early), all(experiment, whole);
+  ASSERT_EQ(some.notes().size(), 1);
+  EXPECT_EQ(some.notes().front(),
+            "x at point A: 3 of 10 rows, from 0.7 s on, are not compared, for the runs have no number there; they end at 0.65 s: raise "
+            "[time] end_s of the case.");
+  EXPECT_EQ(some.points().front().rows.size(), 7);
+  EXPECT_TRUE(all.notes().empty());
+}
+
 /// Requirement: the cells of a path change where it comes into another region, and each is in the region where it was measured.
 TEST(Rows, CellsAreToldApartByRegion) {
   constexpr int n = 20;

@@ -102,6 +102,24 @@ TEST(Lifetimes, CensoredFit) {
   EXPECT_TRUE(std::isinf(fit_log_times({1, 1}, {true, true}, 0).u_mean));
 }
 
+// Integrals over boxes of three parameters against sums: correlated ones whose bounds cut them at the centre and in the tail, to 0.05 nats.
+TEST(LinearModel, BoxOfThreeParameters) {
+  const Eigen::Matrix3d A{{3, 1, 0.5}, {1, 2, -0.6}, {0.5, -0.6, 1.5}};
+  const Eigen::Vector3d lower(0, -1, 0.2), upper(2, 0.5, 3);
+  for (const Eigen::Vector3d& g : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, -3, 1), Eigen::Vector3d(8, 4, -2)}) {
+    constexpr int n = 60;
+    const Eigen::Vector3d step = (upper - lower) / n;
+    double sum = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        for (int k = 0; k < n; ++k) {
+          const Eigen::Vector3d x = lower + step.cwiseProduct(Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5));
+          sum += std::exp(-g.dot(x) - 0.5 * x.dot(A * x)) * step.prod();
+        }
+    EXPECT_NEAR(log_box_integral(g, A, lower, upper), std::log(sum), 0.05) << g.transpose();
+  }
+}
+
 // The truncated integrals against sums, also where a bound cuts far into the tail.
 TEST(LinearModel, TruncatedEvidence) {
   for (const double g : {-3.0, 0.0, 5.0, 60.0}) {

@@ -94,7 +94,43 @@ TEST(Attribution, Pairs) {
   EXPECT_GE(one, 7);
 }
 
-// A periodic body force and a drag that grows with depth are in no library: abstain.
+// Three effects are found one after the other; their shares of the gap and what stays sum to one.
+TEST(Attribution, ThreeEffectsInRounds) {
+  int right = 0, outside = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Verdict verdict =
+        judged({.effects = {{"added_mass", 0.5}, {"lift", 1.8}, {"pressure_gradient", 1}}, .form = i % 2 ? 0.05 : 0.0}, 3200 + i);
+    const bool hit = verdict.verdict == "effects" && joined_effects(verdict) == "added_mass+lift+pressure_gradient";
+    if (!hit) std::printf("three effects: %s %s\n", verdict.verdict.c_str(), joined_effects(verdict).c_str());
+    right += hit;
+    outside += verdict.verdict == "outside";
+    if (verdict.verdict != "effects") continue;
+    double sum = verdict.unexplained;
+    ASSERT_EQ(verdict.causes.size(), verdict.effects.size());
+    for (const Cause& cause : verdict.causes) sum += cause.share;
+    EXPECT_NEAR(sum, 1, 1e-6);
+  }
+  std::printf("three effects: all right in %d of 6, outside %d\n", right, outside);
+  EXPECT_GE(right, 5);
+  EXPECT_EQ(outside, 0);
+}
+
+// An effect whose law is another one by up to 30 %, more than any form of it: it is named, and a share of the gap stays.
+TEST(Attribution, EffectAndRemainder) {
+  int named = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Verdict verdict = judged({.effects = {{"pressure_gradient", 1}}, .form = 0.3}, 3300 + i);
+    const bool hit = verdict.verdict == "effects" && joined_effects(verdict) == "pressure_gradient";
+    named += hit;
+    if (!hit) std::printf("effect and remainder: %s %s\n", verdict.verdict.c_str(), joined_effects(verdict).c_str());
+    if (!hit) continue;
+    EXPECT_GT(verdict.unexplained, 0);
+    EXPECT_LT(verdict.unexplained, 0.2);
+  }
+  std::printf("effect and remainder: effect named in %d of 6\n", named);
+  EXPECT_GE(named, 5);
+}
+
 // A second effect that is likelier there than not, but brings less than 6 nats, is not named; a note says how likely both are.
 TEST(Attribution, WeakSecondEffectIsTold) {
   int told = 0;
@@ -112,6 +148,7 @@ TEST(Attribution, WeakSecondEffectIsTold) {
   EXPECT_GE(told, 1);
 }
 
+// A periodic body force and a drag that grows with depth are in no library: abstain.
 TEST(Attribution, OutsideOfTheLibrary) {
   int abstained = 0, attributed = 0;
   for (int i = 0; i < 12; ++i) {

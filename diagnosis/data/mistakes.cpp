@@ -1,0 +1,173 @@
+#include "diagnosis/data/mistakes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "base/words.hpp"
+#include "observe/observables.hpp"
+
+namespace snag {
+
+namespace {
+
+/// Duration of the paths that are measured, s; 0: there are none.
+double measured_duration(const Experiment& experiment) {
+  double duration = 0;
+  for (const Datum& d : experiment.data)
+    if (!std::isnan(d.time)) duration = std::max(duration, d.time);
+  return duration;
+}
+
+bool has_path(const Experiment& experiment, int observable) {
+  return std::any_of(experiment.data.begin(), experiment.data.end(),
+                     [&](const Datum& d) { return d.observable == observable && !std::isnan(d.time); });
+}
+
+// There or not: a range so narrow that linear models take it as it is, wide enough for their integrals.
+Effect fixed_effect(const std::string& name, const std::string& parameter) {
+  constexpr double width = 1e-4;
+  return {.name = name,
+          .parameter = parameter,
+          .mean = 1,
+          .sd = 1,
+          .minimum = 1 - width,
+          .maximum = 1 + width,
+          .fixed = true,
+          .is_mistake = true};
+}
+
+/// Of a path at another time: the cubic through the four nearest samples, beyond the ends the line through the last two.
+double at_time(const std::vector<std::pair<double, double>>& path, double t) {
+  const auto n = static_cast<int>(path.size());
+  if (n == 1) return path[0].second;
+  const auto next = std::lower_bound(path.begin(), path.end(), t, [](const auto& sample, double time) { return sample.first < time; });
+  const int after = std::clamp(static_cast<int>(next - path.begin()), 1, n - 1);
+  const bool beyond = t < path.front().first || t > path.back().first;
+  const int begin = beyond ? after - 1 : std::max(0, after - 2), end = beyond ? after + 1 : std::min(n, after + 2);
+  double sum = 0;
+  for (int i = begin; i < end; ++i) {
+    double weight = 1;
+    for (int j = begin; j < end; ++j)
+      if (j != i) weight *= (t - path[j].first) / (path[i].first - path[j].first);
+    sum += weight * path[i].second;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Mistake> mistakes_of_inputs(const Experiment& experiment, std::span<const Nuisance> nuisances) {
+  std::set<std::string> calibrations;
+  for (const Observable& observable : experiment.observables) calibrations.insert(calibration_of(observable));
+  std::map<std::string, Mistake> all;
+  std::map<std::string, double> own, common;  // variances: of one point, of those that share it
+  for (const Nuisance& n : nuisances) {
+    // A drag law that is further off than it is known is drag_magnitude or drag_exponent, no input.
+    if (n.u <= 0 || calibrations.contains(n.name) || n.name.starts_with("drag_law_uncertainty")) continue;
+    Mistake& mistake = all[n.name];
+    if (n.points.size() > 1) common[n.name] = n.u * n.u;
+    if (n.points.size() == 1) own[n.name] = n.u * n.u;
+    if (n.points.size() > mistake.points.size()) mistake.points = n.points;
+  }
+  std::vector<Mistake> mistakes;
+  for (auto& [key, mistake] : all) {
+    if (mistake.points.size() < std::min<std::size_t>(2, experiment.points.size())) continue;
+    const double u = std::sqrt(common[key] + own[key]);
+    // A value that is wrong is so by a multiple of what was thought to be possible.
+    constexpr double multiple = 10, named_from = 3;
+    mistake.input = key;
+    mistake.effect = {.name = "input:" + key,
+                      .parameter = "relative error of " + key,
+                      .mean = 0,
+                      .sd = multiple * u,
+                      .minimum = -0.9,
+                      .maximum = 9,
+                      .least = named_from * u,
+                      .is_mistake = true};
+    mistakes.push_back(mistake);
+  }
+  return mistakes;
+}
+
+std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment) {
+  std::vector<Mistake> mistakes;
+  const double duration = measured_duration(experiment);
+  std::vector<int> paths, rates;
+  std::map<int, std::vector<int>> along;  // by axis
+  for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
+    if (!has_path(experiment, o)) continue;
+    paths.push_back(o);
+    const ObservableRecord* record = find_observable(experiment.observables[static_cast<std::size_t>(o)].id);
+    if (record && record->measure == Measure::velocity) rates.push_back(o);
+    if (record && (record->is_position() || record->measure == Measure::velocity)) along[static_cast<int>(record->axis)].push_back(o);
+  }
+  if (paths.empty() || duration <= 0) return mistakes;
+  constexpr double usual_delay = 0.05, largest_delay = 0.2;  // of the duration
+  mistakes.push_back({.kind = Mistake::Kind::clock,
+                      .effect = {.name = "clock",
+                                 .parameter = "time by which the clock of the measurement starts late",
+                                 .unit = "s",
+                                 .mean = 0,
+                                 .sd = usual_delay * duration,
+                                 .minimum = -largest_delay * duration,
+                                 .maximum = largest_delay * duration,
+                                 .is_mistake = true},
+                      .observables = paths});
+  mistakes.push_back({.kind = Mistake::Kind::frame_rate,
+                      .effect = {.name = "frame_rate",
+                                 .parameter = "relative error of the times, as by another frame rate",
+                                 .mean = 0,
+                                 .sd = 0.05,
+                                 .minimum = -0.3,
+                                 .maximum = 0.3,
+                                 .is_mistake = true},
+                      .observables = paths,
+                      .rates = rates});
+  for (const auto& [axis, observables] : along)
+    mistakes.push_back({.kind = Mistake::Kind::sign,
+                        .effect = fixed_effect(std::string("sign:") + "xyz"[axis], "other sign of the axis"),
+                        .observables = observables});
+  return mistakes;
+}
+
+std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::string& unit, double ratio) {
+  constexpr double degree = std::numbers::pi / 180, inch = 25.4;
+  constexpr double near = 0.2;  // of the logarithm
+  for (const double factor : {1e-3, 1e-2, 0.1, 10.0, 1e2, 1e3, degree, 1 / degree, inch, 1 / inch, 60.0, 1 / 60.0}) {
+    if (!(ratio > 0) || std::abs(std::log(ratio / factor)) > near) continue;
+    Mistake mistake{.kind = Mistake::Kind::unit,
+                    .effect = fixed_effect("unit:" + unit, "data that are " + words(factor) + " times the true numbers"),
+                    .factor = factor};
+    for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o)
+      if (experiment.observables[static_cast<std::size_t>(o)].unit == unit) mistake.observables.push_back(o);
+    return {mistake};
+  }
+  return {};
+}
+
+void mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& slots, std::vector<double>& values) {
+  const auto changes = [&](std::size_t s) {
+    return std::count(mistake.observables.begin(), mistake.observables.end(), slots[s].observable) > 0;
+  };
+  if (mistake.kind == Mistake::Kind::sign || mistake.kind == Mistake::Kind::unit) {
+    for (std::size_t s = 0; s < values.size(); ++s)
+      if (changes(s)) values[s] *= mistake.kind == Mistake::Kind::sign ? -1 : mistake.factor;
+    return;
+  }
+  std::map<int, std::vector<std::pair<double, double>>> paths;  // by observable
+  for (std::size_t s = 0; s < values.size(); ++s)
+    if (changes(s) && !std::isnan(slots[s].time) && std::isfinite(values[s]))
+      paths[slots[s].observable].emplace_back(slots[s].time, values[s]);
+  for (auto& [observable, path] : paths) std::sort(path.begin(), path.end());
+  for (std::size_t s = 0; s < values.size(); ++s) {
+    const double t = slots[s].time;
+    if (!changes(s) || std::isnan(t) || !std::isfinite(values[s])) continue;
+    values[s] = at_time(paths[slots[s].observable], mistake.kind == Mistake::Kind::clock ? t + theta : (1 + theta) * t);
+    if (std::count(mistake.rates.begin(), mistake.rates.end(), slots[s].observable) > 0) values[s] *= 1 + theta;
+  }
+}
+
+}  // namespace snag

@@ -1,0 +1,42 @@
+#pragma once
+// Mistakes that an experiment may hold, as hypotheses beside the effects: a known input that is far off, a clock that starts late, a frame
+// rate, the sign of an axis, a unit. They are candidates of their own, with one strength theta each:
+//
+//   input:KEY   the input is (1 + theta) times what the case says, at all points that share it; named from 3 u on
+//   clock       what is measured at t was there at t + theta, s
+//   frame_rate  what is measured at t was there at (1 + theta) t
+//   sign:AXIS   positions and velocities along an axis have the other sign; there or not
+//   unit:UNIT   the numbers of all observables with this unit are another factor larger (1000, 25.4, 180/pi, ...); there or not
+//
+// All but the inputs change what a run answers with, not the run.
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnosis/data/experiment.hpp"
+#include "diagnosis/data/simulator.hpp"
+
+namespace snag {
+
+struct Mistake {
+  enum class Kind { input, clock, frame_rate, sign, unit };
+  Kind kind = Kind::input;
+  Effect effect;
+  std::string input{};             // key of it
+  std::vector<int> points{};       // that share the input
+  std::vector<int> observables{};  // that it changes
+  std::vector<int> rates{};        // of them: per time, so that a frame rate changes their numbers too
+  double factor = 1;               // of a unit: simulated numbers times this are as the data say them
+};
+
+/// Those of inputs: keys that several points share, or the only point has.
+std::vector<Mistake> mistakes_of_inputs(const Experiment& experiment, std::span<const Nuisance> nuisances);
+/// Those of times and axes that the data can hold.
+std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment);
+/// A wrong unit of the observables with this unit; `ratio`: of data to simulation, by least squares. None where it is no known factor.
+std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::string& unit, double ratio);
+
+/// What is measured of a run by mistake: its values at these slots.
+void mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& slots, std::vector<double>& values);
+
+}  // namespace snag

@@ -1,0 +1,62 @@
+// timeout: 300
+// cost: 10
+// Requirement: an input that is far off and mistakes of the measurement (unit, sign, clock, frame rate) are named as what they are, not
+// blamed on an effect and not called outside.
+#include <gtest/gtest.h>
+
+#include "tests/verification/diagnosis/formula.hpp"
+
+using namespace snag;
+
+namespace {
+
+constexpr double noise = 5e-4;
+
+Verdict judged(const Experiment& experiment) {
+  formula::Sphere sphere(experiment);
+  return diagnose(experiment, sphere);
+}
+
+std::string said(const Verdict& verdict) {
+  std::string name;
+  for (const std::string& effect : verdict.effects) name += (name.empty() ? "" : "+") + effect;
+  return verdict.verdict == "effects" ? name : verdict.verdict;
+}
+
+}  // namespace
+
+// The viscosity is 10 and 15 u off at every point.
+TEST(Mistakes, InputFarOff) {
+  int right = 0, blamed = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Verdict verdict = judged(formula::experiment({.nuisances = {{"flow.viscosity", i % 2 ? 0.3 : -0.2}}}, 6, 3, 3, noise, 7300 + i));
+    right += said(verdict) == "input:flow.viscosity";
+    blamed += verdict.verdict == "effects" && said(verdict) != "input:flow.viscosity" && verdict.wording == "attributed";
+    std::printf("viscosity off: %s\n", said(verdict).c_str());
+  }
+  EXPECT_GE(right, 4);
+  EXPECT_LE(blamed, 1);
+}
+
+TEST(Mistakes, UnitSignClockFrameRate) {
+  int right = 0, n = 0;
+  const auto check = [&](const std::string& name, const Verdict& verdict) {
+    ++n, right += said(verdict) == name;
+    if (said(verdict) != name) std::printf("%s: %s\n", name.c_str(), said(verdict).c_str());
+  };
+  for (int i = 0; i < 3; ++i) {
+    Experiment unit = formula::experiment({}, 6, 3, 3, noise, 7400 + i), sign = unit, clock = unit, rate = unit;
+    for (Datum& d : unit.data) d.value *= 1e-3;
+    check("unit:m", judged(unit));
+    for (Datum& d : sign.data) d.value *= d.observable == 1 ? -1 : 1;
+    check("sign:z", judged(sign));
+    // Times are written down 0.04 s too early, so what is measured at t was there at t + 0.04 s.
+    std::erase_if(clock.data, [](const Datum& d) { return d.time < 0.05; });
+    for (Datum& d : clock.data) d.time -= 0.04;
+    check("clock", judged(clock));
+    for (Datum& d : rate.data) d.time /= 1.12;
+    check("frame_rate", judged(rate));
+  }
+  std::printf("mistakes of the measurement: %d of %d named\n", right, n);
+  EXPECT_GE(right, n - 2);
+}
