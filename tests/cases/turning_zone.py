@@ -119,7 +119,7 @@ class TurningZone(harness.CaseTest):
         self.crash_and_resume(2)
 
     def test_resume_with_sst(self):
-        self.crash_and_resume(2, model="k_omega_sst")
+        self.crash_and_resume(1, model="k_omega_sst")
 
     def test_resume_in_a_frame(self):
         self.crash_and_resume(1, "frame")
