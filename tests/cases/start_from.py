@@ -134,7 +134,7 @@ class StartFromAnotherRun(harness.CaseTest):
         self.refused(6, ["[initial_flow]", "absent", "no valid checkpoint"], self.channel("a", more='[initial_flow]\nfrom = "absent"'))
         self.run_case(self.channel("coarse", COARSE), 1, out="coarse")
         self.refused(2, ["90 cells", "720", "map_nearest_cell = true"], self.channel("b", more='[initial_flow]\nfrom = "coarse"'))
-        self.refused(2, ["[initial_flow]", "elsewhere", "map_nearest_cell = true"], self.shifted())
+        self.refused(2, ["[initial_flow]", "other positions", "map_nearest_cell = true"], self.shifted())
         self.refused(2, ["[initial_flow]", "no water"], self.case('[time]\nend_s = 1\nstep_s = 1\n[initial_flow]\nfrom = "coarse"\n[[rag]]\nlength_mm = 20\nwidth_mm = 20\nradius_mm = 1\n', "d"))
 
     def shifted(self):

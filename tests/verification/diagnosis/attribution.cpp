@@ -176,7 +176,7 @@ TEST(Attribution, IndistinguishableEffectsTie) {
   }
   ASSERT_FALSE(verdict.identifiability.ties.empty());
   EXPECT_EQ(verdict.identifiability.ties.front(), (std::vector<std::string>{"added_mass", "entrained_water"}));
-  EXPECT_NE(verdict.identifiability.next_experiment.find("tell added mass from entrained water"), std::string::npos);
+  EXPECT_NE(verdict.identifiability.next_experiment.find("distinguish added mass from entrained water"), std::string::npos);
   EXPECT_NE(verdict.identifiability.next_experiment.find("another operating point or observable"), std::string::npos);
 }
 
