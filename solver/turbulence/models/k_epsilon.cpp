@@ -83,7 +83,8 @@ TurbulenceReport KEpsilon::correct(Flow& flow, const BoundarySet& boundary, cons
 
   set_diffusivity_over(flow, sigma_epsilon_);
   for (int c = 0; c < mesh.n_cells; ++c) {
-    set_sources_of_phi(c, C_1_ * C_mu_ * k_.guess[c] * strain_[c], C_2_ / k_.guess[c]);
+    const double b = C_2_ / k_.guess[c], decayed = b * phi_.guess[c] * time.dt;
+    set_sources_of_phi(c, C_1_ * C_mu_ * k_.guess[c] * strain_[c], b, 0.5 * decayed / (1 + decayed));
   }
   const SweepReport of_epsilon = phi_.equation->solve(phi_.history(), {production_, sink_, diffusivity_, phi_.entering},
                                                       {walls_.cells(), walls_.dissipation()}, epsilon);

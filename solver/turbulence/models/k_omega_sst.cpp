@@ -218,7 +218,7 @@ SweepReport KOmegaSst::solve_omega(const Flow& flow) {
     const Constants constants = blended(c);
     const double omega = phi_.guess[c], in_viscous_layer = std::min(1.0, omega_viscous(c, nu) / omega), C = cross_diffusion_[c];
     set_sources_of_phi(c, constants.alpha * strain_[c] + std::max(C, 0.0),
-                       constants.beta * (1 + in_viscous_layer * in_viscous_layer * excess_[c]));
+                       constants.beta * (1 + in_viscous_layer * in_viscous_layer * excess_[c]), 0.5);
     sink_[c] += std::max(-C, 0.0) / omega;
   }
   const std::vector<double> at_walls = walls_.omega(flow, friction_velocity_, C_mu_, near_.beta);
