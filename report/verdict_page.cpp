@@ -313,7 +313,7 @@ std::string verdict_sentence(const Verdict& v) {
            (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
   if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
   if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
-  // Shares are told where there is more than one: of several effects, or of what stays.
+  // The page states shares only where there are at least two: of several effects, or of one effect and the unexplained rest.
   std::string causes;
   const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
   for (std::size_t i = 0; i < v.effects.size(); ++i) {

@@ -299,7 +299,7 @@ class Attributor {
     order.resize(std::min<std::size_t>(order.size(), most_pairs));
     order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
     for (std::size_t i = 0; i < order.size() && affordable(fitter_.runs_of_fit(2)); ++i) {
-      // Far behind what is fitted, and a linear model of a large gap is off by a share of it.
+      // This set is far behind the fitted ones. The margin grows with the gap, because the error of a linear model does.
       const double best = result_.fits[static_cast<std::size_t>(result_.first())].log_evidence, none = result_.fits.front().log_evidence;
       if (order[i].log_evidence < best - std::max(screening_width, share_not_linear * (best - none))) continue;
       report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);

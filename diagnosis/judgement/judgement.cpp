@@ -132,7 +132,8 @@ class Judge {
   }
 
  private:
-  // Checks say that the data are not as the hypothesis expects them, not what else holds: they are told and decide nothing.
+  // A check shows that the hypothesis does not expect such data. It does not show which hypothesis is right: it adds a note and decides
+  // nothing.
   void note_checks(int first) {
     for (const PredictiveCheck& check : v_.checks) {
       if (check.p >= check_limit) continue;
