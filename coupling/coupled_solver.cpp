@@ -1,5 +1,7 @@
 #include "coupling/coupled_solver.hpp"
 
+#include "base/log.hpp"
+#include "base/words.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "dem/templates/lattice.hpp"
 #include "parallel/checkpoint.hpp"
@@ -9,6 +11,9 @@
 namespace snag {
 
 namespace {
+
+// Solid fraction of a random packing of spheres: what lies denser has no room for the water that the model puts there.
+constexpr double densest_packing = 0.6;
 
 /// Adds the time of some work to `seconds`.
 template <class Work>
@@ -77,6 +82,7 @@ void CoupledSolver::give(double dt) {
   std::vector<double> volume(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
   report_.max_solid_fraction = exchange_->give_volumes(volume);
+  warn_of_packing();
   if (!coupling_.settings.two_way()) return;
   const ExchangeBalance balance = exchange_->give(impulses_, dt);
   check_momentum(balance);
@@ -87,6 +93,17 @@ void CoupledSolver::give(double dt) {
   for (std::size_t b = 0; b < particles.size(); ++b)
     largest = std::max(largest, load_->slope(particles.tile(b), particles.place(b)) * kernel_field_->response(b));
   report_.max_drag_number = maximum(rags_.comm(), largest);
+}
+
+void CoupledSolver::warn_of_packing() {
+  if (report_.max_solid_fraction <= densest_packing || warned_of_packing_) return;
+  warned_of_packing_ = true;
+  const double width = coupling_.kernel_width(rags_.rags());
+  const std::string kernel =
+      coupling_.shape->support_radius(width) > 0 ? "kernel_width is " + words(1e3 * width) + " mm" : "kernel is \"cell\"";
+  log::warning("coupling: the particles fill " + words(report_.max_solid_fraction) + " of a cell at " + words(rags_.time()) +
+               " s, more than the " + words(densest_packing) + " of a dense packing; " + kernel +
+               ": widen it until monitors/coupling.csv stays below (said once)");
 }
 
 void CoupledSolver::write_report(double dt) {

@@ -64,6 +64,7 @@ class CoupledSolver {
  private:
   void mesh_moved();
   void give(double dt);
+  void warn_of_packing();
   void write_report(double dt);
 
   Coupling coupling_;
@@ -79,6 +80,7 @@ class CoupledSolver {
   std::unique_ptr<Exchange> exchange_;
   std::vector<Vec3> impulses_;
   CouplingReport report_;
+  bool warned_of_packing_ = false;
   CouplingSeconds seconds_;
 };
 

@@ -184,4 +184,23 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
   return warnings;
 }
 
+std::vector<std::string> left_out_added_mass(const Coupling& coupling, const std::vector<Rag>& rags) {
+  constexpr int least_rows = 3;  // fewer are a thread or a strap, not a sheet
+  std::vector<std::string> lines;
+  if (coupling.settings.mode != "one_way") return lines;
+  for (const Rag& rag : rags) {
+    const auto [fewer, more] = std::minmax(rag.n_columns, rag.n_rows);
+    if (fewer < least_rows) continue;
+    const double width = 2 * rag.radius * fewer, length = 2 * rag.radius * more;
+    std::ostringstream line;
+    line.precision(3);
+    line << "one-way coupling: cloth \"" << rag.name << "\" (" << 1e3 * static_cast<double>(rag.n_particles) * rag.mass
+         << " g) does not move the water. Flat and accelerated across itself, it would take up to "
+         << 1e3 * std::numbers::pi / 4 * width * width * length
+         << " L of water with it; crumpled, much less. mode = \"two_way\" has this inertia";
+    lines.push_back(line.str());
+  }
+  return lines;
+}
+
 }  // namespace snag

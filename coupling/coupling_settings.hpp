@@ -55,4 +55,11 @@ std::vector<Section> coupling_sections();
 std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh,
                                          std::span<const Vec3> places);
 
+/// What a one-way case leaves out of the inertia of its cloth, a line for each piece that is a sheet: a flat plate W x L, W <= L, that is
+/// accelerated across itself takes with it up to
+///   m = pi/4 rho W^2 L    (a strip of the width W; a rectangle less: a square 0.48 of it)
+/// where the forces on its particles know their own volumes only. Source: Lamb (1932), Hydrodynamics, section 71; Brennen (1982), A review
+/// of added mass and fluid inertial forces.
+std::vector<std::string> left_out_added_mass(const Coupling& coupling, const std::vector<Rag>& rags);
+
 }  // namespace snag

@@ -15,6 +15,7 @@
 #include "report/monitor_plots.hpp"
 #include "report/page.hpp"
 #include "report/pictures.hpp"
+#include "report/plateau_section.hpp"
 
 namespace snag {
 
@@ -113,21 +114,45 @@ std::string side_by_side(const Study& study, const std::vector<Row>& rows) {
   return text;
 }
 
+/// The values of a run of all that varies but `x` and, where asked for, but what is not physical: "kernel gaussian, radius_mm 2".
+std::string group_of(const Study& study, const StudyRun& run, const std::string& x, const std::vector<std::string>* among = nullptr) {
+  std::string group;
+  for (std::size_t v = 0; v < study.vary.size(); ++v) {
+    const std::string& name = study.vary[v].name;
+    if (name == x || (among && std::find(among->begin(), among->end(), name) == among->end())) continue;
+    group += (group.empty() ? "" : ", ") + name + " " + run.values[v];
+  }
+  return group;
+}
+
+/// Over a value that varies each combination of the others has a line of its own, unless these are more than a reader tells apart.
 std::string plot(const Study& study, const StudyPlotSettings& settings, const std::vector<Row>& rows) {
+  constexpr std::size_t most_lines = 12;
   LinePlot result{settings.title,
                   settings.x_label.empty() ? label_of(study, settings.x) : settings.x_label,
                   settings.y_label.empty() && !settings.y.empty() ? label_of(study, settings.y[0]) : settings.y_label,
                   {}};
+  const bool varies = std::any_of(study.vary.begin(), study.vary.end(), [&](const VarySettings& vary) { return vary.name == settings.x; });
   for (const std::string& y : settings.y) {
-    std::vector<std::pair<double, double>> points;
+    std::vector<std::pair<std::string, std::vector<std::pair<double, double>>>> lines;
     for (const Row& row : rows)
-      if (const json at = value_of(study, row, settings.x), value = value_of(study, row, y); at.is_number() && value.is_number())
-        points.emplace_back(at.get<double>(), value.get<double>());
-    std::sort(points.begin(), points.end());
-    PlotLine line{settings.y.size() > 1 ? label_of(study, y) : "", {}, {}};
-    line.dotted = true;
-    for (const auto& [at, value] : points) line.x.push_back(at), line.y.push_back(value);
-    result.lines.push_back(std::move(line));
+      if (const json at = value_of(study, row, settings.x), value = value_of(study, row, y); at.is_number() && value.is_number()) {
+        const std::string group = varies && !study.settings.zip ? group_of(study, row.run, settings.x) : "";
+        auto line = std::find_if(lines.begin(), lines.end(), [&](const auto& known) { return known.first == group; });
+        if (line == lines.end()) line = lines.insert(lines.end(), {group, {}});
+        line->second.emplace_back(at.get<double>(), value.get<double>());
+      }
+    if (lines.size() * settings.y.size() > most_lines)
+      for (; lines.size() > 1; lines.pop_back())
+        lines[0].first.clear(), lines[0].second.insert(lines[0].second.end(), lines.back().second.begin(), lines.back().second.end());
+    for (auto& [group, points] : lines) {
+      std::sort(points.begin(), points.end());
+      const std::string of_y = settings.y.size() > 1 ? label_of(study, y) : "";
+      PlotLine line{of_y + (of_y.empty() || group.empty() ? "" : ", ") + group, {}, {}};
+      line.dotted = true;
+      for (const auto& [at, value] : points) line.x.push_back(at), line.y.push_back(value);
+      result.lines.push_back(std::move(line));
+    }
   }
   return figure(result);
 }
@@ -138,6 +163,30 @@ std::vector<StudyPlotSettings> plots_of(const Study& study) {
   if (!plots.empty() || study.vary.size() != 1 || study.vary[0].values.size() < 2) return plots;
   for (const std::string& key : study.settings.results) plots.push_back({words_of_key(key).title, study.vary[0].name, "", "", {key}});
   return plots;
+}
+
+/// The plateau that the study file asks for, and what it was looked for in.
+std::pair<PlateauQuestion, Plateau> plateau_of(const Study& study, const std::vector<Row>& rows) {
+  const PlateauSettings& settings = *study.plateau;
+  PlateauQuestion question{settings, {}, {}};
+  for (const VarySettings& vary : study.vary)
+    if (vary.name == settings.x) question.x = words_of_key(vary.key);
+  for (const std::string& key : settings.results) question.results.push_back(label_of(study, key));
+  std::vector<PlateauRun> runs;
+  for (const Row& row : rows) {
+    PlateauRun run{value_of(study, row, settings.x).get<double>(),
+                   group_of(study, row.run, settings.x),
+                   group_of(study, row.run, settings.x, &settings.physical),
+                   {}};
+    const bool went_well = row.summary.is_object() && row.summary.value("exit", -1) == 0;
+    for (const std::string& key : settings.results) {
+      const json value = went_well ? looked_up(row.summary, key) : json();
+      run.results.push_back(value.is_number() ? std::optional(value.get<double>()) : std::nullopt);
+    }
+    runs.push_back(std::move(run));
+  }
+  const Plateau plateau = find_plateau(runs, settings.tolerance, static_cast<std::size_t>(settings.n_least));
+  return {std::move(question), plateau};
 }
 
 /// The runs over time in common axes: the first line of some plots of their reports.
@@ -208,13 +257,20 @@ std::string write_study_results(const Study& study, const std::filesystem::path&
       "td:first-child { width: auto; white-space: nowrap; } th, td { overflow-wrap: normal; } .scroll { overflow-x: auto; "
       "}</style>\n</head>\n<body>\n<h1>" +
       escaped(study.settings.name) + "</h1>\n<p>" + escaped(study.settings.description) + "</p>\n";
+  std::string finding;
+  if (study.plateau) {
+    const auto [question, plateau] = plateau_of(study, rows);
+    page += section("Plateau", plateau_section(question, plateau));
+    write_atomically(folder / "plateau.json", plateau_json(question, plateau).dump(2) + "\n");
+    finding = "\n" + plateau_in_words(question, plateau);
+  }
   if (!plots.empty()) page += section("Plots", "<div class=\"plots\">\n" + plots + "</div>\n");
   page += section("Runs", table(study, rows));
   const std::string over_time = overlays(study, folder);
   if (!over_time.empty()) page += section("The runs over time", "<div class=\"plots\">\n" + over_time + "</div>\n");
   page += section("Pictures", pictures(study, folder));
   write_atomically(folder / "study.html", page + "</body>\n</html>\n");
-  return side_by_side(study, rows);
+  return side_by_side(study, rows) + finding;
 }
 
 }  // namespace snag

@@ -129,6 +129,9 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   }
   log::info(text.str());
   for (const std::string& line : rag_assumptions(CaseFile::parse(file.resolved()))) log::info("assumed: " + line);
+  if (simulation.coupled)
+    for (const std::string& line : left_out_added_mass(simulation.coupled->coupling(), simulation.rags->rags()))
+      log::info("left out: " + line);
   if (simulation.poses)
     for (const std::string& line : simulation.poses->lines()) log::info(line);
   if (simulation.holds)

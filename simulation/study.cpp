@@ -88,6 +88,24 @@ void expand_runs(Study& study) {
                                        "\"; remove the duplicate value, or give the keys different names");
 }
 
+/// The keys of [plateau] that name a [[vary]].
+void check_names(const Study& study, const std::filesystem::path& file) {
+  std::vector<std::string> names, numbers;
+  for (const VarySettings& vary : study.vary) {
+    names.push_back(vary.name);
+    if (!vary.values.empty()) numbers.push_back(vary.name);
+  }
+  const auto check = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known, const std::string& what) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    throw Error(ExitCode::usage, file.string() + ": [plateau] " + key + " has \"" + shortened(name) + "\", which is no name of a [[vary]]" +
+                                     what + "; there are: " + (known.empty() ? "none" : joined(known)));
+  };
+  check("x", study.plateau->x, numbers, " with values");
+  for (const std::string& name : study.plateau->physical) check("physical", name, names, "");
+  if (study.plateau->results.empty())
+    throw Error(ExitCode::usage, file.string() + ": [plateau] results is empty; give keys of summary.json that must agree");
+}
+
 /// Results and axes that no summary can hold would be empty columns after hours of runs.
 void check_keys(const Study& study, const std::filesystem::path& file) {
   const std::vector<std::string> known = summary_keys();
@@ -110,6 +128,9 @@ void check_keys(const Study& study, const std::filesystem::path& file) {
     check("[[plot]] x", plot.x);
     for (const std::string& key : plot.y) check("[[plot]] y", key);
   }
+  if (!study.plateau) return;
+  for (const std::string& key : study.plateau->results) check("[plateau] results", key);
+  check_names(study, file);
 }
 
 /// What a run is made of, to see on a repetition whether it is still the same.
@@ -215,11 +236,34 @@ Section StudyPlotSettings::section() {
           true};
 }
 
+Section PlateauSettings::section() {
+  Parameter of = setting("x", &x, "Name of a [[vary]] with numbers, of which the results should not depend: a kernel width, a step.");
+  Parameter on =
+      setting("results", &results, "Keys of summary.json that must agree: best those that precede chaos, rags.0.before_contact.");
+  of.required = on.required = true;
+  return {
+      "plateau",
+      "Looks for the values of one key over which the results depend neither on it nor on the other keys that vary, and recommends one; "
+      "where there is none, the page says so.",
+      {of,
+       on,
+       {"tolerance", &tolerance, "1", 1e-6, 1, Basis::assumed, "Largest deviation of a result from its mean over the plateau, relative."},
+       {"n_least", &n_least, "1", 2, 1000, Basis::assumed, "Values of x that a plateau must have."},
+       setting(
+           "recommend", &recommend,
+           "Which value of the plateau to use: middle, far from both ends, for a width; largest for a step or a size of cells, where it "
+           "saves time; smallest.",
+           {"middle", "largest", "smallest"}),
+       setting("physical", &physical,
+               "Names of [[vary]] on which results may depend: a plateau is then common to all their values, with a mean for each.")}};
+}
+
 std::vector<Section> study_sections() {
   static StudySettings study;
   static VarySettings vary;
   static StudyPlotSettings plot;
-  return {study.section(), vary.section(), plot.section()};
+  static PlateauSettings plateau;
+  return {study.section(), vary.section(), plot.section(), plateau.section()};
 }
 
 Study read_study(const std::filesystem::path& file) {
@@ -233,6 +277,7 @@ Study read_study(const std::filesystem::path& file) {
     if (vary.name.empty()) vary.name = split(vary.key, '.').back();
   }
   for (const Table& table : root.tables("plot")) table.read(study.plots.emplace_back().section().parameters);
+  if (root.has("plateau")) root.table("plateau").read(study.plateau.emplace().section().parameters);
   text.reject_unread();
   study.case_file = text.path(study.settings.case_file);
   expand_runs(study);

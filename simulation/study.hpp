@@ -4,9 +4,11 @@
 //   DIR/NAME_OF_RUN/    a run as `snag run` leaves it, and input.toml: the case and the values it was run with
 //   DIR/study.csv       a row a run: the values that vary, the chosen keys of summary.json
 //   DIR/study.html      the same as a table, and the plots
+//   DIR/plateau.json    with [plateau]: the values over which the results do not depend on a choice of the computation
 // The runs go one after another on all ranks. What has ended is not run again, what was stopped goes on where its checkpoint is.
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,17 @@ struct StudyPlotSettings {
   Section section();
 };
 
+/// A value that is a choice of the computation: over which of its values do the results not depend on it (simulation/plateau.hpp)?
+struct PlateauSettings {
+  std::string x;                      // name of a [[vary]] with numbers
+  std::vector<std::string> results;   // keys of summary.json
+  std::vector<std::string> physical;  // names of [[vary]] on which results may depend
+  double tolerance = 0.03;
+  int n_least = 3;
+  std::string recommend = "middle";  // middle | largest | smallest
+  Section section();
+};
+
 /// One run of a study.
 struct StudyRun {
   std::string name;                    // of its folder: "flow-26.8_speed-1200"
@@ -51,6 +64,7 @@ struct Study {
   StudySettings settings;
   std::vector<VarySettings> vary;
   std::vector<StudyPlotSettings> plots;
+  std::optional<PlateauSettings> plateau;
   std::filesystem::path case_file;
   std::vector<StudyRun> runs;
 };

@@ -117,12 +117,11 @@ std::vector<double> DivergenceWatch::courant_of(double dt) const {
 void DivergenceWatch::see_conditions(const Flow& flow, const BoundarySet& boundary) {
   std::array<double, 3> largest{0, -infinite, -infinite};  // speed, p, -p
   for (int p = 0; p < static_cast<int>(mesh_.patches.size()); ++p) {
-    const bool fixes_velocity = boundary.fixes(p) == PrescribedQuantity::velocity,
-               fixes_pressure = boundary.fixes(p) == PrescribedQuantity::pressure;
+    const bool fixes_pressure = boundary.fixes(p) == PrescribedQuantity::pressure;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int b = f - mesh_.n_interior;
       const double given = boundary.values().pressure[b];
-      if (fixes_velocity) largest[0] = std::max(largest[0], norm(boundary.values().velocity[b]));
+      if (boundary.velocity_is_given(p)) largest[0] = std::max(largest[0], norm(boundary.values().velocity[b]));
       if (fixes_pressure) largest[1] = std::max(largest[1], given), largest[2] = std::max(largest[2], -given);
     }
     if (const auto& entering = boundary.turbulence(p).k) largest[0] = std::max(largest[0], std::sqrt(*entering));

@@ -1,5 +1,6 @@
 #include "simulation/output/outputs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -96,6 +97,17 @@ std::vector<Column<WallRecord>> wall_columns(const Mesh& mesh, const std::vector
   return all;
 }
 
+std::vector<int> cells_at_walls(const FlowSolver& water) {
+  const Mesh& mesh = water.flow.mesh;
+  std::vector<int> cells;
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
+    if (water.boundary().is_wall(p))
+      for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) cells.push_back(mesh.owner[f]);
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
 /// The code of a run: that of the first check that fails where all else went well. Says which.
 ExitCode judged(const Summary& summary, ExitCode exit) {
   if (exit != ExitCode::ok) return exit;
@@ -132,6 +144,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   if (simulation.water) {
     walls_with_y_plus_ = walls_with_y_plus(*simulation.water);
     cross_section_ = cross_section(*simulation.water);
+    if (simulation.coupled) cells_at_walls_ = cells_at_walls(*simulation.water);
   }
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
   on_all_ranks(MPI_COMM_WORLD, [&] {
@@ -163,6 +176,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   if (simulation.rags) {
     rag_monitors_ =
         std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
+    free_motion_.emplace(simulation.rags->rags().size());
     elongation_at_start_.resize(simulation.rags->rags().size());
     rag_output_ = std::make_unique<RagOutput>(*writer, in("rags"));
     forces_ = rag_forces(*simulation.rags, nullptr, 0);
@@ -216,14 +230,12 @@ void Outputs::write_monitors() {
   if (simulation_.rags) {
     forces_ = rag_forces(*simulation_.rags, simulation_.coupled.get(), simulation_.time_settings.step);
     rag_monitors_->after_step(*simulation_.rags, *simulation_.passage, forces_, time);
+    free_motion_->after_step(*simulation_.rags, *simulation_.passage, forces_, time, simulation_.time_settings.step);
     if (simulation_.holds)
       for (const HoldReaction& reaction : simulation_.holds->reactions(*simulation_.rags, time))
         if (root) holds_.add(reaction);
   }
-  if (simulation_.coupled) {
-    largest_exchange_ = std::max(largest_exchange_, simulation_.coupled->report().momentum_exchange);
-    if (root) coupling_.add(simulation_.coupled->report());
-  }
+  if (simulation_.coupled) write_coupling_monitors();
   const Effort spent = effort();
   if (root) timing_.add({time, spent});
 }
@@ -276,6 +288,25 @@ void Outputs::write_wall_monitors() {
   if (rank_of(MPI_COMM_WORLD) == 0) wall_.add(record);
 }
 
+void Outputs::write_coupling_monitors() {
+  const CouplingReport& report = simulation_.coupled->report();
+  largest_exchange_ = std::max(largest_exchange_, report.momentum_exchange);
+  if (rank_of(MPI_COMM_WORLD) == 0) coupling_.add(report);
+  if (!simulation_.water) return;
+  const auto& least = coupled_.width_least;
+  coupled_.width_least = least > 0 ? std::min(least, report.width_over_cell_least) : report.width_over_cell_least;
+  coupled_.width_largest = std::max(coupled_.width_largest, report.width_over_cell_largest);
+  coupled_.solid_fraction = std::max(coupled_.solid_fraction, report.max_solid_fraction);
+  const Flow& flow = simulation_.water->flow;
+  const auto force = [&](int c) { return flow.mesh.cell_volume[c] * norm(flow.reaction[c]); };
+  std::vector<double> at_walls, all;
+  for (const int c : cells_at_walls_) at_walls.push_back(force(c));
+  for (int c = 0; c < flow.mesh.n_cells; ++c)
+    if (flow.reaction[c] != Vec3{}) all.push_back(force(c));
+  coupled_.force_at_walls += sum(MPI_COMM_WORLD, std::span<const double>(at_walls));
+  coupled_.force += sum(MPI_COMM_WORLD, std::span<const double>(all));
+}
+
 void Outputs::write_rotor_monitors() {
   const Flow& flow = simulation_.water->flow;
   largest_closure_ = std::max(largest_closure_, flow.rotating_zone->mesh().closure());
@@ -284,10 +315,13 @@ void Outputs::write_rotor_monitors() {
 
 void Outputs::save(CheckpointWriter& writer) const {
   writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_, largest_through_});
+  const auto& c = coupled_;
+  writer.shared("coupled", std::vector<double>{c.width_least, c.width_largest, c.solid_fraction, c.force_at_walls, c.force});
   const Effort spent = effort();
   writer.shared("effort", std::vector<double>{spent.wall, spent.flow, spent.rags, spent.coupling, spent.output, spent.particle_steps});
   if (rag_monitors_) {
     writer.shared("rag_monitors", rag_monitors_->state());
+    writer.shared("free_motion", free_motion_->state());
     writer.shared("elongation_at_start", elongation_at_start_);
     writer.shared("silhouettes", rag_output_->state());
   }
@@ -299,10 +333,13 @@ void Outputs::save(CheckpointWriter& writer) const {
 void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
   largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2], largest_through_ = kept[3];
+  const std::vector<double> coupled = reader.shared("coupled");
+  coupled_ = {coupled[0], coupled[1], coupled[2], coupled[3], coupled[4]};
   const std::vector<double> spent = reader.shared("effort");
   effort_before_ = {spent[0], spent[1], spent[2], spent[3], spent[4], spent[5]};
   if (rag_monitors_) {
     rag_monitors_->restore(reader.shared("rag_monitors"));
+    free_motion_->restore(reader.shared("free_motion"));
     elongation_at_start_ = reader.shared("elongation_at_start");
     rag_output_->restore(reader.shared("silhouettes"));
   }
@@ -326,6 +363,7 @@ void Outputs::summarise_rags(Summary& summary) const {
       if (one.projected_area > 0) one.elongation_ratio = rag_output_->silhouettes()[r].elongation_ratio;
     }
     one.max_wall_overlap_over_radius = rag_monitors_->max_wall_overlap(r), one.max_overlap_over_radius = rag_monitors_->max_overlap();
+    one.free_motion = free_motion_->result(r);
     one.bond_strain_p99 = rag_monitors_->max_bond_strain_p99(r), one.elongation_ratio_at_start = elongation_at_start_[r];
     summary.rags.push_back(one);
     if (rags.presence(static_cast<int>(r)) == RagSystem::Presence::waiting) continue;
@@ -362,6 +400,13 @@ void Outputs::summarise_checks(Summary& s) const {
   }
   if (simulation_.coupled && simulation_.water && simulation_.coupled->coupling().settings.two_way())
     s.conservation.momentum_exchange = largest_exchange_;
+  if (simulation_.coupled && simulation_.water) {
+    const Coupling& coupling = simulation_.coupled->coupling();
+    const double width = coupling.kernel_width(simulation_.rags->rags());
+    const bool has_width = coupling.shape->support_radius(width) > 0;  // not the kernel of one cell
+    s.coupling = {has_width ? width : 0, coupled_.width_least, coupled_.width_largest, coupled_.solid_fraction, {}};
+    if (coupled_.force > 0) s.coupling->force_share_at_walls = coupled_.force_at_walls / coupled_.force;
+  }
   if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
 }
 

@@ -8,6 +8,7 @@
 #include "base/case_file.hpp"
 #include "base/monitor.hpp"
 #include "simulation/output/field_output.hpp"
+#include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/rag_monitors.hpp"
 #include "simulation/output/rag_output.hpp"
@@ -82,6 +83,7 @@ class Outputs {
   void write_rotor_monitors();
   void write_phase() const;
   void write_wall_monitors();
+  void write_coupling_monitors();
   void write_rags();
   void summarise_rags(Summary& summary) const;
   void summarise_passages(Summary& summary) const;
@@ -102,6 +104,7 @@ class Outputs {
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<WallOutput> walls_;
   std::unique_ptr<RagMonitors> rag_monitors_;
+  std::optional<FreeMotion> free_motion_;    // of the rags
   std::vector<double> elongation_at_start_;  // [n_rags] of the first silhouette, on rank 0; 0: not seen yet
   std::unique_ptr<RagOutput> rag_output_;
   RagForces forces_;  // of the last step
@@ -111,10 +114,15 @@ class Outputs {
   double begun_;                                    // MPI_Wtime()
   Effort effort_before_;                            // up to the checkpoint that was resumed
   std::vector<int> walls_with_y_plus_;              // patches, none without a turbulence model
+  std::vector<int> cells_at_walls_;                 // where rags and computed water meet
   double cross_section_ = 0;                        // of the water, for the scale of a flow rate, m2
 
   // over the whole run, kept by checkpoints: relative, m3/s, relative, m3/s
   double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0, largest_through_ = 0;
+  // The same of the coupling: relative, relative, relative; sums over the steps of |force| on the water, at walls and everywhere, N
+  struct {
+    double width_least = 0, width_largest = 0, solid_fraction = 0, force_at_walls = 0, force = 0;
+  } coupled_;
 };
 
 }  // namespace snag

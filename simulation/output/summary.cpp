@@ -34,6 +34,8 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
 }
 
+nlohmann::ordered_json components(const Vec3& v) { return {v.x, v.y, v.z}; }
+
 nlohmann::ordered_json events_json(const PassageResult& rag) {
   nlohmann::ordered_json events = nlohmann::ordered_json::array();
   for (const auto& event : rag.events)
@@ -54,8 +56,7 @@ nlohmann::ordered_json volute_json(const PassageResult& rag) {
 
 nlohmann::ordered_json tension_json(const PassageResult& rag) {
   if (!rag.max_tension_time) return {};
-  const Vec3& x = rag.max_tension_place;
-  return {{"t_s", *rag.max_tension_time}, {"x_m", {x.x, x.y, x.z}}, {"angle_deg", or_null(rag.max_tension_angle)}};
+  return {{"t_s", *rag.max_tension_time}, {"x_m", components(rag.max_tension_place)}, {"angle_deg", or_null(rag.max_tension_angle)}};
 }
 
 /// Of the pump before, while and after a rag passes; null where it is not known.
@@ -71,6 +72,21 @@ nlohmann::ordered_json passage_json(const PumpPassage& pump) {
   return json;
 }
 
+nlohmann::ordered_json free_motion_json(const FreeMotionResult& free) {
+  return {{"duration_s", free.duration},
+          {"path_m", free.path},
+          {"impulse_N_s", components(free.impulse)},
+          {"mean_force_N", components(free.mean_force())}};
+}
+
+nlohmann::ordered_json coupling_json(const CouplingSummary& coupling) {
+  return {{"kernel_width_m", coupling.kernel_width},
+          {"kernel_width_over_cell_least", coupling.width_over_cell_least},
+          {"kernel_width_over_cell_largest", coupling.width_over_cell_largest},
+          {"max_solid_fraction", coupling.max_solid_fraction},
+          {"force_share_at_walls", or_null(coupling.force_share_at_walls)}};
+}
+
 nlohmann::ordered_json rag_json(const RagSummary& rag) {
   const PassageResult& verdict = rag.verdict;
   return {{"id", rag.id},
@@ -84,6 +100,8 @@ nlohmann::ordered_json rag_json(const RagSummary& rag) {
           {"recirculations", or_null(verdict.recirculations)},
           {"stuck_on_tongue_s", or_null(verdict.stuck_on_tongue)},
           {"stuck_on_impeller_s", or_null(verdict.stuck_on_impeller)},
+          {"first_contact_s", or_null(rag.free_motion.first_contact)},
+          {"before_contact", free_motion_json(rag.free_motion)},
           {"wall_contact_s", verdict.wall_contact},
           {"wall_contact_by_zone_s",
            {{"impeller", verdict.impeller_contact}, {"tongue", or_null(verdict.tongue_contact)}, {"other", verdict.other_contact}}},
@@ -121,6 +139,7 @@ Summary full_summary() {
   Summary full;
   full.pump.emplace();
   full.water.emplace();
+  full.coupling.emplace();
   full.error = "none";
   PassageResult& rag = full.rags.emplace_back().verdict;
   rag.volute.emplace(), rag.max_tension_time = 0;
@@ -181,6 +200,7 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                  {"pump", s.pump ? pump_json(*s.pump) : nlohmann::ordered_json()},
                                  {"rags", rags},
                                  {"water", s.water ? water_json(*s.water) : nlohmann::ordered_json()},
+                                 {"coupling", s.coupling ? coupling_json(*s.coupling) : nlohmann::ordered_json()},
                                  {"conservation",
                                   {{"mass_imbalance_rel", or_null(kept.mass_imbalance)},
                                    {"momentum_exchange_rel", or_null(kept.momentum_exchange)},
@@ -190,6 +210,7 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                    {"particles_beyond_walls", or_null(kept.particles_beyond_walls)}}}};
   if (!s.pump) json.erase("pump");
   if (!s.water) json.erase("water");
+  if (!s.coupling) json.erase("coupling");
   if (!s.error.empty()) json["error"] = s.error;
   return json;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "observe/passage_result.hpp"
+#include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/pump_record.hpp"
 
@@ -18,9 +19,18 @@ struct RagSummary {
   std::string name;
   std::int64_t particles = 0, bonds = 0, broken_bonds = 0;
   PassageResult verdict;
+  FreeMotionResult free_motion;
   PumpPassage pump;
   double elongation_ratio_at_start = 0, elongation_ratio = 0, projected_area = 0, max_wall_overlap_over_radius = 0,
          max_overlap_over_radius = 0, bond_strain_p99 = 0;
+};
+
+/// Of rags in computed water, over the whole run.
+struct CouplingSummary {
+  double kernel_width = 0;  // m; 0: that of one cell
+  double width_over_cell_least = 0, width_over_cell_largest = 0;
+  double max_solid_fraction = 0;
+  std::optional<double> force_share_at_walls;  // of what the rags gave to the water, in cells at walls; absent: they gave nothing
 };
 
 struct WaterSummary {
@@ -46,6 +56,7 @@ struct Summary {
   std::vector<RagSummary> rags;
   std::string error;                  // what ended the run early, empty if nothing did
   std::optional<WaterSummary> water;  // where it is computed
+  std::optional<CouplingSummary> coupling;
   // relative; none where there is nothing to measure: no flow through, no two-way coupling, no interface, no rags
   struct {
     std::optional<double> mass_imbalance, momentum_exchange, interface_closure;

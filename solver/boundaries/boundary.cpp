@@ -118,7 +118,7 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
 void BoundarySet::update(const Flow& flow, double time) {
   for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->respond(flow, mesh_.patches[p], time);
   for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->update(flow, mesh_.patches[p], time, values_);
-  if (!fixes_pressure_) check_net_flux();
+  if (!fixes_pressure_) carry_off_the_rest(), check_net_flux();
 }
 
 BoundaryValues BoundarySet::exchange_for_rest_state() {
@@ -155,18 +155,42 @@ void BoundarySet::restore_state(const std::vector<double>& state) {
   }
 }
 
-void BoundarySet::check_net_flux() const {
-  double net = 0, total = 0;
+BoundarySet::NetFlux BoundarySet::net_flux() const {
+  std::vector<double> out, carried;
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
     if (fixes(static_cast<int>(p)) != PrescribedQuantity::velocity) continue;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const auto b = static_cast<std::size_t>(f - mesh_.n_interior);
+      out.push_back(values_.flux[b]);
       // Also what a wall carries along itself: the fluxes of a drum that turns are round-off of that.
-      net += values_.flux[b], total += std::abs(values_.flux[b]) + norm(values_.velocity[b]) * norm(mesh_.face_vector[f]);
+      carried.push_back(std::abs(values_.flux[b]) + norm(values_.velocity[b]) * norm(mesh_.face_vector[f]));
     }
   }
-  net = sum(mesh_.comm, net), total = sum(mesh_.comm, total);
-  if (std::abs(net) > net_flux_tolerance * total)
+  return {sum(mesh_.comm, std::span<const double>(out)), sum(mesh_.comm, std::span<const double>(carried))};
+}
+
+/// Outlets whose velocity comes from the flow take what is left of the balance, at one speed along their normals.
+void BoundarySet::carry_off_the_rest() {
+  const auto for_each_face = [&](const auto& visit) {
+    for (std::size_t p = 0; p < conditions_.size(); ++p) {
+      const int patch = static_cast<int>(p);
+      if (!is_outlet(patch) || fixes(patch) != PrescribedQuantity::velocity) continue;
+      for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) visit(f, f - mesh_.n_interior);
+    }
+  };
+  std::vector<double> areas;
+  for_each_face([&](int f, int) { areas.push_back(norm(mesh_.face_vector[f])); });
+  const double area = sum(mesh_.comm, std::span<const double>(areas));
+  if (area == 0) return;
+  const double speed = -net_flux().net / area;
+  for_each_face([&](int f, int b) {
+    values_.velocity[b] += speed * unit(mesh_.face_vector[f]), values_.flux[b] += speed * norm(mesh_.face_vector[f]);
+  });
+}
+
+void BoundarySet::check_net_flux() const {
+  const auto [net, carried] = net_flux();
+  if (std::abs(net) > net_flux_tolerance * carried)
     throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + words(net) +
                                      " m3/s) must be zero where no patch fixes the pressure; give one patch kind = \"pressure_outlet\"");
 }

@@ -42,6 +42,8 @@ class Boundary {
   virtual bool pressure_is_prescribed() const { return fixes() == PrescribedQuantity::pressure; }
   /// True where what the water carries has left for good once it is beyond the patch.
   virtual bool is_outlet() const { return fixes() == PrescribedQuantity::pressure; }
+  /// True where the case gives the velocity: not where a condition draws it from the flow that leaves.
+  bool velocity_is_given() const { return fixes() == PrescribedQuantity::velocity && !is_outlet(); }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
   virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
   /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
@@ -87,6 +89,7 @@ class BoundarySet {
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
   bool is_outlet(int patch) const { return conditions_[patch].boundary->is_outlet(); }
+  bool velocity_is_given(int patch) const { return conditions_[patch].boundary->velocity_is_given(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// Of all conditions, s.
@@ -99,6 +102,13 @@ class BoundarySet {
   void restore_state(const std::vector<double>& state);
 
  private:
+  /// Flux out of the domain through the patches that prescribe the velocity, m3/s.
+  struct NetFlux {
+    double net = 0;      // out less in
+    double carried = 0;  // sum of what passes the faces and of what walls carry along themselves: the scale of the round-off
+  };
+  NetFlux net_flux() const;
+  void carry_off_the_rest();
   void check_net_flux() const;
   const Mesh& mesh_;
   std::vector<PatchBoundary> conditions_;  // in the order of the patches

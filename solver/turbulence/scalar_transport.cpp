@@ -17,8 +17,7 @@ std::vector<Side> sides(const Mesh& mesh, const BoundarySet& boundary, Side at_w
   std::vector<Side> sides;
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const int p = static_cast<int>(patch);
-    const bool inlet = boundary.fixes(p) == PrescribedQuantity::velocity && !boundary.is_wall(p);
-    sides.push_back(boundary.is_wall(p) ? at_walls : inlet ? Side::value : Side::slope);
+    sides.push_back(boundary.is_wall(p) ? at_walls : boundary.velocity_is_given(p) ? Side::value : Side::slope);
   }
   return sides;
 }
@@ -38,7 +37,7 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const int p = static_cast<int>(patch);
     open_.push_back(boundary.is_open(p));
-    fixes_velocity_.push_back(boundary.fixes(p) == PrescribedQuantity::velocity);
+    velocity_is_given_.push_back(boundary.velocity_is_given(p));
   }
 }
 
@@ -128,7 +127,7 @@ void ScalarTransport::add_boundary(const ScalarTerms& terms) {
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       if (!enters(p, f)) continue;
       const int P = mesh_.owner[f];
-      const double D = fixes_velocity_[p] ? terms.diffusivity[f] * conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
+      const double D = velocity_is_given_[p] ? terms.diffusivity[f] * conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
       const double in = D - flux_[f];
       diagonal_[P] += in;
       right_side_[P] += in * terms.entering[f - mesh_.n_interior];

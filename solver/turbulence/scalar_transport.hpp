@@ -72,7 +72,7 @@ class ScalarTransport {
   bool enters(std::size_t patch, int f) const { return open_[patch] && flux_[f] < 0; }
 
   const Mesh& mesh_;
-  std::vector<bool> open_, fixes_velocity_;  // of each patch: fluid may pass; by a given velocity
+  std::vector<bool> open_, velocity_is_given_;  // of each patch: fluid may pass; by a given velocity
   LeastSquares squares_;
   CellMatrix matrix_;
   TimeScheme time_;

@@ -30,6 +30,85 @@ y = ["rags.0.particles", "rags.0.elongation_ratio"]
 NAMES = ["radius_mm-1_length-100_mm", "radius_mm-1_length-120_mm", "radius_mm-1.25_length-100_mm", "radius_mm-1.25_length-120_mm"]
 
 
+# A sphere falls through still water with drag: its path in 0.2 s depends on the step only where the step is long.
+FALL = """
+[case]
+name = "fall"
+[time]
+end_s = 0.2
+step_ms = 1
+[flow]
+kind = "prescribed"
+density_kg_m3 = 1000
+dynamic_viscosity_Pa_s = {viscosity}
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[[particle]]
+diameter_mm = 2
+density_kg_m3 = 3000
+[coupling]
+mode = "one_way"
+forces = ["schiller_naumann"]
+[output]
+report = false
+"""
+PLATEAU = """
+[study]
+name = "fall"
+case = "fall.toml"
+results = ["rags.0.before_contact.path_m"]
+[[vary]]
+key = "coupling.forces"
+name = "drag"
+texts = ['["schiller_naumann"]', '["{other}"]']
+[[vary]]
+key = "time.step_ms"
+name = "step"
+values = [1, 2.5, 5, 10, 200]
+[plateau]
+x = "step"
+results = ["rags.0.before_contact.path_m"]
+tolerance = {tolerance}
+{more}
+"""
+
+
+class Plateau(harness.CaseTest):
+    def study(self, other="haider_levenspiel", tolerance=0.05, more="", code=0):
+        self.case(FALL.format(viscosity=0.1), "fall")
+        (self.work / "fall.toml").write_text(FALL.format(viscosity=0.1))
+        (self.work / "study.toml").write_text(PLATEAU.format(other=other, tolerance=tolerance, more=more))
+        out = self.work / f"out-{other}-{bool(more)}"
+        run = harness.snag(["study", self.work / "study.toml", "--out", out], 1, out)
+        self.assertEqual(run.code, code, run.tail())
+        return run, json.loads((out / "plateau.json").read_text()) if code == 0 else None
+
+    def test_found(self):
+        run, plateau = self.study()
+        self.assertTrue(plateau["found"], plateau)
+        self.assertEqual(plateau["window"]["to"], 10)
+        self.assertEqual((plateau["window"]["from"], plateau["recommended"], plateau["unit"]), (1, 2.5, "ms"))
+        self.assertLess(plateau["window"]["deviation"], 0.05)
+        self.assertIn(plateau["words"], run.stdout)
+        page = (run.folder / "study.html").read_text()
+        self.assertIn("<h2>Plateau</h2>", page)
+        self.assertIn("Use step", page)
+        largest = self.study(more='recommend = "largest"')[1]
+        self.assertEqual(largest["recommended"], plateau["window"]["to"])
+
+    def test_refused(self):
+        """Two laws of drag that differ are no numerical choice: no step is recommended, unless the study says that they are physical."""
+        run, plateau = self.study("cylinder_segments", tolerance=0.01)
+        self.assertFalse(plateau["found"], plateau)
+        self.assertIsNone(plateau["recommended"])
+        self.assertIn("no recommendation", run.stdout)
+        self.assertTrue(self.study("cylinder_segments", 0.01, 'physical = ["drag"]')[1]["found"])
+
+    def test_words_of_errors(self):
+        for more, words in (('physical = ["force"]', 'physical has "force", which is no name of a [[vary]]; there are: drag, step'), ("n_least = 1", "n_least")):
+            self.assertIn(words, self.study(more=more, code=2)[0].stderr)
+
+
 class Study(harness.CaseTest):
     def study(self, text="", ranks=2, code=0, out="study"):
         self.case(TWO_SHEETS)

@@ -328,6 +328,22 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
 }
 
+// Requirement: a one-way case says which inertia of its sheets it leaves out; threads, spheres and two-way cases have no such line.
+TEST(CouplingSettings, NamesTheInertiaThatOneWayLeavesOut) {
+  std::vector<Rag> rags(1);
+  rags[0].name = "cloth", rags[0].radius = 2e-3, rags[0].n_columns = 75, rags[0].n_rows = 55, rags[0].n_particles = 75 * 55,
+  rags[0].mass = 1e-5;
+  const auto lines = [&](const std::string& mode) {
+    return left_out_added_mass(read_coupling(CaseFile::parse("[coupling]\nmode = \"" + mode + "\"\n").root()), rags);
+  };
+  ASSERT_EQ(lines("one_way").size(), 1u);
+  EXPECT_NE(lines("one_way")[0].find("\"cloth\" (41.2 g)"), std::string::npos) << lines("one_way")[0];
+  EXPECT_NE(lines("one_way")[0].find("up to 11.4 L of water"), std::string::npos) << lines("one_way")[0];  // pi/4 2.2^2 3 dm3
+  EXPECT_TRUE(lines("two_way").empty());
+  rags[0].n_rows = 1;
+  EXPECT_TRUE(lines("one_way").empty());
+}
+
 // Requirement: every key of the coupling is in the manual's sections.
 TEST(CouplingSettings, SectionsHoldEveryModel) {
   const auto sections = coupling_sections();

@@ -1,0 +1,71 @@
+// Outlet through which the flow leaves as a pattern that moves on:
+//
+//   du/dt + U du/dn = 0        U: mean speed out through the patch, m/s
+//   u(x, t + dt) = u_P + grad u_P . (x - s n - x_P)      along its characteristic from the fluid at t; second order in cells and steps
+//   s = U dt up to 2 l, then 4 l - U dt, at least l      l = (x - x_P).n: within the cell; larger steps lag
+//   Du/Dt = grad u_P . (u - U n)                         for the slope of the pressure, grad u_P extrapolated to t + dt; first order in
+//   cells
+//
+// Steps in which the stream crosses more than three cells may diverge.
+//
+// What the patches with a given velocity bring in leaves here (BoundarySet::update): a uniform speed along the normal closes the balance.
+// Eddies leave with little reflection, where a pressure_outlet flattens the pressure across them. Source: I. Orlanski, A simple boundary
+// condition for unbounded hyperbolic flows, J. Comput. Phys. 21 (1976) 251, with U the mean speed.
+#include <algorithm>
+
+#include "parallel/sum.hpp"
+#include "solver/boundaries/boundary.hpp"
+
+namespace snag {
+namespace {
+
+struct ConvectiveOutlet final : Boundary {
+  static constexpr const char* name = "convective_outlet";
+  double speed = 0;  // U
+  double dt = 0;     // of the step; 0 at a start
+  double ratio = 0;  // of the step to the last one; 0 without one
+
+  Section section() override {
+    return {.name = name,
+            .meaning =
+                "The flow leaves as it comes, carried on at the mean speed; eddies pass with little reflection. The pressure "
+                "level is free: no other patch needs to give it, and none may be needed to (no target_flow_rate).",
+            .parameters = {}};
+  }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
+  bool is_outlet() const override { return true; }
+
+  void respond(const Flow& flow, const Patch& patch, double time) override {
+    dt = time - flow.time;
+    ratio = dt > 0 && flow.time_step > 0 ? dt / flow.time_step_size : 0;
+    std::vector<double> out, area;
+    for (int f = patch.first; f < patch.end(); ++f) {
+      // At a start no flux is known: that of the fluid at the patch.
+      const Vec3& S = flow.mesh.face_vector[f];
+      out.push_back(dt > 0 ? flow.flux_old[f] : dot(flow.velocity[flow.mesh.owner[f]], S));
+      area.push_back(norm(S));
+    }
+    const double total = sum(flow.mesh.comm, std::span<const double>(area));
+    speed = total > 0 ? std::max(0.0, sum(flow.mesh.comm, std::span<const double>(out)) / total) : 0;
+  }
+
+  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
+    const Mesh& mesh = flow.mesh;
+    const auto& u = dt > 0 ? flow.velocity_old : flow.velocity;
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const int P = mesh.owner[f], b = f - mesh.n_interior;
+      const Vec3 n = unit(mesh.face_vector[f]);
+      const Mat3 &G = flow.velocity_gradient[P], &G_old = flow.velocity_gradient_old[P];
+      const Vec3 d = mesh.face_centre[f] - mesh.cell_centre[P];
+      const double l = dot(d, n), way = speed * dt, s = way <= 2 * l ? way : std::max(l, 4 * l - way);
+      values.velocity[b] = u[P] + G * (d - s * n);
+      values.flux[b] = dot(values.velocity[b], mesh.face_vector[f]);
+      const Vec3 passing = values.velocity[b] - speed * n;
+      values.acceleration[b] = G * passing + ratio * (G * passing - G_old * passing);
+    }
+  }
+};
+const bool registered = boundaries().add<ConvectiveOutlet>();
+
+}  // namespace
+}  // namespace snag
