@@ -152,19 +152,23 @@ class Examples(harness.CaseTest):
         (self.work / "cases").mkdir(exist_ok=True)
         copy = shutil.copytree(case.parent, self.work / "cases" / case.parent.name)
         (copy / "pump.toml").write_text(pump.read_text().replace('"medium"', '"coarse"'))
-        return copy / "case.toml"
+        return copy / case.name
+
+    def studies(self):
+        return sorted((harness.SOURCE_DIR / "cases").glob("*/*study.toml"))
 
     def test_cases(self):
         # Particles of 2 mm make the poses quick, and change nothing that a check of keys, mesh and conditions sees.
-        for case in sorted((harness.SOURCE_DIR / "cases").glob("*/case.toml")):
+        studied = {(study.parent / tomllib.loads(study.read_text())["study"]["case"]).resolve() for study in self.studies()}
+        for case in sorted(studied | set((harness.SOURCE_DIR / "cases").glob("*/case.toml"))):
             words = ["check", self.checkable(case)] + (["--set", "rag.0.radius_mm=2"] if "confined" in case.read_text() else [])
             run = harness.snag(words)
-            self.assertEqual(run.code, 0, f"{case.parent.name}\n{run.tail()}")
+            self.assertEqual(run.code, 0, f"{case.parent.name}/{case.name}\n{run.tail()}")
 
     def test_studies(self):
-        for study in sorted((harness.SOURCE_DIR / "cases").glob("*/study.toml")):
+        for study in self.studies():
             run = harness.snag(["study", study, "--dry-run"])
-            self.assertEqual(run.code, 0, f"{study.parent.name}\n{run.tail()}")
+            self.assertEqual(run.code, 0, f"{study.parent.name}/{study.name}\n{run.tail()}")
 
 
 if __name__ == "__main__":
