@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 std::string percent(double share) {
   if (!std::isfinite(share)) return "more than the mean itself (which is 0)";
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
   return text;
 }
 
