@@ -1,10 +1,11 @@
-// The nearest point of a triangle a b c to x: the foot of x on its plane where that lies inside, else the nearest of its three edges.
+// A tree of boxes round the triangles of the walls: a box farther away than the nearest point found so far is not looked into.
 #include "mesh/wall_distance.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
+#include "mesh/triangle.hpp"
 #include "mesh/wall_surface.hpp"
 
 namespace snag {
@@ -13,24 +14,6 @@ namespace {
 
 constexpr int leaf_size = 4;  // triangles of a box that is not divided
 constexpr double far_away = std::numeric_limits<double>::infinity();
-
-Vec3 nearest_on_edge(const Vec3& a, const Vec3& b, const Vec3& x) {
-  const Vec3 way = b - a;
-  const double length2 = norm_squared(way);
-  return a + (length2 > 0 ? std::clamp(dot(x - a, way) / length2, 0.0, 1.0) : 0.0) * way;
-}
-
-Vec3 nearest_on_triangle(const WallTriangle& triangle, const Vec3& x) {
-  const auto& [a, b, c] = triangle.node;
-  const Vec3& n = triangle.normal;
-  const auto inside = [&](const Vec3& from, const Vec3& to) { return dot(cross(to - from, x - from), n) >= 0; };
-  if (inside(a, b) && inside(b, c) && inside(c, a)) return x - dot(x - a, n) * n;
-  Vec3 best;
-  double best2 = far_away;
-  for (const Vec3& point : {nearest_on_edge(a, b, x), nearest_on_edge(b, c, x), nearest_on_edge(c, a, x)})
-    if (const double d2 = norm_squared(x - point); d2 < best2) best = point, best2 = d2;
-  return best;
-}
 
 double distance_squared(const Vec3& lower, const Vec3& upper, const Vec3& x) {
   double d2 = 0;
@@ -84,7 +67,7 @@ WallPoint WallTree::nearest(const Vec3& place) const {
     const Box& box = boxes_[b];
     if (box.right == 0) {
       for (int i = box.first; i < box.end; ++i) {
-        const Vec3 point = nearest_on_triangle(triangles_[order_[i]], place);
+        const Vec3 point = nearest_point(triangles_[order_[i]].node, place).point;
         if (const double d2 = norm_squared(place - point); d2 < best2) best = point, best2 = d2;
       }
       continue;

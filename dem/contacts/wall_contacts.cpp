@@ -159,7 +159,7 @@ void WallContacts::find_touches(const Particle& p, int b) {
 
 /// True if an edge or corner belongs to a nearer triangle, or the direction is nearly that of a contact that acts.
 bool WallContacts::repeats(const Touch& touch, std::size_t before) const {
-  if (touch.feature != WallFeature::face) {
+  if (touch.feature != TriangleFeature::face) {
     for (std::size_t i = 0; i < before; ++i) {
       if (touches_[i].body != touch.body || walls_->bodies()[touch.body].triangles.empty()) continue;
       const std::array<int, 3>& nodes = surfaces_[touch.body].nodes(touches_[i].triangle);

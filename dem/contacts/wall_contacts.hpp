@@ -70,7 +70,7 @@ class WallContacts {
     double distance = 0;  // m, negative beyond the wall
     Vec3 direction;       // fixed frame
     int body = 0, triangle = 0;
-    WallFeature feature = WallFeature::face;
+    TriangleFeature feature = TriangleFeature::face;
     std::array<int, 2> node{-1, -1};
   };
   struct Particle {  // the one at work

@@ -11,25 +11,6 @@ namespace {
 constexpr double most_fine_voxels = 8e6;  // 32 MB of starts of lists
 }
 
-NearestPoint nearest_point(const std::array<Vec3, 3>& node, const Vec3& centre) {
-  const Vec3 &a = node[0], &b = node[1], &c = node[2];
-  const Vec3 ab = b - a, ac = c - a, ap = centre - a, bp = centre - b, cp = centre - c;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {a, WallFeature::corner, 0};
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {b, WallFeature::corner, 1};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {a + d1 / (d1 - d3) * ab, WallFeature::edge, 0};
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {c, WallFeature::corner, 2};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {a + d2 / (d2 - d6) * ac, WallFeature::edge, 2};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) return {b + (d4 - d3) / (d4 - d3 + (d5 - d6)) * (c - b), WallFeature::edge, 1};
-  const double scale = 1 / (va + vb + vc);
-  return {a + vb * scale * ab + vc * scale * ac, WallFeature::face, 0};
-}
-
 VoxelGrid::VoxelGrid(const std::vector<WallTriangle>& triangles, double reach, double width, double most_voxels)
     : width_(width), reach_(reach) {
   Vec3 lower{infinity, infinity, infinity}, upper = -lower;
@@ -144,10 +125,10 @@ void TriangleSurface::add_corner_normals() {
 TriangleDistance TriangleSurface::distance(int triangle, const Vec3& centre) const {
   const Triangle& t = triangles_[triangle];
   const NearestPoint nearest = nearest_point(t.node, centre);
-  if (nearest.feature == WallFeature::face) return {dot(centre - t.node[0], t.normal), t.normal, WallFeature::face, {-1, -1}};
+  if (nearest.feature == TriangleFeature::face) return {dot(centre - t.node[0], t.normal), t.normal, TriangleFeature::face, {-1, -1}};
   Vec3 outlook;  // normal into the fluid of the edge or corner; zero where the surface ends
   std::array<int, 2> node{t.node_index[nearest.place], -1};
-  if (nearest.feature == WallFeature::edge) {
+  if (nearest.feature == TriangleFeature::edge) {
     node[1] = t.node_index[(nearest.place + 1) % 3];
     if (t.neighbour[nearest.place] >= 0) outlook = t.normal + triangles_[t.neighbour[nearest.place]].normal;
   } else {

@@ -12,26 +12,16 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "mesh/triangle.hpp"
 #include "mesh/wall_surface.hpp"
 
 namespace snag {
-
-enum class WallFeature { face, edge, corner };
-
-struct NearestPoint {
-  Vec3 point;
-  WallFeature feature = WallFeature::face;
-  int place = 0;  // the edge from node `place` to the next, or the corner `place`
-};
-
-/// Nearest point of a triangle (Ericson 2005, section 5.1.5).
-NearestPoint nearest_point(const std::array<Vec3, 3>& node, const Vec3& centre);
 
 /// What a centre sees of one triangle.
 struct TriangleDistance {
   double distance = 0;  // m, to the nearest point; negative where the centre is beyond the wall
   Vec3 direction;       // unit, from the wall into the fluid, along the line of nearest point and centre
-  WallFeature feature = WallFeature::face;
+  TriangleFeature feature = TriangleFeature::face;
   std::array<int, 2> node{-1, -1};  // of the edge or corner
 };
 

@@ -117,17 +117,7 @@ std::vector<Facet> SlidingInterface::facets(double angle) const {
   return result;
 }
 
-Mat3 SlidingInterface::rotation(double angle) const {
-  const Mat3& e = surface_->frame.axes;
-  Mat3 result;
-  for (int column = 0; column < 3; ++column) {
-    Vec3 axis;
-    axis[column] = 1;
-    const Vec3 image = surface_->frame.vector_from(turned(e * axis, reduced(angle)));
-    for (int i = 0; i < 3; ++i) result[static_cast<std::size_t>(i)][column] = image[i];
-  }
-  return result;
-}
+Mat3 SlidingInterface::rotation(double angle) const { return snag::rotation(unit(description_.axis), reduced(angle)); }
 
 Vec3 SlidingInterface::turned_point(const Mat3& rotation, const Vec3& point) const {
   return description_.origin + rotation * (point - description_.origin);

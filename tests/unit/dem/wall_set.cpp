@@ -55,10 +55,10 @@ TEST(WallTriangles, NearestPointIsNearest) {
         ASSERT_LE(norm(nearest.point - c),
                   norm(node[0] + i / 20.0 * (node[1] - node[0]) + j / 20.0 * (node[2] - node[0]) - c) * (1 + 1e-12));
     const Vec3 a = node[nearest.place], b = node[(nearest.place + 1) % 3];
-    if (nearest.feature == WallFeature::corner) {
+    if (nearest.feature == TriangleFeature::corner) {
       EXPECT_EQ(norm(nearest.point - a), 0);
     }
-    if (nearest.feature == WallFeature::edge) {
+    if (nearest.feature == TriangleFeature::edge) {
       EXPECT_LE(norm(cross(nearest.point - a, unit(b - a))), 1e-12);
     }
   }
@@ -95,7 +95,7 @@ TEST(WallTriangles, SidesOfASolid) {
   const TriangleSurface surface(solid.triangles, 0.5, 0.6);
   for (int k = 0; k < 5000; ++k) {
     const Vec3 x = Vec3{0.5, 1, 1.5} + Vec3{random_vector(0.95).x, random_vector(1.45).y, random_vector(1.95).z};
-    TriangleDistance nearest{infinity, {}, WallFeature::face, {}};
+    TriangleDistance nearest{infinity, {}, TriangleFeature::face, {}};
     for (int t : surface.near(x)) {
       const TriangleDistance seen = surface.distance(t, x);
       if (std::abs(seen.distance) < std::abs(nearest.distance)) nearest = seen;
