@@ -48,15 +48,29 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
 }
 
 void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
+  mesh_.halo.exchange(flow.pressure);
+  pressure_gradient(flow.pressure, boundary, boundary.values().pressure, flow.boundary_pressure, flow.pressure_gradient);
+}
+
+void Continuity::restore_facet_pressure(const Flow& flow, const BoundarySet& boundary) {
+  std::vector<double> at_boundary = flow.boundary_pressure;
+  std::vector<Vec3> gradient = flow.pressure_gradient;
+  pressure_gradient(flow.pressure, boundary, flow.boundary_pressure, at_boundary, gradient);
+}
+
+/// Gauss gradient of a pressure whose ghosts are up to date, with the `fixed` values where the boundary fixes it; fills the values at the
+/// boundary and at facets.
+void Continuity::pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
+                                   std::vector<double>& at_boundary, std::vector<Vec3>& gradient) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int b = f - mesh_.n_interior;
-      given_[b] = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure ? boundary.values().pressure[b] : wall_slope[b];
+      given_[b] = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure ? fixed[b] : wall_slope[b];
     }
-  mesh_.halo.exchange(flow.pressure);
-  squares_.gradient(mesh_.weight, flow.pressure, given_, slope_);
-  fill_boundary(mesh_, squares_, flow.pressure, slope_, given_, flow.boundary_pressure);
-  gauss_gradient(mesh_, squares_, mesh_.weight, flow.pressure, flow.boundary_pressure, slope_, flow.pressure_gradient);
+  facet_pressure_.resize(static_cast<std::size_t>(mesh_.n_interior - mesh_.first_facet));
+  squares_.gradient(mesh_.weight, pressure, given_, slope_);
+  fill_boundary(mesh_, squares_, pressure, slope_, given_, at_boundary);
+  gauss_gradient(mesh_, squares_, mesh_.weight, pressure, at_boundary, slope_, gradient, facet_pressure_);
 }
 
 void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary) {
@@ -259,9 +273,11 @@ void Continuity::correct_flux(std::vector<double>& flux) {
 void Continuity::correct_cells(Flow& flow, bool with_pressure) {
   squares_.gradient(mesh_.weight, correction_, given_, slope_);
   fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
-  gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_);
+  facet_correction_.resize(static_cast<std::size_t>(mesh_.n_interior - mesh_.first_facet));
+  gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_, facet_correction_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_ * gradient_[c];
   if (!with_pressure) return;
+  for (std::size_t i = 0; i < facet_correction_.size(); ++i) facet_pressure_[i] += facet_correction_[i];
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.pressure[c] += correction_[c], flow.pressure_gradient[c] += gradient_[c];
   for (std::size_t b = 0; b < boundary_correction_.size(); ++b) flow.boundary_pressure[b] += boundary_correction_[b];
 }

@@ -45,6 +45,11 @@ class Continuity {
   /// Take the divergence out of a guessed flux, [n_faces], relative to the mesh, to the intermediate tolerance. Collective.
   void close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time);
 
+  /// Pressure at the facets of the sliding interface in the Gauss gradient, [n_interior - first_facet], Pa.
+  const std::vector<double>& facet_pressure() const { return facet_pressure_; }
+  /// The same from flow.pressure as it stands (a resume); the flow stays. Collective.
+  void restore_facet_pressure(const Flow& flow, const BoundarySet& boundary);
+
   FluxHistory history;
   std::vector<double>
       wall_slope;  // dp/dn in force where velocity is fixed or at a symmetry, [n_faces - n_interior], Pa/m; kept in the checkpoint
@@ -57,6 +62,8 @@ class Continuity {
 
  private:
   static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b);
+  void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
+                         std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
   void give_boundary(const Flow& flow, const BoundarySet& boundary);
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
@@ -82,6 +89,7 @@ class Continuity {
   std::vector<double> given_, boundary_correction_;  // p' or its slope at the boundary as given; p' there
   std::vector<Vec3> slope_, gradient_;               // of p': least squares, Gauss
   std::vector<double> imbalance_, right_side_;
+  std::vector<double> facet_pressure_, facet_correction_;  // [n_interior - first_facet], p and p'
 };
 
 }  // namespace snag

@@ -83,12 +83,16 @@ StepReport FlowSolver::advance(double dt) {
   begin_step(time_, report);
   const int n_outer =
       flow.time_step_size > 0 ? settings_.n_outer_correctors : std::max(settings_.n_outer_correctors, first_step_correctors);
-  for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, time_, report);
+  for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, outer + 1 == n_outer, time_, report);
   continuity_.history.end_step(flow, momentum_.gradient_guess());
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
   measure(dt, report);
   report.seconds_rest = seconds() - begun - report.seconds_momentum - report.seconds_pressure - report.seconds_turbulence;
   return report;
+}
+
+void FlowSolver::keep_balances(const Vec3& origin, const Vec3& axis) {
+  balances_.emplace(flow.mesh, origin, axis, rotating_zone_ ? rotating_zone_->zone() : -1);
 }
 
 void FlowSolver::advance_frozen(double dt) {
@@ -177,11 +181,13 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   turbulence_->begin_step(flow, time);
 }
 
-void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& report) {
+void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, StepReport& report) {
   OuterReport& did = report.outer.emplace_back();
   const double begun = seconds();
   if (outer > 0) momentum_.guess_from_last(flow);
+  if (is_last && balances_) balances_->take_guess(flow);
   did.momentum = momentum_.predict(flow, boundary_, time);
+  if (is_last && balances_) balances_->take_prediction(flow);
   if (!(did.momentum.final <= exploded))
     watch_.fail(flow, boundary_, time.dt, "the momentum equation has a residual of " + scientific(did.momentum.final));
   if (!did.momentum.converged)
@@ -195,6 +201,7 @@ void FlowSolver::correct_once(int outer, const TimeScheme& time, StepReport& rep
     throw;
   }
   const double corrected = seconds();
+  if (is_last && balances_) balances_->close(momentum_, flow, boundary_, time, continuity_.facet_pressure());
   update_gradient();
   report.seconds_momentum += predicted - begun, report.seconds_pressure += corrected - predicted;
   correct_turbulence(outer, time, report);

@@ -1,8 +1,10 @@
 #pragma once
 // The flow solver: one time step of the incompressible equations of solver/fields/flow.hpp on any mesh.
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "solver/balances.hpp"
 #include "solver/boundaries/boundary.hpp"
 #include "solver/continuity.hpp"
 #include "solver/divergence.hpp"
@@ -65,6 +67,10 @@ class FlowSolver {
   /// Force per time that the rags gave to the water in the last step: sum V (reaction - drag u) with the velocity at its end, N.
   Vec3 momentum_given() const;
   MomentumBalance momentum_balance() const;
+  /// From the next step on balances() are made, of the cells that turn and of the rest, about the axis. Collective.
+  void keep_balances(const Vec3& origin, const Vec3& axis);
+  /// Of angular momentum and of energy in the last step; null if they are not kept.
+  const Balances* balances() const { return balances_ ? &*balances_ : nullptr; }
 
   /// Everything a resume needs; the same numbers to the bit on the same ranks. Names begin with "flow/".
   void save(CheckpointWriter& checkpoint) const;
@@ -74,6 +80,7 @@ class FlowSolver {
   bool go_on_from(CheckpointReader& checkpoint);
 
   const BoundarySet& boundary() const { return boundary_; }
+  const Turbulence& turbulence() const { return *turbulence_; }
   /// Lets the bounds on the water know what the conditions will give until `end`, s.
   void foresee(double end) { watch_.foresee(flow, boundary_, end); }
   /// Bounds on the water; whoever puts moving bodies into it widens them.
@@ -85,7 +92,7 @@ class FlowSolver {
   void begin_step(const TimeScheme& time, StepReport& report);
   void turn_mesh(double time);
   void fields_follow_facets();
-  void correct_once(int outer, const TimeScheme& time, StepReport& report);
+  void correct_once(int outer, bool is_last, const TimeScheme& time, StepReport& report);
   void update_gradient();
   void measure(double dt, StepReport& report);
   void correct_turbulence(int outer, const TimeScheme& time, StepReport& report);
@@ -100,6 +107,7 @@ class FlowSolver {
   std::unique_ptr<Turbulence> turbulence_;
   std::unique_ptr<RotatingZone> rotating_zone_;
   DivergenceWatch watch_;
+  std::optional<Balances> balances_;
   TimeScheme time_;
   bool started_ = false;
 };

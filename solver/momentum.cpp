@@ -160,18 +160,20 @@ void Momentum::limit(const Flow& flow) {
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
   start_rows(flow, time);
-  scheme_->add_interior({.flow = flow,
-                         .flux = flux_,
-                         .gradient = gradient_,
-                         .psi = psi_,
-                         .in_corner = in_corner_,
-                         .matrix = matrix_,
-                         .diagonal = diagonal_,
-                         .right_side = right_side_});
+  scheme_->add_interior(inputs(flow, flow.velocity), {matrix_, diagonal_, right_side_});
   add_boundary(flow, boundary);
   const auto report = solve_rows<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
   record_boundary(flow, boundary);
   return report;
+}
+
+FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess) const {
+  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = gradient_, .psi = psi_, .in_corner = in_corner_};
+}
+
+void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
+                      std::span<MomentumFlux> flux) const {
+  scheme_->fluxes(inputs(flow, guess), predicted, first, flux);
 }
 
 void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {

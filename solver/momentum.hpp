@@ -6,6 +6,7 @@
 // In a turning frame - rho omega x u is added, with the guess of u.
 // a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
 #include <memory>
+#include <span>
 #include <string>
 
 #include "solver/boundaries/boundary.hpp"
@@ -18,6 +19,8 @@ namespace snag {
 
 class ConvectionScheme;
 class Limiter;
+struct FaceInputs;
+struct MomentumFlux;
 
 struct MomentumSettings {
   std::string convection;  // name of a scheme (solver/convection/convection.hpp)
@@ -47,6 +50,12 @@ class Momentum {
   /// Collective.
   SweepReport predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
 
+  /// Momentum through the interior faces first, first + 1 ... as it stood in the equation: `guess` is the velocity before predict(),
+  /// `predicted` that behind it. Local.
+  void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
+              std::span<MomentumFlux> flux) const;
+  /// The convecting flux in force, relative to the mesh, [n_faces], m3/s.
+  const std::vector<double>& convecting_flux() const { return flux_; }
   /// Gradient of velocity for the explicit terms, [n_all_cells], 1/s.
   const std::vector<Mat3>& gradient_guess() const { return gradient_; }
   /// Rates of convection and of diffusion times the volume, [2 n_all_cells], m3/s.
@@ -58,6 +67,7 @@ class Momentum {
   void set_rates(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
+  FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess) const;
   void start_rows(const Flow& flow, const TimeScheme& time);
   void add_boundary(Flow& flow, const BoundarySet& boundary);
   void record_boundary(Flow& flow, const BoundarySet& boundary) const;

@@ -15,7 +15,7 @@
 
 namespace snag {
 
-/// What a scheme takes the value at a face from; as in InteriorFaces.
+/// What a scheme takes the value at a face from; as in FaceInputs.
 struct ConvectedVelocity {
   const Mesh& mesh;
   std::span<const Vec3> u;    // m/s
@@ -23,15 +23,25 @@ struct ConvectedVelocity {
   std::span<const Vec3> psi;  // 1
 };
 
-/// The interior faces of the momentum equation: what they read, and the rows that they add to.
-struct InteriorFaces {
-  const Flow& flow;                            // density, viscosity of the faces, guess of the velocity
+/// What the interior faces of the momentum equation read.
+struct FaceInputs {
+  const Flow& flow;                            // density, viscosity of the faces
+  const std::vector<Vec3>& guess;              // of the velocity, [n_all_cells], m/s
   const std::vector<double>& flux;             // F, relative to the mesh, [n_faces], m3/s
   const std::vector<Mat3>& gradient;           // G of the guess, [n_all_cells], 1/s
   const std::vector<Vec3>& psi;                // factor of each row of G by the limiter, [n_all_cells]; 1 where the scheme takes none
   const std::vector<std::uint8_t>& in_corner;  // [n_all_cells] 1 for cells that take no explicit viscous stress
-  CellMatrix& matrix;                          // kg/s
-  std::vector<Vec3>&diagonal, &right_side;     // [n_all_cells], kg/s and N
+};
+
+/// The rows that they add to.
+struct MomentumRows {
+  CellMatrix& matrix;                       // kg/s
+  std::vector<Vec3>&diagonal, &right_side;  // [n_all_cells], kg/s and N
+};
+
+/// Momentum that passes an interior face from the owner to the neighbour, N: carried by the water, and by friction.
+struct MomentumFlux {
+  Vec3 convection, friction;
 };
 
 /// What a scheme is, for the manual.
@@ -49,7 +59,9 @@ class ConvectionScheme {
   /// True if no value at a face lies beyond those of the cells around it; of a limited scheme: with a limiter that bounds.
   virtual bool is_bounded() const = 0;
   /// Convection and diffusion through the interior faces. Local.
-  virtual void add_interior(const InteriorFaces& faces) const = 0;
+  virtual void add_interior(const FaceInputs& faces, const MomentumRows& rows) const = 0;
+  /// The same as fluxes of the faces first, first + 1 ... with the solution u of the rows, [n_all_cells]. Local.
+  virtual void fluxes(const FaceInputs& faces, const std::vector<Vec3>& u, int first, std::span<MomentumFlux> flux) const = 0;
 };
 
 Registry<ConvectionScheme>& convection_schemes();

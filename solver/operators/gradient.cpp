@@ -227,8 +227,9 @@ inline double lacking(const Mesh& mesh, int c, const Vec3& S, std::span<const Ve
   return dot(mesh.cell_volume[c] * slope[c] - g[c], S) / norm_squared(S);
 }
 
-/// Values at skew faces, changed in g: all from the sums before, so that their order does not matter.
-void close_skew_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::vector<Vec3>& g) {
+/// Values at skew faces, changed in g and `facets`: all from the sums before, so that their order does not matter.
+void close_skew_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::vector<Vec3>& g,
+                      std::span<double> facets) {
   if (!squares.skew_anywhere()) return;
   exchange(mesh, g);
   std::vector<double> change;
@@ -241,6 +242,7 @@ void close_skew_faces(const Mesh& mesh, const LeastSquares& squares, std::span<c
     const int f = squares.skew_faces()[i];
     g[mesh.owner[f]] += change[i] * mesh.face_vector[f];
     g[mesh.neighbour[f]] -= change[i] * mesh.face_vector[f];
+    if (f >= mesh.first_facet && !facets.empty()) facets[static_cast<std::size_t>(f - mesh.first_facet)] += change[i];
   }
 }
 
@@ -258,7 +260,7 @@ void close_aslant_faces(const Mesh& mesh, const LeastSquares& squares, std::span
 }  // namespace
 
 void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
-                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g) {
+                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets) {
   std::fill(g.begin(), g.end(), Vec3{});
   for (int f = 0; f < mesh.n_interior; ++f) {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
@@ -266,12 +268,13 @@ void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<con
     // From the point on the line of centres that the weight stands for to the face centre.
     const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (1 - w) * mesh.delta[f];
     const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(way, blend(w, slope[P], slope[N]));
+    if (f >= mesh.first_facet && !facets.empty()) facets[static_cast<std::size_t>(f - mesh.first_facet)] = phi_f;
     const Vec3 term = phi_f * mesh.face_vector[f];
     g[P] += term;
     g[N] -= term;
   }
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
-  close_skew_faces(mesh, squares, slope, g);
+  close_skew_faces(mesh, squares, slope, g, facets);
   close_aslant_faces(mesh, squares, slope, boundary, g);
   for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
   exchange(mesh, g);

@@ -82,8 +82,9 @@ void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<cons
                    std::span<const double> given, std::span<double> values);
 
 /// Gauss gradient from least-squares gradients `slope` and boundary values, which change at aslant faces; `weight` of the owner's value at
-/// interior faces (mesh.weight, or another); `slope`, `g` [n_all_cells], ghosts filled. Collective.
+/// interior faces (mesh.weight, or another); `slope`, `g` [n_all_cells], ghosts filled. `facets`, where it is given: the values at the
+/// facets, [n_interior - first_facet]. Collective.
 void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
-                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g);
+                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets = {});
 
 }  // namespace snag

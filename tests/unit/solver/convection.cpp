@@ -1,6 +1,7 @@
 // Every convection scheme and every limiter of the registries is held to the same rules; a new file of their folders is tested without a
 // line here.
 #include <gtest/gtest.h>
+#include <array>
 
 #include <random>
 
@@ -62,19 +63,16 @@ Vec3 value_at_face(const ConvectionScheme& scheme, const Mesh& mesh, const Guess
   std::vector<double> fluxes(static_cast<std::size_t>(mesh.n_faces));
   fluxes[f] = flux;
   const std::vector<std::uint8_t> in_corner(n);
-  flow.velocity = guess.u;
-  scheme.add_interior({.flow = flow,
-                       .flux = fluxes,
-                       .gradient = guess.G,
-                       .psi = guess.psi,
-                       .in_corner = in_corner,
-                       .matrix = matrix,
-                       .diagonal = diagonal,
-                       .right_side = right_side});
+  const FaceInputs inputs{.flow = flow, .guess = guess.u, .flux = fluxes, .gradient = guess.G, .psi = guess.psi, .in_corner = in_corner};
+  scheme.add_interior(inputs, {matrix, diagonal, right_side});
   const int P = mesh.owner[f], N = mesh.neighbour[f];
   const Vec3 out = diagonal[P].x * guess.u[P] + matrix.value[matrix.place_of_owner[f]] * guess.u[N] - right_side[P];
   const Vec3 in = diagonal[N].x * guess.u[N] + matrix.value[matrix.place_of_neighbour[f]] * guess.u[P] - right_side[N];
   EXPECT_LT(norm(out + in), 1e-13) << "what leaves one cell enters the other";
+  std::array<MomentumFlux, 1> of_face;
+  scheme.fluxes(inputs, guess.u, f, of_face);
+  EXPECT_LT(norm(of_face[0].convection - out), 1e-13) << "the flux of the face is that of the rows";
+  EXPECT_EQ(norm(of_face[0].friction), 0);
   return out / flux;
 }
 
