@@ -36,6 +36,8 @@ class Boundary {
   virtual PrescribedQuantity fixes() const = 0;
   /// True for solid walls, where wall functions act.
   virtual bool is_wall() const { return false; }
+  /// Equivalent sand roughness of a wall, m; 0: smooth.
+  virtual double roughness() const { return 0; }
   /// True where water passes: not at walls and planes of symmetry.
   bool is_open() const { return !is_wall() && fixes() != PrescribedQuantity::normal_velocity; }
   /// True where the pressure is as given, false where its level follows from the flow.
@@ -87,6 +89,7 @@ class BoundarySet {
   void restore(const BoundaryValues& values) { values_ = values; }
   PrescribedQuantity fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
+  double roughness(int patch) const { return conditions_[patch].boundary->roughness(); }
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
   bool is_outlet(int patch) const { return conditions_[patch].boundary->is_outlet(); }
   bool velocity_is_given(int patch) const { return conditions_[patch].boundary->velocity_is_given(); }

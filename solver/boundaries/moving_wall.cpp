@@ -9,7 +9,7 @@ namespace {
 struct MovingWall final : Boundary {
   static constexpr const char* name = "moving_wall";
   Vec3 velocity, origin, axis{0, 0, 1};
-  double rotation_speed = 0;  // rad/s
+  double rotation_speed = 0, roughness_height = 0;  // rad/s, m
   TimeCourse course;
 
   Section section() override {
@@ -21,13 +21,15 @@ struct MovingWall final : Boundary {
                                 "Speed of rotation; \"1200 rpm\" is understood."},
                                {.key = "speed", .unit = "1/s"}),
                        {"axis", &axis, "1", -infinity, infinity, Basis::assumed, "Direction of the axis of rotation; any length."},
-                       {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis of rotation."}}};
+                       {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis of rotation."},
+                       roughness_parameter(&roughness_height)}};
     course.add_keys(section, "motion");
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool is_wall() const override { return true; }
+  double roughness() const override { return roughness_height; }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     if (norm(axis) == 0)

@@ -19,6 +19,17 @@ struct Turning {
   Vec3 acceleration(const Vec3& x) const { return cross(change, x - origin) + cross(speed, velocity(x)); }
 };
 
+/// Key of the roughness of a wall.
+inline Parameter roughness_parameter(double* height) {
+  return {"roughness_height",
+          height,
+          "m",
+          0,
+          infinity,
+          Basis::assumed,
+          "Equivalent sand roughness of the wall, for wall functions; cast iron has some 0.25 mm (Moody 1944). 0: smooth."};
+}
+
 /// Values of the boundary face f of a wall that turns, and slides along itself with `slide`, m/s.
 inline void set_turning_wall(const Turning& turning, const Vec3& slide, const Flow& flow, int f, BoundaryValues& values) {
   const int b = f - flow.mesh.n_interior;

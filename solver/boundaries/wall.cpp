@@ -11,6 +11,7 @@ namespace {
 struct Wall final : Boundary {
   static constexpr const char* name = "wall";
   bool stationary = false;
+  double roughness_height = 0;  // m
 
   Section section() override {
     return {
@@ -18,10 +19,12 @@ struct Wall final : Boundary {
         .meaning = "No slip on a wall at rest, or turning with the turning zone where it is part of that.",
         .parameters = {renamed(setting("stationary", &stationary,
                                        "The wall stays at rest although its cells turn: a casing wall that is a surface of revolution."),
-                               {.key = "fixed"})}};
+                               {.key = "fixed"}),
+                       roughness_parameter(&roughness_height)}};
   }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool is_wall() const override { return true; }
+  double roughness() const override { return roughness_height; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     const RotatingZone* zone = stationary ? nullptr : flow.rotating_zone;
     const Turning still,

@@ -1,5 +1,8 @@
 #include "solver/turbulence/turbulence.hpp"
 
+#include "base/error.hpp"
+#include "base/words.hpp"
+
 namespace snag {
 
 namespace {
@@ -23,6 +26,14 @@ int TurbulenceReport::sweeps() const {
   int n = 0;
   for (const Equation& equation : equations) n += equation.sweeps.sweeps;
   return n;
+}
+
+void Turbulence::refuse_rough_walls(const Flow& flow, const BoundarySet& boundary) {
+  for (int p = 0; p < static_cast<int>(flow.mesh.patches.size()); ++p)
+    if (boundary.roughness(p) > 0)
+      throw Error(ExitCode::usage, boundary.where(p) + ": roughness_height = " + words(boundary.roughness(p)) + " m at patch \"" +
+                                       flow.mesh.patches[p].name + "\", but the turbulence model \"" + section().name +
+                                       "\" has no law for rough walls; take k_epsilon or realizable_k_epsilon, or a height of 0");
 }
 
 Registry<Turbulence>& turbulence_models() {

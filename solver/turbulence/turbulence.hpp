@@ -41,13 +41,16 @@ struct StoredField {
   std::vector<double>* values;  // [n_all_cells]
 };
 
+/// How a model treats walls: what y+ of their cells may be follows from it.
+enum class WallTreatment { none, wall_functions, automatic };
+
 class Turbulence {
  public:
   virtual ~Turbulence() = default;
   /// Its keys in [turbulence]; the records point into this object.
   virtual Section section() = 0;
   /// Once, when the solver is built: fields of the flow, what depends on the mesh. Collective, as are all functions below.
-  virtual void prepare(Flow&, const BoundarySet&) {}
+  virtual void prepare(Flow& flow, const BoundarySet& boundary) { refuse_rough_walls(flow, boundary); }
   /// Before the first step, with velocity and fluxes known. Throws Error(usage) if no initial state is known.
   virtual void start(Flow&, const BoundarySet&) {}
   /// Again after the mesh has turned, at the begin of a step; then flow.face_viscosity holds for its facets too.
@@ -59,9 +62,14 @@ class Turbulence {
   /// Velocity at the boundary faces for gradients of velocity in the cells, [n_faces - n_interior], m/s: at a wall function not that of the
   /// wall but that which the slope in the wall cell leads to.
   virtual const std::vector<Vec3>& velocity_for_gradient(const Flow&, const BoundarySet& boundary) { return boundary.values().velocity; }
+  virtual WallTreatment wall_treatment() const { return WallTreatment::none; }
   /// What a resume needs; after reading it, restore() sets up all that follows from it.
   virtual std::vector<StoredField> stored() { return {}; }
   virtual void restore(Flow&, const BoundarySet&) {}
+
+ protected:
+  /// Of a model that has no law for them: throws Error(usage) if there are some.
+  void refuse_rough_walls(const Flow& flow, const BoundarySet& boundary);
 };
 
 Registry<Turbulence>& turbulence_models();

@@ -12,6 +12,13 @@
 //
 // u_t: part along the wall.
 //
+// A rough wall, of the equivalent sand roughness k_s, lowers the logarithm:
+//
+//   E -> E/(1 + a k_s*),   k_s* = u* k_s/nu,   a = E exp(-8.5 kappa)              y* not less than k_s*/2 either
+//
+// For large k_s* u+ = ln(y/k_s)/kappa + 8.5, Nikuradse's law of the fully rough wall (1933); the sum 1 + a k_s* joins it with the smooth
+// wall as Colebrook (1939) does for pipes of commerce. Walls of uniform sand have less friction than that at k_s* of 5 to 70.
+//
 // Limit: on a turning wall the pressure follows from the acceleration of the water that the wall carries
 // (Continuity::acceleration_at_wall). On a curved wall at rest the curvature of the streamlines is not known, and the pressure at the wall
 // is of first order: the cells at it have a velocity towards or away from the wall (a ring of 12 cells between cylinders: a tenth of that
@@ -27,10 +34,10 @@ struct WallLaw {
   double y_laminar = 11.53;  // y*_lam; set_y_laminar() makes it fit
 
   void set_y_laminar();
-  /// mu_w / mu.
-  double viscosity_ratio(double y_star) const;
+  /// mu_w / mu; roughness_star: k_s*.
+  double viscosity_ratio(double y_star, double roughness_star = 0) const;
   /// y~, m, of a wall distance y.
-  double distance(double y, double u_star, double nu) const;
+  double distance(double y, double u_star, double nu, double roughness = 0) const;
   /// u*, m/s.
   double friction_speed(double k) const;
 };
@@ -51,6 +58,7 @@ class WallFunctions : public WallFaces {
 
  private:
   WallLaw law_;
+  std::vector<double> roughness_;  // k_s, of faces_, m
   std::vector<double> production_, dissipation_;
 };
 

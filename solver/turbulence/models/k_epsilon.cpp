@@ -27,6 +27,7 @@ class KEpsilon final : public TwoEquationModel {
   KEpsilon() : TwoEquationModel("epsilon") {}
   Section section() override;
   TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
+  WallTreatment wall_treatment() const override { return WallTreatment::wall_functions; }
 
  private:
   std::vector<double>& field_of_phi(Flow& flow) const override { return flow.dissipation_rate; }

@@ -50,6 +50,7 @@ class KOmegaSst final : public TwoEquationModel {
   KOmegaSst() : TwoEquationModel("omega") {}
   Section section() override;
   TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
+  WallTreatment wall_treatment() const override { return WallTreatment::automatic; }
   std::vector<StoredField> stored() override;
 
  private:
@@ -114,6 +115,7 @@ Section KOmegaSst::section() {
 
 void KOmegaSst::prepare_walls(const Flow& flow, const BoundarySet& boundary) {
   const Mesh& mesh = flow.mesh;
+  refuse_rough_walls(flow, boundary);
   walls_ = AutomaticWalls(mesh, boundary, law_);
   friction_velocity_.assign(static_cast<std::size_t>(mesh.n_all_cells()), 0);
   std::vector<std::string> names;

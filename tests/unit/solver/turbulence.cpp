@@ -35,6 +35,20 @@ TEST(WallLaw, profile) {
   EXPECT_DOUBLE_EQ(law.viscosity_ratio(100), 0.41 * 100 / std::log(9.8 * 100));
 }
 
+// Rough: the logarithm falls by ln(1 + a k_s*)/kappa, none for a smooth wall and u+ = ln(y/k_s)/kappa + 8.5 for a very rough one, and the
+// distance is half the roughness at least.
+TEST(WallLaw, roughness) {
+  WallLaw law;
+  law.set_y_laminar();
+  EXPECT_EQ(law.viscosity_ratio(100, 0), law.viscosity_ratio(100));
+  EXPECT_NEAR(1e6 / law.viscosity_ratio(1e6, 1e5), std::log(10) / 0.41 + 8.5, 1e-4);  // u+ = y*/(mu_w/mu)
+  EXPECT_NEAR(100 / law.viscosity_ratio(100, 10), std::log(9.8 * 100 / (1 + 9.8 * std::exp(-8.5 * 0.41) * 10)) / 0.41, 1e-12);
+  EXPECT_DOUBLE_EQ(law.viscosity_ratio(10, 1000) / 10, law.viscosity_ratio(500, 1000) / 500);
+  EXPECT_EQ(law.distance(1e-4, 0.1, 1e-6, 1e-3), 5e-4);
+  for (double roughness = 0.1; roughness < 1e5; roughness *= 1.5)  // a cell anywhere has some friction, more than on a smooth wall
+    for (const double y : {1.0, 10.0, 100.0, 1000.0}) EXPECT_GT(law.viscosity_ratio(y, roughness), law.viscosity_ratio(y, 0));
+}
+
 // Spalding's law is u+ = y+ at the wall and the logarithm far from it, grows, and each of its inverses gives back what it was made of.
 TEST(SpaldingLaw, profile) {
   const SpaldingLaw law;
@@ -87,7 +101,7 @@ TEST(AutomaticWalls, shear_and_omega) {
 // Every model registers itself: none of the folder is dropped by the linker; and the manual shows the choice and each model.
 TEST(Turbulence, registry) {
   EXPECT_EQ(turbulence_models().names().size(), n_sources("solver/turbulence/models"));
-  const std::vector<std::string> known{"k_epsilon", "k_omega_sst", "laminar"};
+  const std::vector<std::string> known{"k_epsilon", "k_omega_sst", "laminar", "realizable_k_epsilon"};
   EXPECT_EQ(turbulence_models().names(), known);
   EXPECT_EQ(turbulence_sections().size(), known.size() + 1);
 }

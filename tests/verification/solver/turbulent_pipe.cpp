@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/developed_turbulence.hpp"
-#include "tests/verification/solver/flow_cases.hpp"
+#include "tests/verification/solver/developing_flow.hpp"
 #include "tests/verification/solver/pipe_sector.hpp"
 
 using namespace snag;
@@ -11,38 +11,6 @@ using namespace snag::test;
 namespace {
 
 constexpr double radius = 0.1;  // m
-
-struct Developed {
-  double mean_velocity, y_plus;
-};
-
-/// Advance under a constant force until nothing changes.
-/// Convection by upwind differences: that along a developed flow is zero, and on tetrahedra at Courant numbers above 20 linear_upwind with
-/// one corrector is unstable, with or without a turbulence model.
-Developed develop(const Mesh& mesh, const std::string& boundary, double force, double dt) {
-  FlowSettings settings;
-  settings.convection = "upwind", settings.momentum_tolerance = 1e-6;
-  settings.body_force = {force, 0, 0}, settings.initial_velocity = {2.2608, 0, 0};
-  FlowSolver solver(mesh, settings, conditions(boundary),
-                    read_turbulence(CaseFile::parse(R"(
-[turbulence]
-model = "k_epsilon"
-tolerance = 1e-6
-initial_k = "0.02 m2/s2"
-initial_epsilon = "0.02 m2/s3"
-)")
-                                        .root()));
-  double before = 0, now = 1;
-  int steps = 0;
-  for (; steps < 3000 && (steps < 40 || std::abs(now - before) > 2e-6 * dt); ++steps) {
-    solver.advance(dt);
-    before = now, now = mean_velocity(solver.flow);
-  }
-  double y_plus = 0;
-  for (const double value : solver.flow.y_plus) y_plus = std::max(y_plus, value);
-  std::printf("%d cells, %d steps, U %.5f, y+ %.0f\n", mesh.n_cells, steps, now, y_plus);
-  return {now, y_plus};
-}
 
 }  // namespace
 

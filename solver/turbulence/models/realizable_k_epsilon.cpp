@@ -1,0 +1,124 @@
+// Realizable k-epsilon model, Shih, Liou, Shabbir, Yang and Zhu (1995), Computers and Fluids 24, 227-238, with the wall functions of
+// solver/turbulence/wall_functions.hpp:
+//
+//   dk/dt + div(u k) = div((nu + nu_t/sigma_k) grad k) + P - epsilon,                 P = nu_t S^2
+//   d epsilon/dt + div(u epsilon) = div((nu + nu_t/sigma_epsilon) grad epsilon) + C_1 S epsilon - C_2 epsilon^2/(k + (nu epsilon)^(1/2))
+//   nu_t = C_mu k^2/epsilon,   C_mu = 1/(A_0 + A_s U k/epsilon),   U = (D:D + W:W)^(1/2),   A_s = 6^(1/2) cos(phi)
+//   phi = arccos(6^(1/2) w)/3,   w = D_ij D_jk D_ki/(D:D)^(3/2) in [-6^(-1/2), 6^(-1/2)],   S = (2 D:D)^(1/2)
+//   C_1 = max(0.43, eta/(eta + 5)),   eta = S k/epsilon,   A_0 = 4,  C_2 = 1.9,  sigma_k = 1,  sigma_epsilon = 1.2
+//
+// D = (grad u + grad u^T)/2, W = (grad u - grad u^T)/2, of the absolute velocity: the frame does not turn. With this C_mu normal stresses
+// stay positive and shear stresses obey Schwarz' inequality at any strain; a stagnation point makes less k than with a constant C_mu, and a
+// round jet spreads as measured.
+//
+// One correction: epsilon with k as guessed, then k with the sink epsilon/k* of the epsilon just found, then mu_t. Where epsilon more than
+// doubles in a step, production of k falls as in the standard model (solver/turbulence/models/k_epsilon.cpp).
+#include <algorithm>
+#include <cmath>
+
+#include "solver/turbulence/two_equation_model.hpp"
+#include "solver/turbulence/wall_functions.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr double least_C_1 = 0.43;
+
+class RealizableKEpsilon final : public TwoEquationModel {
+ public:
+  static constexpr const char* name = "realizable_k_epsilon";
+  RealizableKEpsilon() : TwoEquationModel("epsilon") {}
+  Section section() override;
+  TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
+  WallTreatment wall_treatment() const override { return WallTreatment::wall_functions; }
+
+ private:
+  std::vector<double>& field_of_phi(Flow& flow) const override { return flow.dissipation_rate; }
+  double phi_of(const TurbulenceValues& values) const override { return values.epsilon; }
+  double turnover_rate(double k, double epsilon) const override { return epsilon / k; }
+  double entering_viscosity(double k, double epsilon) const override { return C_mu_ * k * k / epsilon; }
+  void set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& epsilon) override;
+  void prepare_walls(const Flow& flow, const BoundarySet& boundary) override;
+  const WallFaces& walls() const override { return walls_; }
+  void set_wall_viscosity(Flow& flow) override { walls_.set_viscosity(flow, *k_.now); }
+  void set_diffusivity_over(const Flow& flow, double sigma);
+
+  WallLaw law_;
+  double A_0_ = 4, C_2_ = 1.9, sigma_k_ = 1, sigma_epsilon_ = 1.2;
+  WallFunctions walls_;
+  std::vector<double> turbulent_;  // diffusivity of turbulence in the cells, [n_all_cells], m2/s
+};
+
+const bool registered = turbulence_models().add<RealizableKEpsilon>();
+
+/// A_s U of a velocity gradient, 1/s.
+double strain_limit(const Mat3& G) {
+  const double xy = 0.5 * (G[0].y + G[1].x), xz = 0.5 * (G[0].z + G[2].x), yz = 0.5 * (G[1].z + G[2].y);
+  const double mean = (G[0].x + G[1].y + G[2].z) / 3;  // what is left of the divergence
+  const Mat3 D{Vec3{G[0].x - mean, xy, xz}, Vec3{xy, G[1].y - mean, yz}, Vec3{xz, yz, G[2].z - mean}};
+  const Vec3 spin{0.5 * (G[2].y - G[1].z), 0.5 * (G[0].z - G[2].x), 0.5 * (G[1].x - G[0].y)};
+  const double squared = norm_squared(D[0]) + norm_squared(D[1]) + norm_squared(D[2]), U = std::sqrt(squared + 2 * norm_squared(spin));
+  // D_ij D_jk D_ki = 3 det D where the trace is zero
+  const double w = squared > 0 ? 3 * dot(D[0], cross(D[1], D[2])) / (squared * std::sqrt(squared)) : 0;
+  const double sqrt_6 = std::sqrt(6.0), phi = std::acos(std::clamp(sqrt_6 * w, -1.0, 1.0)) / 3;
+  return sqrt_6 * std::cos(phi) * U;
+}
+
+Section RealizableKEpsilon::section() {
+  Section model{.name = name,
+                .meaning = "Realizable k-epsilon model (Shih and others 1995) with scalable wall functions (Grotjans and Menter 1998).",
+                .parameters = initial_parameters()};
+  for (Parameter& parameter :
+       std::vector<Parameter>{constant("A_0", &A_0_, 1, 10), constant("C_2", &C_2_, 0.1, 10), constant("sigma_k", &sigma_k_, 0.1, 10),
+                              constant("sigma_epsilon", &sigma_epsilon_, 0.1, 10), constant("kappa", &law_.kappa, 0.2, 1),
+                              constant("E", &law_.E, 2, 100), tolerance_parameter()})
+    model.parameters.push_back(std::move(parameter));
+  return model;
+}
+
+void RealizableKEpsilon::prepare_walls(const Flow& flow, const BoundarySet& boundary) {
+  law_.C_mu = C_mu_;
+  law_.set_y_laminar();
+  walls_ = WallFunctions(flow.mesh, boundary, law_);
+}
+
+void RealizableKEpsilon::set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& epsilon) {
+  for (std::size_t c = 0; c < k.size(); ++c)
+    flow.eddy_viscosity[c] = k[c] * k[c] / (A_0_ * epsilon[c] + strain_limit(flow.velocity_gradient[c]) * k[c]);
+}
+
+void RealizableKEpsilon::set_diffusivity_over(const Flow& flow, double sigma) {
+  turbulent_ = flow.eddy_viscosity;
+  for (double& value : turbulent_) value /= sigma;
+  set_diffusivity(flow, turbulent_, 1 / sigma);
+}
+
+TurbulenceReport RealizableKEpsilon::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) {
+  const Mesh& mesh = flow.mesh;
+  const double nu = flow.dynamic_viscosity / flow.density;
+  begin_correction(flow, boundary, time, outer);
+  walls_.equilibrium(flow, boundary, k_.guess);
+  std::vector<double>& epsilon = *phi_.now;
+
+  set_diffusivity_over(flow, sigma_epsilon_);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const double k = k_.guess[c], e = phi_.guess[c], S = std::sqrt(strain_[c]), eta = S * k / e;
+    const double b = C_2_ / (k + std::sqrt(nu * e)), decayed = b * e * time.dt;
+    set_sources_of_phi(c, std::max(least_C_1, eta / (eta + 5)) * S * e, b, 0.5 * decayed / (1 + decayed));
+  }
+  const SweepReport of_epsilon = phi_.equation->solve(phi_.history(), {production_, sink_, diffusivity_, phi_.entering},
+                                                      {walls_.cells(), walls_.dissipation()}, epsilon);
+  set_diffusivity_over(flow, sigma_k_);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const double growth = 0.5 * epsilon[c] / phi_.guess[c];
+    production_[c] = flow.eddy_viscosity[c] * strain_[c] / std::max(1.0, growth);
+    sink_[c] = epsilon[c] / k_.guess[c];
+  }
+  for (std::size_t i = 0; i < walls_.cells().size(); ++i) production_[walls_.cells()[i]] = walls_.production()[i];
+  const SweepReport of_k = k_.equation->solve(k_.history(), {production_, sink_, diffusivity_, k_.entering}, {}, *k_.now);
+  return end_correction(flow, of_k, of_epsilon);
+}
+
+}  // namespace
+}  // namespace snag
