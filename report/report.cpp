@@ -165,6 +165,8 @@ void write_report(const std::filesystem::path& dir) {
   page += section("Run summary", run_table(summary));
   if (is_passage) page += section("The rag's way through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
+  page += section("Balances", balance_tables(summary));
+  page += section("Walls", wall_table(summary));
   page += section("Rags", rag_tables(summary));
   page += section("Conservation and sanity checks", check_table(summary));
   page += section("Pictures", (is_passage ? "" : drawn.instants) + drawn.others + drawn.unreadable + missing(pictures));

@@ -181,6 +181,75 @@ std::string pump_table(const json& summary) {
   return table_of({is_part ? "Mean of the whole run: no revolution is complete" : "Mean of the last complete revolution", "Value"}, rows);
 }
 
+std::string balance_tables(const json& summary) {
+  const json& balance = member(summary, "balance");
+  const double torque = real(balance, "torque_shaft_Nm"), power = real(balance, "power_shaft_W");
+  if (!std::isfinite(torque) || !std::isfinite(power)) return "";
+  const auto share = [](double part, double whole) { return whole != 0 ? html::number(100 * part / whole) + " %" : std::string("-"); };
+  Rows rows;
+  const auto add = [&](const char* meaning, const char* key) {
+    if (const double value = real(balance, key); std::isfinite(value))
+      rows.push_back({meaning, html::number(value) + " W", share(value, power)});
+  };
+  add("Power of the moving walls on the water", "power_shaft_W");
+  add("Power of rags and body force on the water", "power_given_W");
+  add("Hydraulic power: total pressure times flow rate, out less in", "power_hydraulic_W");
+  add("Stored as kinetic energy of the water", "power_stored_W");
+  add("Dissipated by the viscosity of the water", "power_dissipated_viscous_W");
+  add("Dissipated by turbulence (eddy viscosity)", "power_dissipated_turbulent_W");
+  add("Dissipated between walls and the centres of their cells", "power_dissipated_walls_W");
+  add("Numerical dissipation", "power_numerical_W");
+  std::string result = table_of({"Power, mean as above", "Value", "Share of the shaft"}, rows);
+  Rows errors;
+  const double lost = real(balance, "torque_lost_rel"), numerical = real(balance, "power_numerical_W");
+  if (std::isfinite(lost))
+    errors.push_back(
+        {"Torque that the scheme takes or gives, in rotor and stator", html::number(100 * lost) + " %",
+         "Of the angular momentum that the shaft gives to the water, this share is lost or made in the computation: torque and head "
+         "can disagree by as much. It falls with the square of the cell size."});
+  if (power != 0)
+    errors.push_back({"Power that the scheme takes", share(numerical, power),
+                      "Of the power of the shaft, this share is dissipated by the discretisation and not by a physical cause: it counts as "
+                      "a loss of the "
+                      "pump, which finer cells and shorter steps reduce."});
+  return result + table_of({"Error of the discretisation", "Share of the shaft", "What it means"}, errors);
+}
+
+namespace {
+
+/// What friction at a wall with this mean y+ is worth; numbers: docs/theory.md, section 2.2.
+std::string y_plus_verdict(const std::string& treatment, double y_plus) {
+  if (treatment == "automatic") {
+    if (y_plus <= 1) return "Resolved: friction of a pipe was within 2 % of Colebrook's formula.";
+    if (y_plus <= 300) return "Good: friction of a pipe was within 4 % of that with y+ 1.";
+    return "Too thick: the model was verified up to y+ 300 only; thinner cells are needed.";
+  }
+  if (treatment != "wall_functions") return "-";
+  if (y_plus < 11)
+    return "Thin: cells are taken for such at y+ 11.5; friction of a pipe was 2 to 4 % below Colebrook's formula at y+ 3 to 8, and up to "
+           "6 % above it at y+ 1 to 5 and Re 1e5 (realizable model: 11 to 13 % below).";
+  if (y_plus < 30)
+    return "Thinner than wall functions are made for: friction of a pipe was 2 to 4 % below Colebrook's formula (realizable model: 9 to 11 "
+           "%).";
+  if (y_plus <= 300) return "Good: friction of a pipe was 3 to 4 % below Colebrook's formula (realizable model: 5 to 9 %).";
+  return "Thick: friction of a pipe with 10 to 40 cells over its radius was 2 to 3 % below Colebrook's formula at y+ 900 to 3600. Where "
+         "the "
+         "layer at the wall is thinner than ten cells, as in most pumps, friction is indicative.";
+}
+
+}  // namespace
+
+std::string wall_table(const json& summary) {
+  const json& walls = member(summary, "walls");
+  const json& patches = member(walls, "patches");
+  if (!patches.is_array()) return "";
+  Rows rows;
+  for (const json& patch : patches)
+    rows.push_back({text_of(member(patch, "patch")), html::number(real(patch, "y_plus_min")), html::number(real(patch, "y_plus_mean")),
+                    html::number(real(patch, "y_plus_max")), y_plus_verdict(word(walls, "treatment"), real(patch, "y_plus_mean"))});
+  return table_of({"Wall", "Lowest y+", "Mean y+ over the area", "Highest y+", "What the mean means for friction"}, rows);
+}
+
 std::string rag_tables(const json& summary) {
   const json& rags = member(summary, "rags");
   if (!rags.is_array()) return "";

@@ -12,6 +12,10 @@ bool ended_well(const nlohmann::json& summary);
 /// Tables as HTML; "" where the summary has nothing for them.
 std::string run_table(const nlohmann::json& summary);
 std::string pump_table(const nlohmann::json& summary);
+/// The balances of angular momentum and of energy, with a sentence on what the scheme takes of each.
+std::string balance_tables(const nlohmann::json& summary);
+/// y+ of each wall, with what it means for the friction there.
+std::string wall_table(const nlohmann::json& summary);
 std::string rag_tables(const nlohmann::json& summary);
 /// The checks of simulation/setup/checks.hpp with value, limit and verdict.
 std::string check_table(const nlohmann::json& summary);

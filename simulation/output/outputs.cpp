@@ -173,6 +173,11 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     const Flow& flow = simulation.water->flow;
     pump_ = std::make_unique<PumpOutput>(folder_ / "monitors", flow, *simulation.pump, rotor_state(*flow.rotating_zone, 0), resume, from);
   }
+  if (simulation.water && simulation.water->flow.rotating_zone) {
+    const RotatingZone& zone = *simulation.water->flow.rotating_zone;
+    simulation.water->keep_balances(zone.origin(), zone.axis());
+    balance_ = std::make_unique<BalanceOutput>(folder_ / "monitors", *simulation.water, rotor_state(zone, 0), resume, from);
+  }
   if (simulation.rags) {
     rag_monitors_ =
         std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
@@ -255,6 +260,7 @@ std::vector<const Series*> Outputs::series() const {
   const auto append = [&](const std::vector<const Series*>& more) { all.insert(all.end(), more.begin(), more.end()); };
   if (rag_monitors_) append(rag_monitors_->series());
   if (pump_) append(pump_->series());
+  if (balance_) all.push_back(&balance_->series());
   return all;
 }
 
@@ -310,7 +316,9 @@ void Outputs::write_coupling_monitors() {
 void Outputs::write_rotor_monitors() {
   const Flow& flow = simulation_.water->flow;
   largest_closure_ = std::max(largest_closure_, flow.rotating_zone->mesh().closure());
-  if (pump_) pump_->after_step(flow, rotor_state(*flow.rotating_zone, flow.time));
+  const RotorState rotor = rotor_state(*flow.rotating_zone, flow.time);
+  if (pump_) pump_->after_step(flow, rotor);
+  balance_->after_step(*simulation_.water, rotor);
 }
 
 void Outputs::save(CheckpointWriter& writer) const {
@@ -325,6 +333,7 @@ void Outputs::save(CheckpointWriter& writer) const {
     writer.shared("elongation_at_start", elongation_at_start_);
     writer.shared("silhouettes", rag_output_->state());
   }
+  if (balance_) balance_->save(writer);
   if (!pump_) return;
   pump_->save(writer);
   write_phase();
@@ -343,6 +352,7 @@ void Outputs::load(CheckpointReader& reader) {
     elongation_at_start_ = reader.shared("elongation_at_start");
     rag_output_->restore(reader.shared("silhouettes"));
   }
+  if (balance_) balance_->load(reader);
   if (pump_) pump_->load(reader);
 }
 
@@ -425,6 +435,12 @@ ExitCode Outputs::finish(ExitCode exit, const std::string& error) {
   if (simulation_.mesh)
     s.performance.cell_steps = static_cast<double>(simulation_.time_step()) * static_cast<double>(simulation_.mesh->n_cells_global);
   summarise_checks(s);
+  if (!walls_with_y_plus_.empty()) {
+    s.walls.emplace().treatment = simulation_.water->turbulence().wall_treatment();
+    for (const int patch : walls_with_y_plus_)
+      s.walls->patches.push_back({simulation_.mesh->patches[patch].name, y_plus_of(simulation_.water->flow, patch)});
+  }
+  if (balance_) s.balance = balance_->summary();
   if (pump_) {
     s.pump = pump_->summary();
     write_phase();

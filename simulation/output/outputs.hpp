@@ -7,6 +7,7 @@
 #include "base/atomic_file.hpp"
 #include "base/case_file.hpp"
 #include "base/monitor.hpp"
+#include "simulation/output/balance_output.hpp"
 #include "simulation/output/field_output.hpp"
 #include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
@@ -109,6 +110,7 @@ class Outputs {
   std::unique_ptr<RagOutput> rag_output_;
   RagForces forces_;  // of the last step
   std::unique_ptr<PumpOutput> pump_;
+  std::unique_ptr<BalanceOutput> balance_;          // with a turning zone
   double fields_interval_ = 0, rags_interval_ = 0;  // s
   double seconds_ = 0;                              // spent here by this process
   double begun_;                                    // MPI_Wtime()

@@ -103,8 +103,7 @@ PumpOutput::PumpOutput(std::filesystem::path monitors, const Flow& flow, const P
     : folder_(std::move(monitors)),
       root_(rank_of(flow.mesh.comm) == 0),
       monitor_(flow, settings),
-      start_angle_(start.angle),
-      speed_(start.shaft.speed),
+      turn_(start),
       sampler_(start.angle),
       phase_(n_bins, 2) {
   on_all_ranks(flow.mesh.comm, [&] {
@@ -116,15 +115,11 @@ PumpOutput::PumpOutput(std::filesystem::path monitors, const Flow& flow, const P
 
 void PumpOutput::after_step(const Flow& flow, const RotorState& rotor) {
   const std::vector<double> values = values_of(monitor_.read(flow, rotor.shaft));
-  if (rotor.slides)
-    turned_ = rotor.angle - start_angle_;
-  else
-    turned_ += 0.5 * (speed_ + rotor.shaft.speed) * flow.time_step_size;
-  keeps_speed_ = keeps_speed_ && rotor.shaft.speed == speed_;
-  speed_ = rotor.shaft.speed;
-  for (const Revolution& revolution : sampler_.add(turned_, values)) complete(revolution, flow.time);
+  keeps_speed_ = keeps_speed_ && rotor.shaft.speed == turn_.speed;
+  turn_.after_step(rotor, flow.time_step_size);
+  for (const Revolution& revolution : sampler_.add(turn_.turned, values)) complete(revolution, flow.time);
   if (!root_) return;
-  instants_.add({flow.time, reduced(rotor.angle), std::abs(turned_) / two_pi, values});
+  instants_.add({flow.time, reduced(rotor.angle), std::abs(turn_.turned) / two_pi, values});
 }
 
 /// Whether the start-up is over with this revolution.
@@ -178,12 +173,12 @@ void PumpOutput::write_phase() const {
 PumpSummary PumpOutput::summary() const {
   const std::vector<double> means = last_means_.empty() ? means_of(sampler_.current()) : last_means_;
   // A revolution that is complete but for round-off counts as one.
-  const double revolutions = std::max(std::abs(turned_) / two_pi, static_cast<double>(sampler_.current().number - 1));
+  const double revolutions = std::max(std::abs(turn_.turned) / two_pi, static_cast<double>(sampler_.current().number - 1));
   return {means[flow_out], means[head], means[head_total], means[torque], means[shaft_power], means[efficiency], revolutions};
 }
 
 void PumpOutput::save(CheckpointWriter& writer) const {
-  writer.shared("pump/turned", std::vector<double>{turned_, speed_, keeps_speed_ ? 1.0 : 0.0});
+  writer.shared("pump/turned", std::vector<double>{turn_.turned, turn_.speed, keeps_speed_ ? 1.0 : 0.0});
   writer.shared("pump/revolution", sampler_.state());
   writer.shared("pump/phase", phase_.state());
   if (!last_means_.empty()) writer.shared("pump/last_means", last_means_);
@@ -191,7 +186,7 @@ void PumpOutput::save(CheckpointWriter& writer) const {
 
 void PumpOutput::load(CheckpointReader& reader) {
   const std::vector<double> turned = reader.shared("pump/turned");
-  turned_ = turned[0], speed_ = turned[1], keeps_speed_ = turned[2] != 0;
+  turn_.turned = turned[0], turn_.speed = turned[1], keeps_speed_ = turned[2] != 0;
   sampler_.restore(reader.shared("pump/revolution"));
   phase_.restore(reader.shared("pump/phase"));
   if (reader.has("pump/last_means")) last_means_ = reader.shared("pump/last_means");

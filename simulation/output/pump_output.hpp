@@ -29,6 +29,21 @@ struct RotorState {
   bool slides = true;
 };
 
+/// How far the shaft has turned: where the rotor slides as far as it has, in a frame as far as its speed would have turned it.
+struct ShaftTurn {
+  double start_angle, speed;  // rad; rad/s, at the end of the last step
+  double turned = 0;          // rad, since the start
+
+  explicit ShaftTurn(const RotorState& start) : start_angle(start.angle), speed(start.shaft.speed) {}
+  void after_step(const RotorState& rotor, double dt) {
+    if (rotor.slides)
+      turned = rotor.angle - start_angle;
+    else
+      turned += 0.5 * (speed + rotor.shaft.speed) * dt;
+    speed = rotor.shaft.speed;
+  }
+};
+
 /// Means over the last complete revolution, over the whole run if none is complete; SI.
 struct PumpSummary {
   double flow = 0, head = 0, head_total = 0, torque = 0, shaft_power = 0, efficiency = 0;
@@ -84,9 +99,8 @@ class PumpOutput {
   PumpMonitor monitor_;
   Monitor<PumpInstant> instants_;          // open on rank 0
   Monitor<RevolutionRecord> revolutions_;  // likewise
-  double start_angle_, speed_;             // rad; rad/s, at the end of the last step
-  double turned_ = 0;                      // rad, since the start
-  bool keeps_speed_ = true;                // the shaft, in this revolution
+  ShaftTurn turn_;
+  bool keeps_speed_ = true;  // the shaft, in this revolution
   RevolutionSampler sampler_;
   PhaseAverage phase_;
   std::vector<double> last_means_;  // of the last complete revolution, empty before the first

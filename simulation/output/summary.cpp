@@ -128,18 +128,45 @@ nlohmann::ordered_json pump_json(const PumpSummary& pump) {
           {"revolutions", pump.revolutions}};
 }
 
+nlohmann::ordered_json balance_json(const BalanceSummary& balance) {
+  return {{"torque_shaft_Nm", balance.shaft_torque},
+          {"torque_lost_rotor_Nm", balance.torque_lost_rotor},
+          {"torque_lost_stator_Nm", balance.torque_lost_stator},
+          {"torque_lost_rel", or_null(balance.torque_lost_rel())},
+          {"torque_residual_rel", or_null(balance.torque_residual_rel())},
+          {"power_shaft_W", balance.shaft_power},
+          {"power_given_W", balance.given_power},
+          {"power_hydraulic_W", balance.hydraulic_power},
+          {"power_stored_W", balance.stored_power},
+          {"power_dissipated_viscous_W", balance.dissipation_viscous},
+          {"power_dissipated_turbulent_W", balance.dissipation_turbulent},
+          {"power_dissipated_walls_W", balance.dissipation_walls},
+          {"power_numerical_W", balance.numerical_power},
+          {"power_numerical_rel", or_null(balance.numerical_power_rel())},
+          {"power_residual_rel", or_null(balance.power_residual_rel())}};
+}
+
 nlohmann::ordered_json water_json(const WaterSummary& water) {
   return {{"speed_scale_m_s", water.speed_scale},
           {"max_speed_over_scale", water.max_speed_over_scale},
           {"unsolved_steps", water.unsolved_steps}};
 }
 
+nlohmann::ordered_json walls_json(const WallsSummary& walls) {
+  nlohmann::ordered_json patches = nlohmann::ordered_json::array();
+  for (const auto& [patch, y_plus] : walls.patches)
+    patches.push_back({{"patch", patch}, {"y_plus_min", y_plus.lowest}, {"y_plus_mean", y_plus.mean}, {"y_plus_max", y_plus.highest}});
+  return {{"treatment", name_of(walls.treatment)}, {"patches", patches}};
+}
+
 /// A summary in which nothing is missing.
 Summary full_summary() {
   Summary full;
   full.pump.emplace();
+  full.balance.emplace();
   full.water.emplace();
   full.coupling.emplace();
+  full.walls.emplace().patches.emplace_back();
   full.error = "none";
   PassageResult& rag = full.rags.emplace_back().verdict;
   rag.volute.emplace(), rag.max_tension_time = 0;
@@ -148,6 +175,17 @@ Summary full_summary() {
 }
 
 }  // namespace
+
+std::string name_of(WallTreatment treatment) {
+  switch (treatment) {
+    case WallTreatment::wall_functions:
+      return "wall_functions";
+    case WallTreatment::automatic:
+      return "automatic";
+    default:
+      return "none";
+  }
+}
 
 bool is_of_ended_run(const std::filesystem::path& file, const std::string& case_sha256, std::int64_t time_steps) {
   const auto summary = nlohmann::json::parse(file_text(file).value_or(""), nullptr, false);
@@ -198,9 +236,11 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                    {"output_s", p.output},
                                    {"peak_memory_bytes", p.peak_memory}}},
                                  {"pump", s.pump ? pump_json(*s.pump) : nlohmann::ordered_json()},
+                                 {"balance", s.balance ? balance_json(*s.balance) : nlohmann::ordered_json()},
                                  {"rags", rags},
                                  {"water", s.water ? water_json(*s.water) : nlohmann::ordered_json()},
                                  {"coupling", s.coupling ? coupling_json(*s.coupling) : nlohmann::ordered_json()},
+                                 {"walls", s.walls ? walls_json(*s.walls) : nlohmann::ordered_json()},
                                  {"conservation",
                                   {{"mass_imbalance_rel", or_null(kept.mass_imbalance)},
                                    {"momentum_exchange_rel", or_null(kept.momentum_exchange)},
@@ -209,8 +249,10 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                    {"bonds_lost", or_null(kept.bonds_lost)},
                                    {"particles_beyond_walls", or_null(kept.particles_beyond_walls)}}}};
   if (!s.pump) json.erase("pump");
+  if (!s.balance) json.erase("balance");
   if (!s.water) json.erase("water");
   if (!s.coupling) json.erase("coupling");
+  if (!s.walls) json.erase("walls");
   if (!s.error.empty()) json["error"] = s.error;
   return json;
 }

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "observe/passage_result.hpp"
+#include "simulation/output/balance_output.hpp"
 #include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/pump_record.hpp"
+#include "solver/monitors.hpp"
+#include "solver/turbulence/turbulence.hpp"
 
 namespace snag {
 
@@ -38,6 +41,18 @@ struct WaterSummary {
   int unsolved_steps = 0;                            // most in a row
 };
 
+/// y+ at the walls, where a turbulence model is in use.
+struct WallsSummary {
+  struct PatchOfWall {
+    std::string patch;
+    YPlus y_plus;
+  };
+  WallTreatment treatment = WallTreatment::none;
+  std::vector<PatchOfWall> patches;
+};
+/// The words of summary.json for it.
+std::string name_of(WallTreatment treatment);
+
 struct Summary {
   std::string case_name, case_sha256;
   int ranks = 1, exit = 0;
@@ -52,11 +67,13 @@ struct Summary {
     double cell_steps = 0, particle_steps = 0;
     std::int64_t peak_memory = 0;  // bytes, all ranks
   } performance;
-  std::optional<PumpSummary> pump;  // of a case with [pump]
+  std::optional<PumpSummary> pump;        // of a case with [pump]
+  std::optional<BalanceSummary> balance;  // of a case with a turning zone
   std::vector<RagSummary> rags;
   std::string error;                  // what ended the run early, empty if nothing did
   std::optional<WaterSummary> water;  // where it is computed
   std::optional<CouplingSummary> coupling;
+  std::optional<WallsSummary> walls;  // with a turbulence model
   // relative; none where there is nothing to measure: no flow through, no two-way coupling, no interface, no rags
   struct {
     std::optional<double> mass_imbalance, momentum_exchange, interface_closure;

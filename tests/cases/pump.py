@@ -3,6 +3,7 @@
 # cost: 20
 """Requirement: a pump with a sliding rotor tells flow, head, torque and its geometry at every time; a resumed run, and
 one on other ranks, tells the same."""
+import re
 import shutil
 
 import numpy
@@ -37,6 +38,7 @@ class Pump(harness.CaseTest):
     def test_pump_and_its_resume(self):
         whole = self.run_case(self.file, 2, out="whole")
         self.looks_like_a_pump(whole)
+        self.balances_close(whole)
         self.walls_turn(whole)
         shutil.copytree(whole.folder, self.work / "crashed")
         slots = sorted((self.work / "whole" / "checkpoint").glob("*.h5"), key=lambda slot: slot.stat().st_mtime_ns)
@@ -44,7 +46,8 @@ class Pump(harness.CaseTest):
         broken.write_bytes(broken.read_bytes()[:-5000])  # the newest state is then the one before the end
         resumed = self.run_case(self.file, 2, "--resume", out="crashed")
         self.assertIn(f"resumed at {self.n_before_checkpoint * STEP:g}", resumed.stdout)
-        self.assertEqual(whole.monitor("pump").lines, resumed.monitor("pump").lines, "no line twice, none missing")
+        for monitor in ("pump", "balance"):
+            self.assertEqual(whole.monitor(monitor).lines, resumed.monitor(monitor).lines, "no line twice, none missing")
         other = self.run_case(self.file, 3, "--set", f"time.end_s={self.n_steps_on_three * STEP}", out="three").monitor("pump")
         self.assertEqual(len(other.values), self.n_steps_on_three)
         one = whole.monitor("pump")
@@ -73,6 +76,36 @@ class Pump(harness.CaseTest):
         self.assertGreater(summary["mesh"]["facets"], 3000)
         self.assertLess(summary["conservation"]["interface_closure_rel"], 1e-12)
         self.assertEqual(len(run.monitor("revolutions").values), 0, "no revolution is complete")
+
+    def balances_close(self, run):
+        """Both rows of the balance, summed here from their columns, leave less than 1e-6 of the shaft's torque and power; columns are documented."""
+        balance = run.monitor("balance")
+        names = [column.split(" ")[0] for column in balance.columns]
+        torque, power = numpy.abs(balance.column("shaft_torque")), numpy.abs(balance.column("shaft_power"))
+        numpy.testing.assert_allclose(balance.column("shaft_power"), run.monitor("pump").column("shaft_power"), rtol=1e-6)
+        for zone in ("rotor", "stator"):
+            skipped = {f"{zone}_{name}" for name in ("given", "lost_convection", "lost_pressure", "lost_friction", "residual")}
+            row = sum(balance.column(name) for name in names if name.startswith(zone) and name not in skipped) - balance.column(f"{zone}_given")
+            self.assertLess(numpy.abs(row / torque).max(), 1e-6, zone)
+        spent = sum(balance.column(name) for name in names if name.startswith("dissipation") or name in ("hydraulic_power", "stored_power", "numerical"))
+        left = balance.column("shaft_power") + balance.column("given_power") - spent
+        self.assertLess(numpy.abs(left / power).max(), 1e-6)
+        print(f"  lost of the torque {100 * (balance.column('rotor_lost') + balance.column('stator_lost'))[-1] / torque[-1]:.2f} %, "
+              f"numerical share of the power {100 * balance.column('numerical')[-1] / power[-1]:.2f} %")
+        page = (harness.SOURCE_DIR / "docs" / "outputs.md").read_text().split("### balance.csv")[1].split("\n### ")[0]
+        for column in balance.columns:
+            name, unit = re.fullmatch(r"(\S+) \[(.+)\]", column).groups()
+            name = re.sub("^(rotor|stator)_", "ZONE_", name)
+            name = re.sub("_(impeller_walls|casing_walls)_", "_PATCH_", name)
+            self.assertTrue(any(f"`{name}`" in row and f"| {unit} |" in row for row in page.splitlines()), f"{column} has no row in docs/outputs.md")
+        shares = run.summary["balance"]
+        self.assertLess(shares["torque_residual_rel"], 1e-6)
+        wall = run.monitor("wall")
+        self.assertEqual(run.summary["walls"]["treatment"], "wall_functions")
+        for patch in run.summary["walls"]["patches"]:
+            for end in ("min", "mean", "max"):
+                self.assertAlmostEqual(patch[f"y_plus_{end}"] / wall.column(f"{patch['patch']}_y_plus_{end}")[-1], 1, places=9)
+        self.assertEqual([patch["patch"] for patch in run.summary["walls"]["patches"]], ["impeller_walls", "casing_walls"])
 
     def walls_turn(self, run):
         """The walls of the rotor turn as a whole about the axis, those of the casing stand; pressure is on both."""

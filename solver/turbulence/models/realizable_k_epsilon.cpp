@@ -11,8 +11,9 @@
 // stay positive and shear stresses obey Schwarz' inequality at any strain; a stagnation point makes less k than with a constant C_mu, and a
 // round jet spreads as measured.
 //
-// One correction: epsilon with k as guessed, then k with the sink epsilon/k* of the epsilon just found, then mu_t. Where epsilon more than
-// doubles in a step, production of k falls as in the standard model (solver/turbulence/models/k_epsilon.cpp).
+// One correction: epsilon with k as guessed, then k with production and sink of the epsilon just found, then mu_t. With production of the
+// guessed epsilon, steps that are long against 1/S make k fall without end: the source of epsilon goes with epsilon, so that at such steps
+// epsilon becomes C_1 S k*/C_2 whatever it was, while production would go with k*^2/epsilon*.
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +48,8 @@ class RealizableKEpsilon final : public TwoEquationModel {
   WallLaw law_;
   double A_0_ = 4, C_2_ = 1.9, sigma_k_ = 1, sigma_epsilon_ = 1.2;
   WallFunctions walls_;
-  std::vector<double> turbulent_;  // diffusivity of turbulence in the cells, [n_all_cells], m2/s
+  std::vector<double> strain_limit_;  // A_s U, [n_all_cells], 1/s
+  std::vector<double> turbulent_;     // diffusivity of turbulence in the cells, [n_all_cells], m2/s
 };
 
 const bool registered = turbulence_models().add<RealizableKEpsilon>();
@@ -84,8 +86,11 @@ void RealizableKEpsilon::prepare_walls(const Flow& flow, const BoundarySet& boun
 }
 
 void RealizableKEpsilon::set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& epsilon) {
-  for (std::size_t c = 0; c < k.size(); ++c)
-    flow.eddy_viscosity[c] = k[c] * k[c] / (A_0_ * epsilon[c] + strain_limit(flow.velocity_gradient[c]) * k[c]);
+  strain_limit_.resize(k.size());
+  for (std::size_t c = 0; c < k.size(); ++c) {
+    strain_limit_[c] = strain_limit(flow.velocity_gradient[c]);
+    flow.eddy_viscosity[c] = k[c] * k[c] / (A_0_ * epsilon[c] + strain_limit_[c] * k[c]);
+  }
 }
 
 void RealizableKEpsilon::set_diffusivity_over(const Flow& flow, double sigma) {
@@ -111,9 +116,9 @@ TurbulenceReport RealizableKEpsilon::correct(Flow& flow, const BoundarySet& boun
                                                       {walls_.cells(), walls_.dissipation()}, epsilon);
   set_diffusivity_over(flow, sigma_k_);
   for (int c = 0; c < mesh.n_cells; ++c) {
-    const double growth = 0.5 * epsilon[c] / phi_.guess[c];
-    production_[c] = flow.eddy_viscosity[c] * strain_[c] / std::max(1.0, growth);
-    sink_[c] = epsilon[c] / k_.guess[c];
+    const double k = k_.guess[c];
+    production_[c] = k * k / (A_0_ * epsilon[c] + strain_limit_[c] * k) * strain_[c];
+    sink_[c] = epsilon[c] / k;
   }
   for (std::size_t i = 0; i < walls_.cells().size(); ++i) production_[walls_.cells()[i]] = walls_.production()[i];
   const SweepReport of_k = k_.equation->solve(k_.history(), {production_, sink_, diffusivity_, k_.entering}, {}, *k_.now);
