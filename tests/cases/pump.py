@@ -105,7 +105,7 @@ class Pump(harness.CaseTest):
         for patch in run.summary["walls"]["patches"]:
             for end in ("min", "mean", "max"):
                 self.assertAlmostEqual(patch[f"y_plus_{end}"] / wall.column(f"{patch['patch']}_y_plus_{end}")[-1], 1, places=9)
-        self.assertEqual([patch["patch"] for patch in run.summary["walls"]["patches"]], ["impeller_walls", "casing_walls"])
+        self.assertEqual([patch["patch"] for patch in run.summary["walls"]["patches"]], ["casing_walls", "impeller_walls"])
 
     def walls_turn(self, run):
         """The walls of the rotor turn as a whole about the axis, those of the casing stand; pressure is on both."""
