@@ -47,8 +47,8 @@ void add_zone(std::vector<Column<BalanceRecord>>& all, const FlowSolver& water, 
   add("interface", [](Row row) { return row.interface; });
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     if (water.boundary().is_open(static_cast<int>(p)) || !water.balances()->has_faces(zone, static_cast<int>(p))) continue;
-    add(mesh.patches[p].name + "_pressure", [p](Row row) { return row.wall_pressure[p]; });
-    add(mesh.patches[p].name + "_friction", [p](Row row) { return row.wall_friction[p]; });
+    add("wall_" + mesh.patches[p].name + "_pressure", [p](Row row) { return row.wall_pressure[p]; });
+    add("wall_" + mesh.patches[p].name + "_friction", [p](Row row) { return row.wall_friction[p]; });
   }
   add("given", [](Row row) { return row.given; });
   add("lost", [](Row row) { return row.lost(); });

@@ -96,7 +96,7 @@ class Pump(harness.CaseTest):
         for column in balance.columns:
             name, unit = re.fullmatch(r"(\S+) \[(.+)\]", column).groups()
             name = re.sub("^(rotor|stator)_", "ZONE_", name)
-            name = re.sub("_(impeller_walls|casing_walls)_", "_PATCH_", name)
+            name = re.sub("_wall_(impeller_walls|casing_walls)_", "_wall_PATCH_", name)
             self.assertTrue(any(f"`{name}`" in row and f"| {unit} |" in row for row in page.splitlines()), f"{column} has no row in docs/outputs.md")
         shares = run.summary["balance"]
         self.assertLess(shares["torque_residual_rel"], 1e-6)

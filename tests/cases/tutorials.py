@@ -28,6 +28,11 @@ def documented_columns():
     return files
 
 
+def pattern(column):
+    """Regular expression of the columns that a documented name stands for."""
+    return column.replace("PATCH", r"\w+").replace("ZONE", "(rotor|stator)")
+
+
 class Tutorial(harness.CaseTest):
     """Shared with tutorials_long.py."""
 
@@ -59,12 +64,12 @@ class Tutorial(harness.CaseTest):
             columns, _ = re.subn(r"\s+$", "", file.read_text().splitlines()[0])
             for column in columns.split(","):
                 name, unit = re.fullmatch(r"(\w+) \[(.+)\]", column).groups()
-                known = {re.sub(r"^PATCH", r"\\w+", one): u for one, u in written[file.stem].items()}
+                known = {pattern(one): u for one, u in written[file.stem].items()}
                 units = [u for one, u in known.items() if re.fullmatch(one, name)]
                 self.assertEqual(units, [unit], f"docs/outputs.md, {file.name}: {column}")
             names = [column.split(" [")[0] for column in columns.split(",")]
             for one in written[file.stem]:
-                self.assertTrue(any(re.fullmatch(re.sub(r"^PATCH", r"\\w+", one), name) for name in names), f"docs/outputs.md, {file.name}: {one} is not written")
+                self.assertTrue(any(re.fullmatch(pattern(one), name) for name in names), f"docs/outputs.md, {file.name}: {one} is not written")
         return {file.stem for file in (folder / "monitors").glob("*.csv")}
 
 

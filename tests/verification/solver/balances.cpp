@@ -1,4 +1,5 @@
-// ranks: 1 2 3
+// ranks: 1 2
+// long ranks: 3
 // Requirement: the balances of angular momentum and of energy close, and their terms are those of exact flows.
 #include <gtest/gtest.h>
 
