@@ -133,7 +133,7 @@ void RagSystem::advance(double dt, TileForce* force) {
   };
   int n_left = n_of(dt);
   double step = dt / n_left, left = dt;
-  if (contacts_) contacts_->set_time(time_ + step / 2);
+  if (contacts_) contacts_->set_time(time_ + step / 2), contacts_->start_wall_loads();
   for (Tile& tile : tiles_) drift(tile, step / 2);
   const Box* moved = nullptr;  // not known of the half drift and of what was done to the rags in between
   int& k = n_last_sub_steps_;

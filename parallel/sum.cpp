@@ -6,13 +6,10 @@
 // a double. Only additions occur, so that a compiler that fuses products and sums changes nothing.
 #include "parallel/sum.hpp"
 
+#include "parallel/running_sum.hpp"
+
 namespace snag {
 namespace {
-
-struct DoubleDouble {
-  double high = 0, low = 0;
-};
-static_assert(sizeof(DoubleDouble) == 2 * sizeof(double), "sent as two doubles");
 
 /// high + low normalised, |low| <= ulp(high)/2. Needs |a| >= |b|.
 inline DoubleDouble quick_two_sum(double a, double b) {
@@ -53,16 +50,26 @@ struct Reduction {
   }
 };
 
-template <int n>
-void add_over_ranks(MPI_Comm comm, DoubleDouble (&partial)[n]) {
+void add_over_ranks(MPI_Comm comm, std::span<DoubleDouble> partial) {
   static const Reduction reduction;
-  MPI_Allreduce(MPI_IN_PLACE, partial, n, reduction.type, reduction.add, comm);
+  MPI_Allreduce(MPI_IN_PLACE, partial.data(), static_cast<int>(partial.size()), reduction.type, reduction.add, comm);
 }
 
 /// The value as a double; an infinite term makes it undefined (NaN), never finite.
 double rounded(const DoubleDouble& a) { return a.high + a.low; }
 
 }  // namespace
+
+void RunningSum::add(double term) { partial_ = plus(partial_, term); }
+
+std::vector<double> sums(MPI_Comm comm, std::span<const RunningSum> partial) {
+  std::vector<DoubleDouble> all;
+  for (const RunningSum& one : partial) all.push_back(one.partial_);
+  add_over_ranks(comm, all);
+  std::vector<double> values;
+  for (const DoubleDouble& one : all) values.push_back(rounded(one));
+  return values;
+}
 
 double sum(MPI_Comm comm, std::span<const double> terms) {
   DoubleDouble partial[1];

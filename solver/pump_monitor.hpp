@@ -31,10 +31,11 @@ struct PumpSettings {
 
 /// One instant; SI units.
 struct PumpReading {
-  double flow_in = 0, flow_out = 0;                 // into the inlet, out of the outlet, m3/s
-  double head = 0, head_total = 0;                  // m
-  double torque_pressure = 0, torque_friction = 0;  // of the fluid on the walls about the axis, N m: negative where the rotor drives
-  double shaft_power = 0, hydraulic_power = 0;      // W
+  double flow_in = 0, flow_out = 0;                   // into the inlet, out of the outlet, m3/s
+  double head = 0, head_total = 0;                    // m
+  double torque_pressure = 0, torque_friction = 0;    // of the fluid on the walls about the axis, N m: negative where the rotor drives
+  double shaft_power = 0, hydraulic_power = 0;        // W
+  double torque_contacts = 0, shaft_power_total = 0;  // of rags on the walls, N m; with them, W: for the caller to set
   double torque() const { return torque_pressure + torque_friction; }
   double efficiency() const { return efficiency_of(hydraulic_power, shaft_power); }
   /// Zero where the shaft gives no power.

@@ -277,6 +277,15 @@ void ContactSolver::unpack(const Tile& tile, std::span<const double> values) {
 const ContactMeasures& ContactSolver::measures() const { return state_->measures; }
 const std::vector<WallTouch>& ContactSolver::wall_touches() const { return state_->walls ? state_->walls->touched : state_->no_touches; }
 
+std::vector<WallLoad> ContactSolver::wall_loads(MPI_Comm comm) const {
+  const State& s = *state_;
+  return s.walls ? mean_loads(comm, s.walls->impulses, s.walls->duration) : std::vector<WallLoad>{};
+}
+
+void ContactSolver::start_wall_loads() {
+  if (state_->walls) state_->walls->start_loads();
+}
+
 void ContactSolver::set_tongue(const TongueLine& tongue) {
   if (state_->walls) state_->walls->tongue = tongue;
 }

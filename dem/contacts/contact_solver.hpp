@@ -8,6 +8,8 @@
 // Results do not depend on the ranks: a pair is evaluated from the same numbers in the same order (lower particle id first) wherever one of
 // the two is owned, forces are summed in the order of the partner's id and then walls, and the lists (of near pairs, rebuilt when a
 // particle moved half the skin) hold more pairs than touch but never decide a force.
+#include <mpi.h>
+
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -24,6 +26,7 @@
 namespace snag {
 
 class WallSet;
+struct WallLoad;
 
 /// Where a particle touches walls: a wall that moves, one at rest near the tongue of a volute, any other at rest.
 enum class ContactRegion { moving, tongue, other };
@@ -103,6 +106,9 @@ class ContactSolver {
   void set_tongue(const TongueLine& tongue);
   /// [n_rags][n_contact_regions], row by row; empty without walls.
   const std::vector<WallTouch>& wall_touches() const;
+  /// What rags exert on each part of the walls, mean over the sub-steps since start_wall_loads; empty without walls. Collective.
+  std::vector<WallLoad> wall_loads(MPI_Comm comm) const;
+  void start_wall_loads();
   /// Sum of its contacts' forces on each particle of these owned tiles at the last add_forces, N; tile by tile in the order of
   /// for_particles. Zero for tiles that were not there then.
   std::vector<Vec3> forces(std::span<const Tile> tiles) const;

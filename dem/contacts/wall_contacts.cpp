@@ -20,9 +20,10 @@ constexpr double allowance_over_radius = 4, path_over_radius = 1;
 
 struct WallContacts::Block : WallBlock {
   struct Place {
-    int particle, body;
+    int particle, body, part;
     std::int64_t id;
     Vec3 direction;  // frame of the wall
+    Vec3 point;      // of the contact, m
   };
   const ContactPair* pair = nullptr;
   Place place[contact_block_size];
@@ -40,10 +41,17 @@ WallContacts::WallContacts(const std::vector<Rag>& rags, const ContactSettings& 
   for (const WallBody& body : walls.bodies()) {
     surfaces_.push_back(body.triangles.empty() ? TriangleSurface() : TriangleSurface(body.triangles, reach(body).near, reach(body).far));
     fastest_.push_back(fastest(body));
+    axes_.push_back(unit(body.motion.axis));
   }
   poses_.resize(walls.bodies().size());
   max_overlap_over_radius.assign(rags.size(), 0);
   touched.assign(rags.size() * n_contact_regions, {});
+  start_loads();
+}
+
+void WallContacts::start_loads() {
+  impulses.assign(walls_->parts().size(), {});
+  duration = 0;
 }
 
 WallContacts::Reach WallContacts::reach(const WallBody& body) const {
@@ -100,7 +108,7 @@ void WallContacts::sort_unpacked() {
 }
 
 void WallContacts::add(ContactParticles& particles, double time, double step, std::vector<HeldParticle>* held) {
-  step_ = step, held_ = held, n_contacts = 0;
+  step_ = step, held_ = held, n_contacts = 0, duration += step;
   for (std::size_t b = 0; b < poses_.size(); ++b) poses_[b] = wall_pose(walls_->bodies()[b].motion, time);
   for (WallTouch& touch : touched) touch.now = 0;
   block_->n = 0, block_->pair = nullptr;
@@ -210,7 +218,9 @@ void WallContacts::put(ContactParticles& particles, const Particle& p, const Tou
   const Vec3 n = -touch.direction, arm = s * n;
   const Vec3 direction = moves ? pose.turned_back(touch.direction) : touch.direction, slip = old_slip(touch.body, direction);
   const int c = block.n++;
-  block.place[c] = {p.number, touch.body, p.id, direction};
+  const WallBody& body = walls_->bodies()[touch.body];
+  const int part = body.planes.empty() ? surfaces_[touch.body].part(touch.triangle) : body.planes[touch.triangle].part;
+  block.place[c] = {p.number, touch.body, part, p.id, direction, p.x + arm};
   block.distance[c] = s;
   snag::put(block.normal, c, n);
   snag::put(block.velocity, c, p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{}));
@@ -229,6 +239,14 @@ void WallContacts::evaluate(ContactParticles& particles) {
     ParticleLoad& load = particles.load[place.particle];
     load.fx += block.force[0][c], load.fy += block.force[1][c], load.fz += block.force[2][c];
     load.tx += block.torque[0][c], load.ty += block.torque[1][c], load.tz += block.torque[2][c];
+    if (step_ > 0) {
+      const Vec3 normal = snag::get(block.normal, c), force = snag::get(block.force, c);
+      impulses[place.part].add({.point = place.point,
+                                .normal = normal,
+                                .force = force,
+                                .rolling_torque = snag::get(block.torque, c) - cross(block.distance[c] * normal, force)},
+                               poses_[place.body], axes_[place.body], step_);
+    }
     if (held_) {
       const double overlap = std::max(block.pair->reach - block.distance[c], 0.0);
       (*held_)[place.particle].add(snag::get(block.normal, c), block.pair->law->rates(overlap, step_));

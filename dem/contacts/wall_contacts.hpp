@@ -19,6 +19,7 @@
 #include "dem/contacts/contact_particles.hpp"
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/contacts/held_particle.hpp"
+#include "dem/contacts/wall_loads.hpp"
 #include "dem/walls/wall_triangles.hpp"
 #include "dem/walls/walls.hpp"
 
@@ -48,6 +49,9 @@ class WallContacts {
   /// Add forces and torques to the loads; advance slips by `step` (s); count into measures.
   void add(ContactParticles& particles, double time, double step, std::vector<HeldParticle>* held);
 
+  /// Impulses and duration are counted from now on.
+  void start_loads();
+
   /// Bring slips and ids that were appended from outside into order.
   void sort_unpacked();
 
@@ -59,6 +63,8 @@ class WallContacts {
   std::vector<double> max_overlap_over_radius;  // [n_rags] since reset
   std::vector<WallTouch> touched;               // [n_rags][n_contact_regions]
   std::optional<TongueLine> tongue;
+  std::vector<WallImpulse> impulses;  // [parts of the walls] since start_loads
+  double duration = 0;                // of the sub-steps since then, s
 
   std::vector<ContactPair> pairs;  // [n_rags]
 
@@ -106,6 +112,7 @@ class WallContacts {
   std::vector<TriangleSurface> surfaces_;  // [bodies]
   std::vector<WallPose> poses_;            // [bodies]
   std::vector<double> fastest_;            // [bodies] m/s, of the wall's material
+  std::vector<Vec3> axes_;                 // [bodies] unit
   double listed_ = 0;                      // time of the list, s
   std::vector<Candidate> candidates_;      // sorted by particle, then body
   std::vector<Touch> touches_, acting_;

@@ -57,7 +57,7 @@ void WallSet::add_plane(const std::string& name, const Vec3& point, const Vec3& 
                 "wall \"" + name + "\": normal = (0, 0, 0), a plane needs a direction; give normal, pointing into the fluid");
   check_motion(name, motion);
   bodies_.push_back({name, motion, {{point, unit(normal), static_cast<int>(parts_.size())}}, {}});
-  parts_.push_back(name);
+  add_parts({name});
 }
 
 void WallSet::add_box(const std::string& name, const Vec3& lower, const Vec3& upper, const WallMotion& motion) {
@@ -74,7 +74,7 @@ void WallSet::add_box(const std::string& name, const Vec3& lower, const Vec3& up
     body.planes.push_back({upper, -inward, static_cast<int>(parts_.size())});
   }
   bodies_.push_back(std::move(body));
-  parts_.push_back(name);
+  add_parts({name});
 }
 
 void WallSet::add_surface(const std::string& name, const WallSurface& surface, const WallMotion& motion) {
@@ -89,7 +89,13 @@ void WallSet::add_surface(const std::string& name, const WallSurface& surface, c
     triangle.part += static_cast<int>(parts_.size());
   }
   bodies_.push_back(std::move(body));
-  parts_.insert(parts_.end(), surface.parts.begin(), surface.parts.end());
+  add_parts(surface.parts);
+}
+
+/// Of the last body.
+void WallSet::add_parts(const std::vector<std::string>& names) {
+  parts_.insert(parts_.end(), names.begin(), names.end());
+  body_of_.resize(parts_.size(), static_cast<int>(bodies_.size()) - 1);
 }
 
 namespace {

@@ -66,11 +66,16 @@ class WallSet {
   const std::vector<WallBody>& bodies() const { return bodies_; }
   /// Names of the wall parts: patch names, or the wall's own name for a plane or box.
   const std::vector<std::string>& parts() const { return parts_; }
+  /// The wall that a part belongs to, counted as in bodies().
+  int body_of(int part) const { return body_of_[static_cast<std::size_t>(part)]; }
   bool empty() const { return bodies_.empty(); }
 
  private:
+  void add_parts(const std::vector<std::string>& names);
+
   std::vector<WallBody> bodies_;
   std::vector<std::string> parts_;
+  std::vector<int> body_of_;  // [parts]
 };
 
 /// The walls of a case, [[wall]]; `mesh` may be null where no wall names patches. Patches of the mesh's turning zone move as `rotor`, if

@@ -185,6 +185,10 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     elongation_at_start_.resize(simulation.rags->rags().size());
     rag_output_ = std::make_unique<RagOutput>(*writer, in("rags"));
     forces_ = rag_forces(*simulation.rags, nullptr, 0);
+    const RotatingZone* zone = simulation.water ? simulation.water->flow.rotating_zone : nullptr;
+    const Shaft shaft = zone ? Shaft{zone->origin(), zone->axis(), zone->full_speed()} : Shaft{};
+    wall_contacts_ = std::make_unique<WallContactOutput>(folder_ / "monitors", *simulation.rags, simulation.walls, zone ? &shaft : nullptr,
+                                                         resume, from);
   }
 }
 
@@ -229,6 +233,7 @@ void Outputs::write_rags() {
 void Outputs::write_monitors() {
   const double time = simulation_.time();
   const bool root = rank_of(MPI_COMM_WORLD) == 0;
+  if (wall_contacts_) wall_contacts_->after_step(*simulation_.rags, time);
   if (simulation_.water) write_water_monitors();
   if (simulation_.water && simulation_.water->flow.rotating_zone) write_rotor_monitors();
   if (!walls_with_y_plus_.empty()) write_wall_monitors();
@@ -259,6 +264,7 @@ std::vector<const Series*> Outputs::series() const {
                                  &coupling_.series(),  &timing_.series(),  &holds_.series()};
   const auto append = [&](const std::vector<const Series*>& more) { all.insert(all.end(), more.begin(), more.end()); };
   if (rag_monitors_) append(rag_monitors_->series());
+  if (wall_contacts_) append({&wall_contacts_->series()});
   if (pump_) append(pump_->series());
   if (balance_) all.push_back(&balance_->series());
   return all;
@@ -317,7 +323,7 @@ void Outputs::write_rotor_monitors() {
   const Flow& flow = simulation_.water->flow;
   largest_closure_ = std::max(largest_closure_, flow.rotating_zone->mesh().closure());
   const RotorState rotor = rotor_state(*flow.rotating_zone, flow.time);
-  if (pump_) pump_->after_step(flow, rotor);
+  if (pump_) pump_->after_step(flow, rotor, wall_contacts_ ? wall_contacts_->shaft_torque() : 0);
   balance_->after_step(*simulation_.water, rotor);
 }
 

@@ -14,6 +14,7 @@
 #include "simulation/output/rag_monitors.hpp"
 #include "simulation/output/rag_output.hpp"
 #include "simulation/output/summary.hpp"
+#include "simulation/output/wall_contact_output.hpp"
 #include "simulation/setup/simulation.hpp"
 #include "solver/monitors.hpp"
 
@@ -108,6 +109,7 @@ class Outputs {
   std::optional<FreeMotion> free_motion_;    // of the rags
   std::vector<double> elongation_at_start_;  // [n_rags] of the first silhouette, on rank 0; 0: not seen yet
   std::unique_ptr<RagOutput> rag_output_;
+  std::unique_ptr<WallContactOutput> wall_contacts_;
   RagForces forces_;  // of the last step
   std::unique_ptr<PumpOutput> pump_;
   std::unique_ptr<BalanceOutput> balance_;          // with a turning zone

@@ -37,8 +37,20 @@ constexpr std::array quantities{Quantity{"flow_in", "m3/s", [](const PumpReading
                                 Quantity{"torque", "N m", [](const PumpReading& now) { return now.torque(); }},
                                 Quantity{"shaft_power", "W", [](const PumpReading& now) { return now.shaft_power; }},
                                 Quantity{"hydraulic_power", "W", [](const PumpReading& now) { return now.hydraulic_power; }},
-                                Quantity{"efficiency", "1", [](const PumpReading& now) { return now.efficiency(); }}};
-enum : std::size_t { flow_out = 1, head = 2, head_total = 3, torque = 6, shaft_power = 7, hydraulic_power = 8, efficiency = 9 };
+                                Quantity{"efficiency", "1", [](const PumpReading& now) { return now.efficiency(); }},
+                                Quantity{"torque_contacts", "N m", [](const PumpReading& now) { return now.torque_contacts; }},
+                                Quantity{"shaft_power_total", "W", [](const PumpReading& now) { return now.shaft_power_total; }}};
+enum : std::size_t {
+  flow_out = 1,
+  head = 2,
+  head_total = 3,
+  torque = 6,
+  shaft_power = 7,
+  hydraulic_power = 8,
+  efficiency = 9,
+  torque_contacts = 10,
+  shaft_power_total = 11
+};
 
 std::vector<double> values_of(const PumpReading& now) {
   std::vector<double> values;
@@ -113,8 +125,11 @@ PumpOutput::PumpOutput(std::filesystem::path monitors, const Flow& flow, const P
   });
 }
 
-void PumpOutput::after_step(const Flow& flow, const RotorState& rotor) {
-  const std::vector<double> values = values_of(monitor_.read(flow, rotor.shaft));
+void PumpOutput::after_step(const Flow& flow, const RotorState& rotor, double torque_of_contacts) {
+  PumpReading reading = monitor_.read(flow, rotor.shaft);
+  reading.torque_contacts = torque_of_contacts;
+  reading.shaft_power_total = reading.shaft_power - torque_of_contacts * rotor.shaft.speed;
+  const std::vector<double> values = values_of(reading);
   keeps_speed_ = keeps_speed_ && rotor.shaft.speed == turn_.speed;
   turn_.after_step(rotor, flow.time_step_size);
   for (const Revolution& revolution : sampler_.add(turn_.turned, values)) complete(revolution, flow.time);
@@ -174,7 +189,9 @@ PumpSummary PumpOutput::summary() const {
   const std::vector<double> means = last_means_.empty() ? means_of(sampler_.current()) : last_means_;
   // A revolution that is complete but for round-off counts as one.
   const double revolutions = std::max(std::abs(turn_.turned) / two_pi, static_cast<double>(sampler_.current().number - 1));
-  return {means[flow_out], means[head], means[head_total], means[torque], means[shaft_power], means[efficiency], revolutions};
+  return {means[flow_out],    means[head],       means[head_total],      means[torque],
+          means[shaft_power], means[efficiency], means[torque_contacts], means[shaft_power_total],
+          revolutions};
 }
 
 void PumpOutput::save(CheckpointWriter& writer) const {

@@ -47,7 +47,8 @@ struct ShaftTurn {
 /// Means over the last complete revolution, over the whole run if none is complete; SI.
 struct PumpSummary {
   double flow = 0, head = 0, head_total = 0, torque = 0, shaft_power = 0, efficiency = 0;
-  double revolutions = 0;  // of the whole run; below 1: the means are over it all
+  double torque_contacts = 0, shaft_power_total = 0;  // of the rags on the impeller; of water and rags
+  double revolutions = 0;                             // of the whole run; below 1: the means are over it all
 };
 
 /// One instant: values in the order of the quantities of the pump.
@@ -77,8 +78,8 @@ class PumpOutput {
   /// Error(usage, io).
   PumpOutput(std::filesystem::path monitors, const Flow& flow, const PumpSettings& settings, const RotorState& start, bool resume,
              double from_time);
-  /// The step just done. Collective.
-  void after_step(const Flow& flow, const RotorState& rotor);
+  /// The step just done. `torque_of_contacts`: of the rags on the walls that turn with the shaft, mean over the step, N m. Collective.
+  void after_step(const Flow& flow, const RotorState& rotor, double torque_of_contacts = 0);
   /// monitors/phase.csv as it stands; nothing before a revolution after the start-up is complete. Rank 0 only; throws Error(io).
   void write_phase() const;
   PumpSummary summary() const;

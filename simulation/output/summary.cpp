@@ -125,6 +125,8 @@ nlohmann::ordered_json pump_json(const PumpSummary& pump) {
           {"torque_Nm", pump.torque},
           {"shaft_power_W", pump.shaft_power},
           {"efficiency", pump.efficiency},
+          {"torque_contacts_Nm", pump.torque_contacts},
+          {"shaft_power_total_W", pump.shaft_power_total},
           {"revolutions", pump.revolutions}};
 }
 

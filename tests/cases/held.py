@@ -124,7 +124,7 @@ class Held(harness.CaseTest):
         one = self.run_case(case, 1, out="1")
         for ranks in (2, 3):
             other = self.run_case(case, ranks, out=str(ranks))
-            for monitor in ("rags", "contacts", "holds"):
+            for monitor in ("rags", "contacts", "wall_contacts", "holds"):
                 self.assert_monitors_agree(one, other, monitor, 1e-12)
 
     def test_resume_and_release(self):

@@ -41,7 +41,7 @@ class OutputFolder(harness.CaseTest):
     def test_all_files_are_there(self):
         for name in ("case.resolved.toml", "summary.json", "log.txt", "report.html", "walls/walls.vtp", "fields/water.pvd"):
             self.assertTrue((self.folder / name).is_file(), name)
-        for monitor in ("residuals", "patches", "rags", "contacts", "rag_forces", "silhouettes", "coupling", "timing"):
+        for monitor in ("residuals", "patches", "rags", "contacts", "wall_contacts", "rag_forces", "silhouettes", "coupling", "timing"):
             self.assertTrue((self.folder / "monitors" / f"{monitor}.csv").is_file(), monitor)
         self.assertTrue(list((self.folder / "rags").glob("*.pvd")))
         self.assertTrue(list((self.folder / "checkpoint").glob("*.h5")))

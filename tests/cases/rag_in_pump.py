@@ -64,7 +64,7 @@ kernel = "{kernel}"
 kernel_width_mm = 6
 forces = ["free_stream_drag"]
 """
-MONITORS = ("rags", "passage", "rag_forces", "contacts", "coupling", "patches", "pump")
+MONITORS = ("rags", "passage", "rag_forces", "contacts", "wall_contacts", "coupling", "patches", "pump")
 
 
 class RagInPump(harness.CaseTest):
@@ -100,6 +100,14 @@ class RagInPump(harness.CaseTest):
         self.assertGreater(run.monitor("contacts").column("wall_contacts").max(), 0)
         self.assertGreater(run.monitor("passage").column("touching_impeller").max(), 0)
         self.assertEqual(run.monitor("coupling").column("particles_outside_cells").max(), 0)
+        pump, walls = run.monitor("pump"), run.monitor("wall_contacts")
+        torque = walls.column("impeller_walls_normal_torque") + walls.column("impeller_walls_friction_torque")
+        self.assertGreater(numpy.abs(torque).max(), 1e-3, "the rags must touch the impeller")
+        numpy.testing.assert_allclose(pump.column("torque_contacts"), torque, rtol=1e-12)
+        speed = 600 * numpy.pi / 30
+        numpy.testing.assert_allclose(walls.column("impeller_walls_power"), -speed * torque, rtol=1e-9, atol=1e-12)
+        numpy.testing.assert_allclose(pump.column("shaft_power_total"), pump.column("shaft_power") - speed * torque, rtol=1e-12)
+        self.assertEqual(numpy.abs(walls.column("casing_walls_power")).max(), 0)
         conservation = summary["conservation"]
         for name in ("particles_lost", "bonds_lost", "particles_beyond_walls"):
             self.assertEqual(conservation[name], 0, name)

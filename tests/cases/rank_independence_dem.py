@@ -14,7 +14,7 @@ class RagsOnAnyNumberOfRanks(harness.CaseTest):
         self.assertGreater(one.monitor("contacts").column("contacts").max(), 0, "the sheets must touch themselves or each other, else the case shows nothing")
         for ranks in (2, 3, 5):
             other = self.run_case(case, ranks, out=str(ranks))
-            for monitor in ("rags", "contacts", "silhouettes"):
+            for monitor in ("rags", "contacts", "wall_contacts", "silhouettes"):
                 self.assert_monitors_agree(one, other, monitor, 1e-12)
 
 

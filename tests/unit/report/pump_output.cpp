@@ -55,9 +55,10 @@ class PumpOutputTest : public testing::Test {
         if (patch.name == "x1") flow.boundary_pressure[b] = 1e4 * (head_at(angle) + climb * std::min(0.0, flow.time / climbing_time - 1));
         if (patch.name == "y1") flow.boundary_friction[b] = {-torque_at(angle) * norm(mesh.face_vector[f]), 0, 0};
       }
-    output.after_step(flow, rotor(flow.time));
+    output.after_step(flow, rotor(flow.time), contacts_at(angle));
   }
-  double climb = 0, climbing_time = 1;  // by which the head still rises, m; until then, s
+  static double contacts_at(double angle) { return -3 + std::sin(angle); }  // N m, of rags on the rotor
+  double climb = 0, climbing_time = 1;                                      // by which the head still rises, m; until then, s
 
   std::string text(const std::string& name) const { return file_text(dir / name).value_or(""); }
 
@@ -102,7 +103,9 @@ TEST_F(PumpOutputTest, RevolutionsAndPhase) {
   EXPECT_NEAR(pump.head, 4, 1e-6);
   EXPECT_NEAR(pump.torque, -10, 1e-6);
   EXPECT_NEAR(pump.shaft_power, 10 * omega, 1e-4);
-  EXPECT_NEAR(pump.efficiency, 1e4 * 0.2 * 4 / (10 * omega), 1e-6);
+  EXPECT_NEAR(pump.efficiency, 1e4 * 0.2 * 4 / (10 * omega), 1e-6) << "of the water, as torque and shaft power are";
+  EXPECT_NEAR(pump.torque_contacts, -3, 1e-6);
+  EXPECT_NEAR(pump.shaft_power_total, 13 * omega, 1e-4);
   EXPECT_NEAR(pump.revolutions, 4.04, 1e-12);
   if (!root) return;
 
@@ -112,6 +115,9 @@ TEST_F(PumpOutputTest, RevolutionsAndPhase) {
   ASSERT_EQ(instants.column("time").size(), 1010u);
   EXPECT_NEAR(instants.column("angle")[249], 0.25 / degree, 1e-9) << "after one revolution where it started";
   EXPECT_NEAR(instants.column("head")[36], head_at(0.25 + 37 * 1.44 * degree), 1e-9);
+  EXPECT_NEAR(instants.column("torque_contacts")[36], contacts_at(0.25 + 37 * 1.44 * degree), 1e-9);
+  EXPECT_NEAR(instants.column("shaft_power_total")[36] - instants.column("shaft_power")[36],
+              -omega * instants.column("torque_contacts")[36], 1e-9);
   ASSERT_EQ(table.column("revolution"), (std::vector<double>{1, 2, 3, 4}));
   EXPECT_NEAR(table.column("time")[3], 0.2, 1e-12);
   EXPECT_TRUE(std::isnan(table.column("head_change_rel")[0]));
