@@ -73,7 +73,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
     const int first = tile.index(0, j), end = first + tile.nx;
 #pragma omp simd
     for (int k = first; k < end; ++k) {
-      const double hK = step * slope[k], theta = hK * ((free[k] > 0 ? 1 / (m + added_mass[k]) : 0) + d[k]);
+      const double hK = step * slope[k], theta = hK * ((free[k] > 0.5 ? 1 / (m + added_mass[k]) : 0) + d[k]);
       const double over = 1 / (1 + theta * (2.0 / 3 + theta / 6));
       phi[k] = (1 + theta / 6) * over;
       driven[k] = hK * (0.5 + theta / 6) * over;
@@ -85,8 +85,8 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
 #pragma omp simd
       for (int k = first; k < end; ++k) {
         const double other = f[k] + N[k], M = m + added_mass[k];
-        const double mean = phi[k] * R[k] + driven[k] * (r[k] - (free[k] > 0 ? other / M : 0));
-        const double total = (other + mean) * (free[k] > 0 ? m / M : 1);  // m a
+        const double mean = phi[k] * R[k] + driven[k] * (r[k] - (free[k] > 0.5 ? other / M : 0));
+        const double total = (other + mean) * (free[k] > 0.5 ? m / M : 1);  // m a
         J[k] += exists[k] > 0 ? step * (total - other) : 0;
         f[k] = exists[k] > 0 ? total : f[k];
       }

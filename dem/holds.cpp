@@ -50,41 +50,139 @@ std::array<Range, 2> ranges_of(const HoldSettings& hold, const Rag& rag, const s
   return {columns, rows};
 }
 
+bool is_in_box(const HoldSettings& hold, const Vec3& x) {
+  for (int c = 0; c < 3; ++c)
+    if (x[c] < hold.box_lower[c] || x[c] > hold.box_upper[c]) return false;
+  return true;
+}
+
+/// Lattice places (row * n_columns + column) that a hold chooses, ascending; some may be outside the mask of the piece.
+std::vector<int> chosen_places(const HoldSettings& hold, const RagPiece& piece, const Rag& rag, const std::string& where) {
+  const int n = rag.n_columns * rag.n_rows;
+  std::vector<int> places;
+  for (const double given : hold.particles) {
+    if (given < 0 || given >= n || given != std::floor(given))
+      throw Error(ExitCode::usage, where + " particles: " + words(given) + " is no particle of " + rag.name +
+                                       ", must be a whole number from 0 to " + std::to_string(n - 1) + ", row * " +
+                                       std::to_string(rag.n_columns) + " + column; correct it, or name another piece in `rag`");
+    places.push_back(static_cast<int>(given));
+  }
+  if (!hold.particles.empty()) {
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
+  }
+  const auto [columns, rows] = ranges_of(hold, rag, where);
+  for (int row = rows.first; row <= rows.last; ++row)
+    for (int column = columns.first; column <= columns.last; ++column)
+      if (!hold.has_box || (piece.exists(column, row) && is_in_box(hold, piece.pose(column, row).position)))
+        places.push_back(row * rag.n_columns + column);
+  return places;
+}
+
+/// Keys without effect are refused.
+void check(const HoldSettings& hold, const Table& table, const std::string& where) {
+  const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, where + what); };
+  const int n_choices = (hold.edge.empty() ? 0 : 1) + (hold.columns.empty() && hold.rows.empty() ? 0 : 1) +
+                        (hold.particles.empty() ? 0 : 1) + (hold.has_box ? 1 : 0);
+  if (n_choices == 0)
+    refuse(" selects no particles: must have one of edge, columns, rows, particles, box_lower with box_upper; give one of them");
+  if (n_choices > 1) {
+    std::string given;
+    for (const char* key : {"edge", "columns", "rows", "particles", "box_lower"})
+      if (table.has(key)) given += (given.empty() ? "" : ", ") + std::string(key);
+    refuse(" has " + given + ": must have one kind of choice; remove the others");
+  }
+  if (table.has("box_lower") != table.has("box_upper")) refuse(": box_lower and box_upper need each other; give both");
+  for (int c = 0; c < 3 && hold.has_box; ++c)
+    if (hold.box_lower[c] > hold.box_upper[c])
+      refuse(": box_lower (" + words(hold.box_lower[c]) + " m) is above box_upper (" + words(hold.box_upper[c]) + " m) along axis " +
+             std::to_string(c) + "; exchange or correct them");
+  if ((hold.kind == "hinge") != (norm_squared(hold.hinge_axis) > 0))
+    refuse(hold.kind == "hinge" ? " kind = \"hinge\" without hinge_axis, the direction about which its particles turn freely; give it"
+                                : " hinge_axis needs kind = \"hinge\", it is \"" + hold.kind + "\"; set kind, or remove it");
+  const HoldMotion& motion = hold.motion;
+  if ((norm_squared(motion.amplitude) > 0) != (motion.frequency > 0))
+    refuse(": amplitude and frequency of an oscillation need each other; give both, or none");
+  if (motion.rotation_speed != 0 && norm_squared(motion.axis) == 0)
+    refuse(" axis = (0, 0, 0), a hold that turns needs a direction; give axis");
+}
+
+/// What of a rotation the hold determines; hinge: `axis`, unit.
+Vec3 held_part(const HoldSettings& hold, const Vec3& axis, const Vec3& w) {
+  if (hold.kind == "clamp") return w;
+  return hold.kind == "pin" ? Vec3{} : w - dot(w, axis) * axis;
+}
+
+double freedom(const HoldSettings& hold, double time) {
+  const bool released = hold.release_time && time >= *hold.release_time * (1 - 1e-12);  // a step that begins then has its time to round-off
+  if (released) return 1;
+  return hold.kind == "clamp" ? 0 : pinned;
+}
+
 }  // namespace
 
 Section HoldSettings::section() {
-  return {"hold",
-          "Particles of rags that are clamped: position and rotation are held. Reactions: monitors/holds.csv.",
-          {setting("rag", &rag,
-                   "Name of the piece as in outputs; without the number of a copy: all copies. Not given: every piece of the case."),
-           setting("edge", &edge, "Edge of the lattice that is held; not given: the particles of `columns` and `rows`.",
-                   {"", "first_column", "last_column", "first_row", "last_row"}),
-           {.key = "columns",
-            .target = &columns,
-            .minimum = 0,
-            .meaning = "First and last lattice column that is held, counted from 0 along `lengthwise`; not given: all columns."},
-           {.key = "rows",
-            .target = &rows,
-            .minimum = 0,
-            .meaning = "First and last lattice row that is held, counted from 0 along `crosswise`; not given: all rows."},
-           {"release_time", &release_time, "s", 0, infinity, Basis::assumed,
-            "The hold ends with the first time step that begins at this time or later; not given: it lasts to the end."}},
-          true};
+  const auto vector = [](const char* key, Vec3* target, const char* unit, const char* meaning) {
+    return Parameter{.key = key, .target = target, .unit = unit, .meaning = meaning};
+  };
+  return {
+      "hold",
+      "Particles of rags that are held, at rest or in a prescribed motion. Reactions: monitors/holds.csv.",
+      {setting("rag", &rag,
+               "Name of the piece as in outputs; without the number of a copy: all copies. Not given: every piece of the case."),
+       setting("edge", &edge, "Edge of the lattice that is held; not given: the particles of `columns` and `rows`.",
+               {"", "first_column", "last_column", "first_row", "last_row"}),
+       {.key = "columns",
+        .target = &columns,
+        .minimum = 0,
+        .meaning = "First and last lattice column that is held, counted from 0 along `lengthwise`; not given: all columns."},
+       {.key = "rows",
+        .target = &rows,
+        .minimum = 0,
+        .meaning = "First and last lattice row that is held, counted from 0 along `crosswise`; not given: all rows."},
+       {.key = "particles",
+        .target = &particles,
+        .minimum = 0,
+        .meaning = "List of the particles that are held, each as row * number of columns + column."},
+       vector("box_lower", &box_lower, "m", "Held are the particles that start between this corner and `box_upper`."),
+       vector("box_upper", &box_upper, "m", "Highest corner of that box."),
+       setting("kind", &kind,
+               "clamp: position and rotation follow the hold. pin: the position alone. hinge: a particle turns freely about `hinge_axis`.",
+               {"clamp", "pin", "hinge"}),
+       vector("hinge_axis", &hinge_axis, "1", "hinge: direction of the axis, a vector of any length; it turns with the hold."),
+       vector("velocity", &motion.velocity, "m/s", "Velocity of translation of the hold."),
+       vector("amplitude", &motion.amplitude, "m",
+              "Amplitude A of an oscillation of the hold, A (sin(2 pi f t + phase) - sin(phase)), in addition to its other motion."),
+       {.key = "frequency", .target = &motion.frequency, .unit = "Hz", .minimum = 0, .meaning = "Frequency f of the oscillation."},
+       {.key = "phase", .target = &motion.phase, .unit = "rad", .meaning = "Phase of the oscillation at time 0."},
+       vector("axis", &motion.axis, "1", "Direction of the axis of rotation of the hold, a vector of any length."),
+       vector("origin", &motion.origin, "m", "A point on the axis of rotation at time 0; it moves with the hold."),
+       {.key = "rotation_speed",
+        .target = &motion.rotation_speed,
+        .unit = "rad/s",
+        .meaning = "Speed of rotation of the hold, right-handed about the axis."},
+       {.key = "ramp",
+        .target = &motion.ramp,
+        .unit = "s",
+        .minimum = 0,
+        .meaning = "Time in which velocity and speed of rotation grow linearly from zero."},
+       {"release_time", &release_time, "s", 0, infinity, Basis::assumed,
+        "The hold ends with the first time step that begins at this time or later; not given: it lasts to the end."}},
+      true};
 }
 
-Holds::Holds(const Table& root, const RagSystem& rags, const Vec3& gravity) : gravity_(gravity) {
+Holds::Holds(const Table& root, const RagSystem& rags, const Vec3& gravity) : rags_(rags), gravity_(gravity) {
   std::vector<std::string> all_where;
   for (const Table& table : root.tables("hold")) {
     HoldSettings& hold = settings_.emplace_back();
     const std::string where = all_where.emplace_back(table.where());
     table.read(hold.section().parameters);
-    if (hold.edge.empty() && hold.columns.empty() && hold.rows.empty())
-      throw Error(ExitCode::usage, where + " selects no particles: must have one of edge, columns, rows; give one of them");
-    if (!hold.edge.empty() && !(hold.columns.empty() && hold.rows.empty()))
-      throw Error(ExitCode::usage, where + " edge = \"" + hold.edge + "\" with columns or rows: must have one kind of choice; remove one");
-    if (hold_of_.empty()) {
+    hold.has_box = table.has("box_lower") || table.has("box_upper");
+    check(hold, table, where);
+    if (place_of_.empty()) {
       const Rag& last = rags.rags().back();
-      hold_of_.assign(static_cast<std::size_t>(last.first_particle) + static_cast<std::size_t>(last.n_columns) * last.n_rows, -1);
+      place_of_.assign(static_cast<std::size_t>(last.first_particle) + static_cast<std::size_t>(last.n_columns) * last.n_rows, -1);
     }
     const std::size_t n_before = places_.size();
     std::string known;
@@ -96,76 +194,146 @@ Holds::Holds(const Table& root, const RagSystem& rags, const Vec3& gravity) : gr
     if (places_.size() == n_before)
       throw Error(ExitCode::usage, where + " rag = \"" + shortened(hold.rag) + "\": must name a piece of the case; known: " + known);
   }
+  reactions_.resize(places_.size());
 }
 
 void Holds::select(int hold, const std::string& where, const RagSystem& rags, int rag, const std::vector<std::string>& all_where) {
   const RagPiece& piece = rags.pieces()[static_cast<std::size_t>(rag)];
   const Rag& lattice = rags.rags()[static_cast<std::size_t>(rag)];
-  const auto [columns, rows] = ranges_of(settings_[static_cast<std::size_t>(hold)], lattice, where);
-  Place place{.hold = hold, .rag = rag, .rag_name = lattice.name, .n_particles = 0, .point = {}};
-  for (int row = rows.first; row <= rows.last; ++row)
-    for (int column = columns.first; column <= columns.last; ++column) {
-      if (!piece.exists(column, row)) continue;
-      int& holder = hold_of_[static_cast<std::size_t>(lattice.first_particle) + static_cast<std::size_t>(row) * lattice.n_columns + column];
-      if (holder >= 0)
-        throw Error(ExitCode::usage, where + " holds the particle at column " + std::to_string(column) + ", row " + std::to_string(row) +
-                                         " of " + lattice.name + ", which " + all_where[static_cast<std::size_t>(holder)] +
-                                         " holds already: a particle must have one hold at most; change columns or rows of one of them");
-      holder = hold;
-      ++place.n_particles;
-      place.point += piece.pose(column, row).position;
-    }
+  const HoldSettings& settings = settings_[static_cast<std::size_t>(hold)];
+  Place place{.hold = hold, .rag = rag, .rag_name = lattice.name, .n_particles = 0, .point = {}, .start_time = piece.insert_time};
+  for (const int chosen : chosen_places(settings, piece, lattice, where)) {
+    const int column = chosen % lattice.n_columns, row = chosen / lattice.n_columns;
+    if (!piece.exists(column, row)) continue;
+    int& holder = place_of_[static_cast<std::size_t>(lattice.first_particle) + static_cast<std::size_t>(chosen)];
+    if (holder >= 0)
+      throw Error(ExitCode::usage, where + " holds the particle at column " + std::to_string(column) + ", row " + std::to_string(row) +
+                                       " of " + lattice.name + ", which " +
+                                       all_where[static_cast<std::size_t>(places_[static_cast<std::size_t>(holder)].hold)] +
+                                       " holds already: a particle must have one hold at most; change columns or rows of one of them");
+    holder = static_cast<int>(places_.size());
+    ++place.n_particles;
+    const Vec3 x = piece.pose(column, row).position;
+    place.point += x, place.reach = std::max(place.reach, norm(x - settings.motion.origin));
+  }
   if (place.n_particles == 0)
     throw Error(ExitCode::usage,
                 where + " selects no particle of " + lattice.name +
-                    ": must select one at least; a disc has no particles in the corners of its lattice, choose other places");
+                    ": must select one at least; a disc has no particles in the corners of its lattice, and a box holds those "
+                    "that start in it; choose other places, or name another piece in `rag`");
   place.point = place.point / static_cast<double>(place.n_particles);
   places_.push_back(place);
 }
 
 void Holds::apply(RagSystem& rags, double time) const {
-  rags.clamp([&](std::int64_t id) {
-    const int hold = hold_of_[static_cast<std::size_t>(id)];
-    if (hold < 0) return false;
-    const std::optional<double> release = settings_[static_cast<std::size_t>(hold)].release_time;
-    return !release || time < *release * (1 - 1e-12);  // a step that begins at the release has its time to round-off only
-  });
-  rags.set_clamp_velocity([](std::int64_t) { return Vec3{}; });
+  for (Tile& tile : rags.tiles()) {
+    const Rag& rag = rags.rags()[static_cast<std::size_t>(tile.rag)];
+    for_particles(tile, [&](int k, int i, int j) {
+      const int place = place_of_[static_cast<std::size_t>(particle_id(rag, tile, i, j))];
+      if (place < 0) return;
+      const HoldSettings& hold = settings_[static_cast<std::size_t>(places_[static_cast<std::size_t>(place)].hold)];
+      const double is = freedom(hold, time);
+      if (is <= pinned && tile.free[k] > 0.5) {
+        const Vec3 w = tile.vector(Tile::wx, k), axis = unit(hold.motion.turned(hold.hinge_axis, 0, time));
+        tile.set_vector(Tile::vx, k, hold.motion.velocity_at(tile.vector(Tile::x, k), time));
+        tile.set_vector(Tile::wx, k, w + held_part(hold, axis, hold.motion.spin(time) - w));
+      }
+      tile.free[k] = is;
+    });
+  }
+}
+
+void Holds::begin(std::span<Tile> tiles, double time, double drift) {
+  duration_ = 0;
+  std::fill(reactions_.begin(), reactions_.end(), Reaction{});
+  held_.resize(tiles.size());
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    Tile& tile = tiles[t];
+    const Rag& rag = rags_.rags()[static_cast<std::size_t>(tile.rag)];
+    held_[t].clear();
+    for_particles(tile, [&](int k, int i, int j) {
+      if (tile.free[k] > 0.5) return;
+      const int place = place_of_[static_cast<std::size_t>(particle_id(rag, tile, i, j))];
+      if (place < 0) return;
+      held_[t].push_back({k, place});
+      ++reactions_[static_cast<std::size_t>(place)].n_particles;
+      move(tile, held_[t].back(), time, drift, {}, 0);
+    });
+  }
+}
+
+void Holds::kick(std::size_t index, Tile& tile, double time, double step, double drift) {
+  if (index == 0) duration_ += step;
+  const Rag& rag = rags_.rags()[static_cast<std::size_t>(tile.rag)];
+  for (const Held& held : held_[index]) move(tile, held, time, drift, step * (tile.vector(Tile::fx, held.k) + rag.mass * gravity_), step);
+}
+
+/// Velocity and rotation of a held particle for the drift from `time` on, and what the hold gave for it.
+void Holds::move(Tile& tile, const Held& held, double time, double drift, const Vec3& force_impulse, double step) {
+  const Place& place = places_[static_cast<std::size_t>(held.place)];
+  const HoldSettings& hold = settings_[static_cast<std::size_t>(place.hold)];
+  const HoldMotion& motion = hold.motion;
+  const Rag& rag = rags_.rags()[static_cast<std::size_t>(tile.rag)];
+  const Vec3 x = tile.vector(Tile::x, held.k), v = tile.vector(Tile::vx, held.k), w = tile.vector(Tile::wx, held.k),
+             torque = tile.vector(Tile::tx, held.k), axis = unit(motion.turned(hold.hinge_axis, 0, time));
+  const Vec3 v_new = motion.moves() ? (motion.moved(x, time, time + drift) - x) / drift : Vec3{};
+  const Vec3 turn = held_part(hold, axis, motion.mean_spin(time, time + drift) - w);  // of what is held
+  tile.set_vector(Tile::vx, held.k, v_new), tile.set_vector(Tile::wx, held.k, w + turn);
+  const Vec3 held_torque = step > 0 ? held_part(hold, axis, torque) : Vec3{};
+  if (step > 0) tile.set_vector(Tile::tx, held.k, torque - held_torque);  // the rest turns it
+
+  const Vec3 J = rag.mass * (v_new - v) - force_impulse;
+  const Vec3 point = motion.moved(place.point, place.start_time, time);
+  const Vec3 L = cross(x - point, J) + rag.inertia * turn - step * held_torque;
+  std::array<RunningSum, 6>& sums = reactions_[static_cast<std::size_t>(held.place)].impulse;
+  for (int c = 0; c < 3; ++c) sums[static_cast<std::size_t>(c)].add(J[c]), sums[static_cast<std::size_t>(3 + c)].add(L[c]);
 }
 
 std::vector<HoldReaction> Holds::reactions(const RagSystem& rags, double time) const {
+  std::vector<RunningSum> terms;
+  for (const Reaction& one : reactions_) terms.insert(terms.end(), one.impulse.begin(), one.impulse.end());
+  const std::vector<double> impulse = sums(rags.comm(), terms);
+  const double duration = maximum(rags.comm(), duration_);
   std::vector<HoldReaction> all;
-  for (const Place& place : places_) {
-    const Rag& rag = rags.rags()[static_cast<std::size_t>(place.rag)];
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    const Place& place = places_[p];
+    const std::int64_t n = sum(rags.comm(), reactions_[p].n_particles);
     if (rags.presence(place.rag) != RagSystem::Presence::present) continue;
-    std::vector<Vec3> forces, moments;
-    for (const Tile& tile : rags.tiles()) {
-      if (tile.rag != place.rag) continue;
-      for_particles(tile, [&](int k, int i, int j) {
-        if (tile.free[k] > 0.5 || hold_of_[static_cast<std::size_t>(particle_id(rag, tile, i, j))] != place.hold) return;
-        const Vec3 F = tile.vector(Tile::fx, k) + rag.mass * gravity_;
-        forces.push_back(-1.0 * F);
-        moments.push_back(-1.0 * (cross(tile.vector(Tile::x, k) - place.point, F) + tile.vector(Tile::tx, k)));
-      });
-    }
+    const double* J = &impulse[6 * p];
+    const double share = duration > 0 ? 1 / duration : 0;
+    const HoldMotion& motion = settings_[static_cast<std::size_t>(place.hold)].motion;
     all.push_back({.time = time,
                    .hold = place.hold,
                    .rag = place.rag,
-                   .n_particles = sum(rags.comm(), static_cast<std::int64_t>(forces.size())),
-                   .point = place.point,
-                   .force = sum(rags.comm(), std::span<const Vec3>(forces)),
-                   .moment = sum(rags.comm(), std::span<const Vec3>(moments))});
+                   .n_particles = n,
+                   .point = motion.moved(place.point, place.start_time, time),
+                   .force = share * Vec3{J[0], J[1], J[2]},
+                   .moment = share * Vec3{J[3], J[4], J[5]}});
   }
   return all;
 }
 
+double Holds::largest_speed() const {
+  double speed = 0;
+  for (const Place& place : places_)
+    speed = std::max(speed, settings_[static_cast<std::size_t>(place.hold)].motion.largest_speed(place.reach));
+  return speed;
+}
+
 std::vector<std::string> Holds::lines() const {
+  const auto vector = [](const Vec3& v) { return "(" + words(v.x) + ", " + words(v.y) + ", " + words(v.z) + ")"; };
   std::vector<std::string> all;
   for (const Place& place : places_) {
-    const std::optional<double> release = settings_[static_cast<std::size_t>(place.hold)].release_time;
-    all.push_back("hold " + std::to_string(place.hold) + ": " + counted(place.n_particles, "particle") + " of " + place.rag_name +
-                  " clamped, mean position (" + words(place.point.x) + ", " + words(place.point.y) + ", " + words(place.point.z) + ") m" +
-                  (release ? ", until " + words(*release) + " s" : ""));
+    const HoldSettings& hold = settings_[static_cast<std::size_t>(place.hold)];
+    const HoldMotion& motion = hold.motion;
+    std::string line = "hold " + std::to_string(place.hold) + ": " + counted(place.n_particles, "particle") + " of " + place.rag_name;
+    line += hold.kind == "clamp" ? " clamped" : hold.kind == "pin" ? " pinned" : " hinged about " + vector(unit(hold.hinge_axis));
+    line += ", mean position " + vector(place.point) + " m";
+    if (norm_squared(motion.velocity) > 0) line += ", moves with " + vector(motion.velocity) + " m/s";
+    if (motion.rotation_speed != 0) line += ", turns at " + words(motion.rotation_speed) + " rad/s about " + vector(unit(motion.axis));
+    if (motion.frequency > 0) line += ", oscillates by " + vector(motion.amplitude) + " m at " + words(motion.frequency) + " Hz";
+    if (hold.release_time) line += ", until " + words(*hold.release_time) + " s";
+    all.push_back(line);
   }
   return all;
 }

@@ -134,6 +134,7 @@ void RagSystem::advance(double dt, TileForce* force) {
   int n_left = n_of(dt);
   double step = dt / n_left, left = dt;
   if (contacts_) contacts_->set_time(time_ + step / 2), contacts_->start_wall_loads();
+  if (motion_) motion_->begin(tiles_, time_, step / 2);
   for (Tile& tile : tiles_) drift(tile, step / 2);
   const Box* moved = nullptr;  // not known of the half drift and of what was done to the rags in between
   int& k = n_last_sub_steps_;
@@ -147,7 +148,7 @@ void RagSystem::advance(double dt, TileForce* force) {
       n_left = n_of(left), next = left / n_left;
       contacts_->set_time(time_ + dt - left + next / 2);
     }
-    kick_and_drift_tiles(step, n_left > 0 ? step / 2 + next / 2 : step / 2, force);
+    kick_and_drift_tiles(time_ + dt - left - step / 2, step, n_left > 0 ? step / 2 + next / 2 : step / 2, force);
     moved = &moved_;
     step = next;
   }
@@ -187,7 +188,7 @@ void RagSystem::evaluate_contacts(double step, const Box* moved, bool with_limit
   }
 }
 
-void RagSystem::kick_and_drift_tiles(double step, double drift_step, TileForce* force) {
+void RagSystem::kick_and_drift_tiles(double time, double step, double drift_step, TileForce* force) {
   Box velocities;
   // Everything else a tile at a time, while it is in the cache.
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
@@ -199,6 +200,7 @@ void RagSystem::kick_and_drift_tiles(double step, double drift_step, TileForce* 
     }
     if (contacts_) contacts_->add_to_tile(i);
     if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces
+    if (motion_) motion_->kick(i, tile, time, step, drift_step);
     velocities.include(kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step));
   }
   moved_ = {};

@@ -40,6 +40,17 @@ class TileForce {
   virtual void add(std::size_t index, Tile& tile, double step) = 0;
 };
 
+/// Motion that holds prescribe to particles that are not free. Its calls see every owned tile in every sub-step.
+class PrescribedMotion {
+ public:
+  virtual ~PrescribedMotion() = default;
+  /// At the start of an advance at `time`, s: velocities for the first drift, which takes `drift` s.
+  virtual void begin(std::span<Tile> tiles, double time, double drift) = 0;
+  /// When all forces on the particles of an owned tile are there, at `time`, s, before they act for `step` s: velocities for the drift
+  /// after that, which takes `drift` s from `time` on.
+  virtual void kick(std::size_t index, Tile& tile, double time, double step, double drift) = 0;
+};
+
 /// Decides which rank owns each tile, from the centres of this rank's tiles; collective.
 using OwnerOf = std::function<std::vector<int>(const std::vector<Vec3>& tile_centres)>;
 
@@ -115,6 +126,8 @@ class RagSystem {
   void migrate(const OwnerOf& owner_of = {});
   /// Particles with ids for which `held` is true keep their present velocity from now on (a clamp), the others are free.
   void clamp(const std::function<bool(std::int64_t id)>& held);
+  /// Holds that move particles from now on, or null; must outlive the system.
+  void set_motion(PrescribedMotion* motion) { motion_ = motion; }
   /// Velocity of all clamped particles of this rank, from now on, m/s.
   void set_clamp_velocity(const std::function<Vec3(std::int64_t id)>& velocity);
 
@@ -131,7 +144,7 @@ class RagSystem {
   void set_limit();
   void exchange_ghosts(const Box* moved = nullptr);
   void evaluate_contacts(double step, const Box* moved, bool with_limit);
-  void kick_and_drift_tiles(double step, double drift_step, TileForce* force);
+  void kick_and_drift_tiles(double time, double step, double drift_step, TileForce* force);
   struct TileLists {
     std::vector<TileRows> send, receive;  // by ascending number of the tile
     bool operator==(const TileLists&) const = default;
@@ -188,6 +201,7 @@ class RagSystem {
   std::int64_t n_owned_particles_ = 0;
   std::unique_ptr<TileHalo> halo_;
   std::unique_ptr<ContactSolver> contacts_;
+  PrescribedMotion* motion_ = nullptr;
 };
 
 }  // namespace snag

@@ -78,13 +78,13 @@ Box kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drif
   double low_x = all.lower.x, low_y = low_x, low_z = low_x, high_x = all.upper.x, high_y = high_x, high_z = high_x;
 #pragma omp simd reduction(min : low_x, low_y, low_z) reduction(max : high_x, high_y, high_z)
   for (int k = 0; k < rows.n; ++k) {
-    const double moves = free[k];
+    const double moves = free[k] > 0.5 ? 1 : 0, turns = free[k] > 0 ? 1 : 0;
     f[Tile::vx][k] += moves * (per_mass * f[Tile::fx][k] + fall.x);
     f[Tile::vy][k] += moves * (per_mass * f[Tile::fy][k] + fall.y);
     f[Tile::vz][k] += moves * (per_mass * f[Tile::fz][k] + fall.z);
-    f[Tile::wx][k] += moves * per_moment * f[Tile::tx][k];
-    f[Tile::wy][k] += moves * per_moment * f[Tile::ty][k];
-    f[Tile::wz][k] += moves * per_moment * f[Tile::tz][k];
+    f[Tile::wx][k] += turns * per_moment * f[Tile::tx][k];
+    f[Tile::wy][k] += turns * per_moment * f[Tile::ty][k];
+    f[Tile::wz][k] += turns * per_moment * f[Tile::tz][k];
     const bool counts = exists[k] > 0.5;  // also held ones; the columns of the ring have velocities that particles had
     const Vec3 v{f[Tile::vx][k], f[Tile::vy][k], f[Tile::vz][k]};
     low_x = std::min(low_x, counts ? v.x : low_x), high_x = std::max(high_x, counts ? v.x : high_x);

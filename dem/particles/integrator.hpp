@@ -36,7 +36,7 @@ struct Box {
 };
 
 /// Change velocities by the forces fx .. tz and gravity over `dt`, then drift for `dt_drift`. Particles that are not free keep their
-/// velocity. Returns bounds of the velocities with which they drift, m/s.
+/// velocity, and their rotation unless they are pinned. Returns bounds of the velocities with which they drift, m/s.
 Box kick_and_drift(Tile& tile, const Inertia& inertia, double dt, double dt_drift);
 
 /// Of the positions in row j of a tile, m.

@@ -31,6 +31,9 @@ struct CacheAligned {
 };
 using AlignedDoubles = std::vector<double, CacheAligned<double>>;
 
+/// Value of Tile::free of a particle that a hold keeps in place, but not from turning.
+inline constexpr double pinned = 0.25;
+
 struct Tile {
   enum Field : int {
     x,
@@ -64,7 +67,8 @@ struct Tile {
   std::size_t field_size = 0;  // doubles from one field to the next
 
   AlignedDoubles exists;  // [(ny + 2) * stride] 1 or 0: the mask of the piece, ring included
-  AlignedDoubles free;    // [(ny + 2) * stride] 1: obeys the forces; 0: keeps its velocity (held by a clamp, or absent)
+  AlignedDoubles free;    // [(ny + 2) * stride] 1: obeys forces and torques; `pinned`: torques alone, keeps its velocity; 0: keeps velocity
+                          // and rotation (clamped, or absent)
   // [(ny + 2) * stride] 1 where the bond k - k+1, k - k+stride is whole, 0 where there is none or it broke
   AlignedDoubles bond_x, bond_y;
   int n_breaks = 0;  // grows whenever a bond mark is taken away: lists that know of bonds are out of date

@@ -193,7 +193,9 @@ void Simulation::couple(const CaseFile& file) {
   }
   if (coupled) coupled->set_walls(walls);
   if (file.root().has("hold")) holds = std::make_unique<Holds>(file.root(), *rags, coupled ? Vec3{} : gravity);
+  if (holds) rags->set_motion(holds.get());
   speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), impact_speed_);
+  if (holds) speed_bounds_->widen(holds->largest_speed(), "motion of [[hold]]");
   if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
 }
 

@@ -31,11 +31,12 @@ class SpeedBounds {
   /// Largest speed of what is not water, m/s, and what it is.
   double speed() const { return speed_; }
   const std::string& source() const { return source_; }
+  /// Something else moves with this speed, m/s.
+  void widen(double speed, const std::string& source);
   /// At a time, in water that is computed, prescribed or absent (null). Collective.
   SpeedBound at(double time, const FlowSolver* water, const PrescribedFlow* prescribed, const RagSystem& rags) const;
 
  private:
-  void widen(double speed, const std::string& source);
   double gravity_, speed_ = 0, impact_speed_;  // m/s2, m/s, m/s
   bool falls_freely_;                          // without a mesh there is no end to it
   std::string source_ = "nothing moves";
