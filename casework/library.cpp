@@ -18,6 +18,8 @@ CatalogueEffect setting_effect(const Candidate& candidate) {
   CatalogueEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
   if (candidate.prior.key.starts_with("rag."))
     for (const char* shape : {"disc", "fibre"}) effect.added_to.push_back(shape + candidate.prior.key.substr(3));
+  if (candidate.prior.key == "contact.wall_friction")  // of pieces that have their own
+    for (const char* shape : {"rag", "disc", "fibre", "particle"}) effect.added_to.push_back(shape + std::string(".wall_friction"));
   return effect;
 }
 

@@ -14,6 +14,7 @@
 #include "simulation/output/output_folder.hpp"
 #include "simulation/output/outputs.hpp"
 #include "simulation/setup/forecast.hpp"
+#include "simulation/setup/gap_lines.hpp"
 #include "simulation/setup/rag_assumptions.hpp"
 #include "simulation/setup/simulation.hpp"
 #include "simulation/stop_request.hpp"
@@ -136,6 +137,9 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
     for (const std::string& line : simulation.poses->lines()) log::info(line);
   if (simulation.holds)
     for (const std::string& line : simulation.holds->lines()) log::info(line);
+  if (simulation.rags && rank_of(world) == 0)
+    for (const std::string& line : gap_lines(simulation.walls, simulation.rags->rags(), simulation.contacts, simulation.time()))
+      log::info(line);
   if (simulation.coupled && simulation.mesh) {
     for (const std::string& warning :
          kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))

@@ -24,9 +24,9 @@ inline int padded(int n) { return (n + contact_lanes - 1) / contact_lanes * cont
 /// What two bodies have in common but the law.
 struct ContactGeometry {
   RollingFriction rolling;
-  double reach = 0;             // distance of the centres below which they touch: r_1 + r_2, or r_1 of a wall, m
+  double reach = 0;  // distance of the centres below which they touch: r_1 + r_2, or r_1 of a wall, m (r: Rag::layer_reach, wall_reach)
   double arm_1 = 0, arm_2 = 0;  // of the distance of the centres, where the contact point lies: r_1/(r_1 + r_2), r_2/(r_1 + r_2)
-  double smaller_radius = 0;    // m
+  double smaller_radius = 0;    // of these, m
 };
 
 /// Contacts of two particles. In: difference of positions, of velocities, rotation l_1 w_1 + l_2 w_2 (over d), relative rotation, slip;

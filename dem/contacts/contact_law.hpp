@@ -30,6 +30,7 @@ struct ContactBodies {
   double mass = 0;                               // m*, kg
   double restitution = 1;                        // e
   double friction = 0;                           // mu
+  bool with_wall = false;                        // body 2 is a wall
 };
 
 /// |B| = |ln e| / sqrt(ln^2 e + pi^2): damping ratio of a linear oscillator that keeps the share e of its speed over half a period.

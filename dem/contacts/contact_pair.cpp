@@ -9,6 +9,12 @@ namespace {
 double contact_compliance(const Rag& rag) { return (1 - rag.poisson_ratio) / (2 * rag.shear_modulus); }  // (1 - nu^2)/E
 double shear_compliance(const Rag& rag) { return (2 - rag.poisson_ratio) / rag.shear_modulus; }
 
+/// Two cloths of different friction: the geometric mean.
+double friction_between(const Rag& a, const Rag& b, const ContactSettings& settings) {
+  const double mu_a = a.cloth_friction.value_or(settings.static_friction), mu_b = b.cloth_friction.value_or(settings.static_friction);
+  return mu_a == mu_b ? mu_a : std::sqrt(mu_a * mu_b);
+}
+
 std::shared_ptr<const PairLaw> law_between(const ContactBodies& bodies, const ContactSettings& settings) {
   return settings.law ? settings.law->between(bodies) : contact_laws().make(settings.law_name, "[contact] law")->between(bodies);
 }
@@ -23,13 +29,13 @@ ContactPair particle_pair(const Rag& a, const Rag& b, const ContactSettings& set
                           .radius = R,
                           .mass = a.mass * b.mass / (a.mass + b.mass),
                           .restitution = settings.restitution,
-                          .friction = settings.static_friction},
+                          .friction = friction_between(a, b, settings)},
                          settings);
   pair.rolling = {settings.rolling_friction * R, a.inertia * b.inertia / (a.inertia + b.inertia)};
-  pair.reach = a.radius + b.radius;
-  pair.arm_1 = a.radius / pair.reach;
-  pair.arm_2 = b.radius / pair.reach;
-  pair.smaller_radius = std::min(a.radius, b.radius);
+  pair.reach = a.layer_reach() + b.layer_reach();
+  pair.arm_1 = a.layer_reach() / pair.reach;
+  pair.arm_2 = b.layer_reach() / pair.reach;
+  pair.smaller_radius = std::min(a.layer_reach(), b.layer_reach());
   return pair;
 }
 
@@ -40,10 +46,11 @@ ContactPair wall_pair(const Rag& rag, const ContactSettings& settings) {
                           .radius = rag.radius,
                           .mass = rag.mass,
                           .restitution = settings.wall_restitution,
-                          .friction = settings.wall_friction},
+                          .friction = rag.wall_friction.value_or(settings.wall_friction),
+                          .with_wall = true},
                          settings);
   pair.rolling = {settings.wall_rolling_friction * rag.radius, rag.inertia};
-  pair.reach = pair.smaller_radius = rag.radius;
+  pair.reach = pair.smaller_radius = rag.wall_reach();
   pair.arm_1 = 1;
   return pair;
 }

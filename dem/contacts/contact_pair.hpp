@@ -15,6 +15,9 @@ struct ContactPair : ContactGeometry {
   std::shared_ptr<const PairLaw> law;
 };
 
+// The surface of cloth lies half its contact thickness from the particles, which are cells of the cloth, (2 r_p)^2 wide: that thickness
+// says where a contact begins, while stiffness, mass and with them the stable step stay those of the particle.
+
 /// Contact of a particle of rag `a` (1) with one of rag `b` (2).
 ContactPair particle_pair(const Rag& a, const Rag& b, const ContactSettings& settings);
 /// Contact of a particle (1) with a wall (2): a body of the particle's material, flat and at rest, E* and G* multiplied by

@@ -21,8 +21,8 @@ struct PairForces::Block : PairBlock {
 PairForces::PairForces(const std::vector<Rag>& rags, const ContactSettings& settings) : block_(std::make_unique<Block>()) {
   std::vector<const Rag*> kinds;
   const auto alike = [](const Rag& a, const Rag& b) {
-    return a.radius == b.radius && a.mass == b.mass && a.inertia == b.inertia && a.shear_modulus == b.shear_modulus &&
-           a.poisson_ratio == b.poisson_ratio;
+    return a.radius == b.radius && a.layer_reach() == b.layer_reach() && a.cloth_friction == b.cloth_friction && a.mass == b.mass &&
+           a.inertia == b.inertia && a.shear_modulus == b.shear_modulus && a.poisson_ratio == b.poisson_ratio;
   };
   for (const Rag& rag : rags) {
     std::size_t m = 0;

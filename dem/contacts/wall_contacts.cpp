@@ -94,7 +94,7 @@ void WallContacts::list(ContactParticles& particles, double time) {
       if (!particles.present[row.first + i]) continue;
       const Vec3 x = row.tile->vector(Tile::x, row.place + i);
       for (std::size_t b = 0; b < poses_.size(); ++b)
-        if (near(b, x, (*rags_)[row.tile->rag].radius)) candidates_.push_back({row.first + i, static_cast<int>(b)});
+        if (near(b, x, (*rags_)[row.tile->rag].wall_reach())) candidates_.push_back({row.first + i, static_cast<int>(b)});
     }
     row.at_wall = candidates_.size() > before;
   }
@@ -147,7 +147,7 @@ void WallContacts::find_touches(const Particle& p, int b) {
   const WallBody& body = walls_->bodies()[b];
   const bool moves = body.motion.moves();
   const Vec3 X = moves ? poses_[b].in_wall(p.x) : p.x;
-  const double radius = (*rags_)[p.rag].radius;
+  const double radius = (*rags_)[p.rag].wall_reach();
   for (std::size_t k = 0; k < body.planes.size(); ++k) {
     const WallPlane& plane = body.planes[k];
     const double s = dot(X - plane.point, plane.normal);

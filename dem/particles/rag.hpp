@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/vec3.hpp"
@@ -37,9 +38,16 @@ struct Rag {
   double rotation_friction = 0.001;         // c_r, thesis Eqs. 1.5, 1.6
   double contact_radius_ratio = 2.2;        // r_c / r_p: a bond ends when 2 r_c is exceeded (if breakage is on)
   bool breakage = false;
-  // contacts (Hertz-Mindlin)
-  double shear_modulus = 1e6;  // Pa
+  // contacts: where they begin; the laws have the mass and the radius of the particle
+  double contact_thickness = 0;  // with walls: the surface of the cloth is half of it from its particles, m; 0: 2 r_p
+  double layer_thickness = 0;    // the same with other cloth, m; 0: 2 r_p
+  std::optional<double> wall_friction, cloth_friction;  // Coulomb coefficients with walls, with other cloth; none: those of [contact]
+  double shear_modulus = 1e6;                           // Pa
   double poisson_ratio = 0.25;
+
+  /// Distance from a wall below which a particle touches it, and its share of that from another particle, m.
+  double wall_reach() const { return contact_thickness > 0 ? contact_thickness / 2 : radius; }
+  double layer_reach() const { return layer_thickness > 0 ? layer_thickness / 2 : radius; }
 };
 
 }  // namespace snag

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -59,6 +60,18 @@ void set_lattice(const RagSettings& s, RagPiece& piece) {
     rag.n_columns = s.n_points > 0 ? s.n_points : whole_particles(s.length, s.radius);
   }
   if (s.shape == Shape::particle) rag.radius = s.diameter / 2;
+}
+
+/// Thicker than a particle, neighbours on the lattice would touch each other.
+void set_thickness(const RagSettings& s, const std::string& where, Rag& rag) {
+  const double largest = 2 * rag.radius;
+  for (const auto& [key, given, target] : {std::tuple{"contact_thickness", s.contact_thickness, &rag.contact_thickness},
+                                           std::tuple{"layer_thickness", s.layer_thickness, &rag.layer_thickness}}) {
+    if (given && *given > largest * (1 + 1e-12))
+      throw Error(ExitCode::usage, where + ": " + key + " = " + words(*given) + " m, must be at most the lattice spacing, 2 r_p = " +
+                                       words(largest) + " m; give a smaller one, or a larger radius");
+    *target = given ? std::min(*given, largest) : 0;
+  }
 }
 
 void set_mass(const RagSettings& s, Rag& rag) {
@@ -162,6 +175,8 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   piece.rag.name = s.name;
   check_size(s, where);
   set_lattice(s, piece);
+  set_thickness(s, where, piece.rag);
+  piece.rag.wall_friction = s.wall_friction, piece.rag.cloth_friction = s.cloth_friction;
   set_mass(s, piece.rag);
   set_bonds(s, where, folder, piece.rag);
   piece.centre = s.position, piece.velocity = s.velocity, piece.spin = s.spin;

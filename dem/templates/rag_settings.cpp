@@ -163,6 +163,38 @@ void add_bonds(RagSettings& s, Records& r) {
   r.push_back(setting("breakage", &s.breakage, "true: bonds break by strength and by length."));
 }
 
+/// Where and how the piece touches others.
+void add_contacts(RagSettings& s, Records& r) {
+  r.push_back(number("shear_modulus", &s.shear_modulus, "Pa", 1, Basis::literature,
+                     "Shear modulus G of a particle in contacts; by default 1 MPa (Jensen 2018, Table 3.1), for a fibre as a beam at most "
+                     "its own, E/(2 (1 + nu))."));
+  if (s.shape != Shape::particle) {
+    r.push_back(
+        number("contact_thickness", &s.contact_thickness, "m", 1e-7, Basis::assumed,
+               "Thickness of the cloth in contacts with walls, at most 2 r_p, the default: cloth enters a gap that is wider. A thin one "
+               "may need a larger [contact] wall_stiffness_factor, as it may be pressed in by half of it only."));
+    r.push_back(
+        number("layer_thickness", &s.layer_thickness, "m", 1e-7, Basis::assumed,
+               "Distance of layers of cloth that lie on each other, at most 2 r_p, the default. Below sqrt(2) r_p the particles of one "
+               "layer fit through the lattice of the other."));
+  }
+  const auto friction = [&](const char* key, std::optional<double>* target, const char* meaning) {
+    r.push_back({.key = key, .target = target, .minimum = 0, .maximum = 10, .basis = Basis::assumed, .meaning = meaning});
+  };
+  friction("wall_friction", &s.wall_friction,
+           "Coulomb coefficient of this piece with walls; not given: [contact] wall_friction. Assumed range of wet "
+           "cloth on steel: 0.2 to 1.3; sources in the tutorial on cloth.");
+  friction("cloth_friction", &s.cloth_friction,
+           "Coulomb coefficient with cloth, its own and that of other pieces; of two different ones the geometric mean counts; not given: "
+           "[contact] static_friction. Wet textiles: 0.15 to 0.85; sources in the tutorial on cloth.");
+  r.push_back({.key = "poisson_ratio",
+               .target = &s.poisson_ratio,
+               .minimum = 0,
+               .maximum = 0.5,
+               .basis = Basis::assumed,
+               .meaning = "Poisson ratio of a particle in contacts."});
+}
+
 }  // namespace
 
 RagSettings::RagSettings(Shape piece_shape) : shape(piece_shape) {
@@ -174,16 +206,7 @@ RagSettings::RagSettings(Shape piece_shape) : shape(piece_shape) {
 Section RagSettings::section() {
   const ShapeText& text = shape_texts[static_cast<std::size_t>(shape)];
   Records r{setting("name", &name, "Name in outputs; by default the table and the number of the piece.")};
-  add_size(*this, r), add_mass(*this, r), add_pose(*this, r), add_bonds(*this, r);
-  r.push_back(number("shear_modulus", &shear_modulus, "Pa", 1, Basis::literature,
-                     "Shear modulus G of a particle in contacts; by default 1 MPa (Jensen 2018, Table 3.1), for a fibre as a beam at most "
-                     "its own, E/(2 (1 + nu))."));
-  r.push_back({.key = "poisson_ratio",
-               .target = &poisson_ratio,
-               .minimum = 0,
-               .maximum = 0.5,
-               .basis = Basis::assumed,
-               .meaning = "Poisson ratio of a particle in contacts."});
+  add_size(*this, r), add_mass(*this, r), add_pose(*this, r), add_bonds(*this, r), add_contacts(*this, r);
   return {text.table, text.meaning, r, true};
 }
 

@@ -32,10 +32,12 @@ struct RagSettings {
   double radius = 1e-3;                  // r_p, m
   int n_points = 0;                      // fibre: particles; 0: from length and radius
   // mass
-  double thickness = 0.77e-3;                   // m
-  double mass_per_area = 0.785;                 // kg/m2
-  double density = 1380;                        // fibre, particle; kg/m3
-  std::string density_model = "mass_per_area";  // or "jensen_2018": spheres of 538 (1 mm/r_p) kg/m3
+  double thickness = 0.77e-3;                                // m
+  std::optional<double> contact_thickness, layer_thickness;  // m; none: 2 r_p
+  std::optional<double> wall_friction, cloth_friction;       // none: those of [contact]
+  double mass_per_area = 0.785;                              // kg/m2
+  double density = 1380;                                     // fibre, particle; kg/m3
+  std::string density_model = "mass_per_area";               // or "jensen_2018": spheres of 538 (1 mm/r_p) kg/m3
   // pose
   Vec3 position, velocity, spin;  // centre, m; m/s; rad/s
   Vec3 lengthwise{1, 0, 0}, crosswise{0, 1, 0};

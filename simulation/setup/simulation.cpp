@@ -153,9 +153,7 @@ void Simulation::build_rags(const CaseFile& file) {
   std::optional<WallMotion> rotor;
   if (zone) rotor = {.axis = zone->axis(), .origin = zone->origin(), .speed = zone->full_speed(), .velocity = {}, .ramp = zone->ramp()};
   walls = read_walls(file, mesh.get(), rotor ? &*rotor : nullptr);
-  ContactSettings contacts;
   contacts.read(file.root().table("contact"));
-  impact_speed_ = contacts.impact_speed;
   DemSettings settings;
   read(file.root(), settings);
   std::vector<RagPiece> pieces = read_pieces(file);
@@ -194,7 +192,7 @@ void Simulation::couple(const CaseFile& file) {
   if (coupled) coupled->set_walls(walls);
   if (file.root().has("hold")) holds = std::make_unique<Holds>(file.root(), *rags, coupled ? Vec3{} : gravity);
   if (holds) rags->set_motion(holds.get());
-  speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), impact_speed_);
+  speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), contacts.impact_speed);
   if (holds) speed_bounds_->widen(holds->largest_speed(), "motion of [[hold]]");
   if (water) water->watch().widen(speed_bounds_->speed(), speed_bounds_->source());
 }

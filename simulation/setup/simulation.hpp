@@ -5,6 +5,7 @@
 
 #include "base/case_file.hpp"
 #include "coupling/coupled_solver.hpp"
+#include "dem/contacts/contact_settings.hpp"
 #include "dem/holds.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/walls/walls.hpp"
@@ -77,6 +78,7 @@ class Simulation {
   std::shared_ptr<Mesh> mesh;
   MeshQuality mesh_quality;
   WallSet walls;
+  ContactSettings contacts;
   std::shared_ptr<FlowSolver> water;
   std::optional<PumpSettings> pump;  // of a case with a rotating zone
   std::unique_ptr<RagPoses> poses;
@@ -113,7 +115,6 @@ class Simulation {
   CachedFlow* cached_flow_ = nullptr;  // of the store, for frozen water
   std::string mesh_key_;               // of the store
   std::optional<PrescribedFlow> prescribed_;
-  double impact_speed_ = 0;                    // m/s, of the contacts
   std::unique_ptr<SpeedBounds> speed_bounds_;  // of the rags
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling

@@ -20,37 +20,11 @@
 //   deepest overlap of that impact                    d = (m* u^2/k)^(2/5)
 //   springs at d, for the stability of a step          normal 3/2 F_n/d, tangential S_t
 // Source of the impact: Johnson (1985) section 11.4.
-#include "dem/contacts/contact_blocks.hpp"
+#include "dem/contacts/laws/hertz_mindlin.hpp"
 
 namespace snag {
 
 namespace {
-
-const double damping_factor = 2 * std::sqrt(5.0 / 6);
-
-struct HertzMindlinForce {
-  double normal = 0;              // 4/3 E* sqrt(R*), N/m^1.5
-  double tangential = 0;          // 8 G* sqrt(R*), N/m^1.5
-  double normal_damping = 0;      // N s/m^1.25
-  double tangential_damping = 0;  // N s/m^1.25
-  double easing = 0;              // of the tangential dashpot, 1/kg
-  double friction = 0;            // mu
-
-  explicit HertzMindlinForce(const ContactBodies& b) {
-    const double damping = damping_of_restitution(b.restitution), root = std::sqrt(b.radius);
-    normal = 4.0 / 3 * b.normal_modulus * root;
-    tangential = 8 * b.shear_modulus * root;
-    normal_damping = damping_factor * damping * std::sqrt(2 * b.normal_modulus * root * b.mass);
-    tangential_damping = damping_factor * damping * std::sqrt(tangential * b.mass);
-    easing = dashpot_easing(b.mass), friction = b.friction;
-  }
-  [[gnu::always_inline]] ContactForce operator()(const ContactMotion& contact, double step) const {
-    const double root = std::sqrt(contact.overlap), quarter = std::sqrt(root);
-    const double u_n = dot(contact.velocity, contact.normal);
-    const double F_n = normal * root * contact.overlap + normal_damping * quarter * u_n;
-    return with_friction(contact, F_n, tangential * root, eased(tangential_damping * quarter, easing, step), friction, step);
-  }
-};
 
 class HertzMindlinPair final : public BlockLaw<HertzMindlinForce> {
  public:
@@ -58,11 +32,7 @@ class HertzMindlinPair final : public BlockLaw<HertzMindlinForce> {
 
   double impact_time(double speed) const override { return 2.943175 * deepest_overlap(speed) / speed; }
   double deepest_overlap(double speed) const override { return std::pow(bodies_.mass * speed * speed / (0.8 * force_.normal), 0.4); }
-  ContactRates rates(double overlap, double step) const override {
-    const double root = std::sqrt(overlap), quarter = std::sqrt(root), m = bodies_.mass;
-    return {normal_rates(1.5 * force_.normal * root, force_.normal_damping * quarter, m),
-            force_.friction > 0 ? tangential_rates(force_.tangential * root, force_.tangential_damping * quarter, m, step) : StepRates{}};
-  }
+  ContactRates rates(double overlap, double step) const override { return force_.rates(overlap, bodies_.mass, step); }
 
  private:
   ContactBodies bodies_;
