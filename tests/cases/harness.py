@@ -10,6 +10,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import tomllib
@@ -21,6 +22,9 @@ from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridRea
 
 BINARY_DIR = pathlib.Path(os.environ["SNAG_BINARY_DIR"])
 SOURCE_DIR = pathlib.Path(os.environ["SNAG_SOURCE_DIR"])
+sys.path.insert(0, str(SOURCE_DIR / "share" / "python"))
+from snag.tables import read_columns  # noqa: E402  (of the source tree)
+
 ENVIRONMENT = dict(
     os.environ,
     OMPI_ALLOW_RUN_AS_ROOT="1",
@@ -44,12 +48,12 @@ class Monitor:
     def __init__(self, file):
         self.lines = file.read_text().splitlines()
         self.columns = self.lines[0].split(",")
-        self.values = numpy.array([[float(v) for v in line.split(",")] for line in self.lines[1:]]).reshape(-1, len(self.columns))
+        self.names, _, self.values = read_columns(file)
 
     def column(self, name):
         """Values of "x" (or of "x [m]")."""
         for i, column in enumerate(self.columns):
-            if column == name or column.split(" [")[0] == name:
+            if name in (column, self.names[i]):
                 return self.values[:, i]
         raise KeyError(f"no column {name}; there are {self.columns}")
 

@@ -14,8 +14,8 @@ PLAIN = {key: value for key, value in harness.ENVIRONMENT.items() if not key.sta
 class Installation(harness.CaseTest):
     """Shared with installed_long.py."""
 
-    def call(self, *words, **more):
-        run = subprocess.run(list(map(str, words)), capture_output=True, text=True, env=PLAIN, **more)
+    def call(self, *words, path="", **more):
+        run = subprocess.run(list(map(str, words)), capture_output=True, text=True, env=PLAIN | {"PYTHONPATH": str(path)}, **more)
         self.assertEqual(run.returncode, 0, f"{' '.join(map(str, words))}\n{run.stdout}{run.stderr}")
         return run.stdout
 
@@ -38,6 +38,10 @@ class Installation(harness.CaseTest):
         self.assertTrue((elsewhere / "seen" / "observations.csv").is_file())
         demo = self.call(snag, "study", prefix / "share" / "snag" / "cases" / "pump-demo" / "study.toml", "--dry-run", cwd=elsewhere)
         self.assertIn("run 1 of 2", demo)
+        package = prefix / "lib" / "python3" / "dist-packages"
+        read = "import snag; print(snag.Case('case.toml')['time.end_ms'], snag.__file__)"
+        shown = self.call("/usr/bin/python3", "-B", "-c", read, cwd=elsewhere, path=package)
+        self.assertEqual(shown.split(), ["1", str(package / "snag" / "__init__.py")])
         completion = prefix / "share" / "bash-completion" / "completions" / "snag"
         self.assertEqual(completion.read_text(), self.call(snag, "completion"))
 

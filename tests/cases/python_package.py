@@ -1,0 +1,116 @@
+"""Requirement: `import snag` reads what the program writes, as the tutorial prints it: monitors with their units, summaries, cases, studies and verdicts;
+what is not there is told with what would write it."""
+# timeout: 300
+# cost: 12
+import contextlib
+import io
+import json
+import os
+import pathlib
+import re
+import shutil
+
+import harness
+import snag
+from examples import printed_files
+from tutorials import documented_columns
+
+EXAMPLE = harness.SOURCE_DIR / "cases" / "diagnose-sphere"
+TUTORIAL = harness.SOURCE_DIR / "docs" / "tutorial-python.md"
+
+
+class PythonPackage(harness.CaseTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        for file, content in printed_files((harness.SOURCE_DIR / "docs" / "tutorial-study.md").read_text()).items():
+            (cls.shared / file).write_text(content)
+        for words in (["study", cls.shared / "study.toml", "--out", cls.shared / "results" / "drop"],
+                      ["diagnose", EXAMPLE / "DIAGNOSIS.toml", "--out", cls.shared / "results" / "diagnose-sphere"]):
+            run = harness.snag(words)
+            if run.code != 0:
+                raise AssertionError(run.tail())
+
+    def test_tutorial(self):
+        """The code of the page runs as it is printed and draws its picture."""
+        before = os.getcwd()
+        os.chdir(self.shared)
+        self.addCleanup(os.chdir, before)
+        names, printed = {}, io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            for code in re.findall(r"^```python\n(.*?)^```", TUTORIAL.read_text(), re.M | re.S):
+                exec(code, names)
+        for text in ("rags.0.max_bond_tension_N", "bond_energy", "added_mass", "effects attributed"):
+            self.assertIn(text, printed.getvalue() + str(names["rags"].columns.tolist()))
+        self.assertGreater((self.shared / "python.png").stat().st_size, 10000)
+        if os.environ.get("SNAG_KEEP_PICTURE"):  # made again for docs/pictures
+            shutil.copy(self.shared / "python.png", os.environ["SNAG_KEEP_PICTURE"])
+
+    def test_run(self):
+        folder = next(path for path in sorted((self.shared / "results" / "drop").iterdir()) if path.is_dir())
+        run, summary = snag.open(folder), json.loads((folder / "summary.json").read_text())
+        self.assertIsInstance(run, snag.Run)
+        self.assertEqual(run.summary, summary)
+        self.assertEqual(run.rags["outcome"].tolist(), [rag["outcome"] for rag in summary["rags"]])
+        self.assertEqual(run.case["time.end_s"], 0.06)
+        self.assertIn("rag.0.radius_m", run.case)
+        documented = documented_columns()
+        self.assertIn("rags", run.monitors)
+        for name in run.monitors:
+            frame = run.monitor(name)
+            lines = (folder / "monitors" / f"{name}.csv").read_text().splitlines()
+            self.assertEqual([f"{column} [{unit}]" for column, unit in frame.attrs["units"].items()], lines[0].split(","))
+            for column, unit in frame.attrs["units"].items():
+                self.assertEqual(documented[name][column], unit, f"{name}: {column}")
+            self.assertEqual(frame.shape, (len(lines) - 1, len(lines[0].split(","))))
+            self.assertEqual(frame.iloc[-1].tolist(), [float(value) for value in lines[-1].split(",")])
+        with self.assertRaisesRegex(KeyError, "no monitor pump; it has .*rags"):
+            run.monitor("pump")
+        with self.assertRaisesRegex(KeyError, "time.end_ms"):
+            run.case["time.end_ms"]
+
+    def test_line_that_is_being_written(self):
+        folder = next(path for path in sorted((self.shared / "results" / "drop").iterdir()) if path.is_dir())
+        shutil.copytree(folder, self.work / "going")
+        monitor = self.work / "going" / "monitors" / "rags.csv"
+        whole = snag.Run(self.work / "going").monitor("rags")
+        monitor.write_text(monitor.read_text() + "0.07,0,0.1")
+        self.assertTrue(whole.equals(snag.Run(self.work / "going").monitor("rags")))
+        (self.work / "going" / "summary.json").unlink()
+        with self.assertRaisesRegex(FileNotFoundError, "a run that has ended writes it"):
+            snag.Run(self.work / "going").summary
+
+    def test_study(self):
+        study = snag.open(self.shared / "results" / "drop")
+        self.assertIsInstance(study, snag.Study)
+        self.assertEqual(len(study.runs), 4)
+        self.assertEqual(study.runs["exit"].tolist(), [0] * 4)
+        for name, row in study.runs.iterrows():
+            self.assertEqual(row["rags.0.elongation_ratio"], study.run(name).rags["elongation_ratio"][0])
+        first, last = (study.run(name).case for name in (study.runs.index[0], study.runs.index[-1]))
+        self.assertEqual(set(first.difference(last).index), {"rag.0.radius_m", "rag.0.velocity_m_s"})
+
+    def test_verdict(self):
+        folder = self.shared / "results" / "diagnose-sphere"
+        verdict, content = snag.open(folder), json.loads((folder / "verdict.json").read_text())
+        self.assertIsInstance(verdict, snag.Verdict)
+        self.assertEqual((verdict.verdict, verdict.effects), ("effects", ["added_mass"]))
+        self.assertEqual(verdict.causes.loc["added_mass", "mean"], content["parameters"]["added_mass"]["mean"])
+        self.assertEqual(verdict.causes.loc["added_mass", "probability"], content["acts"]["added_mass"])
+        self.assertAlmostEqual(verdict.probability.sum(), 1, places=6)
+        self.assertEqual(verdict.probability.index[0], max(content["probability"], key=content["probability"].get))
+        self.assertEqual(len(verdict.cells), len(content["where"]))
+        self.assertEqual(verdict.cells["significant"].sum(), sum(cell["significant"] for cell in content["where"]))
+        self.assertEqual(verdict.evidence.index[0], max(content["evidence"]["log_evidence"], key=content["evidence"]["log_evidence"].get))
+        self.assertEqual(verdict.shrinkage.loc["added_mass", "mean"], content["shrinkage"]["added_mass"]["mean"])
+        self.assertEqual(len(verdict.curves), sum(len(curve["t_s"]) for curve in content["curves"]))
+
+    def test_what_is_not_there(self):
+        with self.assertRaisesRegex(FileNotFoundError, "snag run, study or diagnose"):
+            snag.open(self.work)
+        with self.assertRaisesRegex(FileNotFoundError, "snag diagnose --out writes it"):
+            snag.Verdict(self.work)
+
+
+if __name__ == "__main__":
+    harness.main()
