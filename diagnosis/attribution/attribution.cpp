@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/words.hpp"
-#include "diagnosis/attribution/calibration.hpp"
 #include "diagnosis/attribution/emulated_fit.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
@@ -15,7 +14,7 @@ namespace {
 /// Shares of the prior: how many effects of the library a model lacks is a Poisson number of mean one, each effect as likely as the others;
 /// a tenth is for what nobody listed, another for the mistakes that inputs and data may hold. To be named, an effect beyond the first has
 /// to bring 6 nats (a surplus effect takes up what the others leave): a rule of the verdict, of which the probabilities know nothing.
-constexpr double prior_none = 0.36, prior_effects = 0.36, prior_discrepancy = 0.1, prior_mistakes = 0.1;
+constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes = 0.1;
 /// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
 /// A linear model of a gap of hundreds of nats is off by a share of them.
 constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
@@ -67,7 +66,7 @@ class Attributor {
     refine_random_leader();
     if (model_.experiment().pairs) credit_other_pairs(live);
     result_.discrepancy = fit_discrepancy(model_, fitter_, result_.fits.front());
-    result_.discrepancy_weight = result_.discrepancy.log_evidence + std::log(prior_discrepancy);
+    result_.discrepancy_weight = result_.discrepancy.log_evidence + std::log(prior_outside);
     for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
     set_probabilities(result_);
     return std::move(result_);
@@ -488,62 +487,8 @@ class Attributor {
 
 }  // namespace
 
-int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
-
-int Attribution::best_with_effect() const {
-  int best = 0;
-  for (int i = 1; i < static_cast<int>(weight.size()); ++i)
-    if (best == 0 || weight[i] > weight[best]) best = i;
-  return best;
-}
-
-int Attribution::best_part_of(int fit, int without) const {
-  const auto& all = fits[static_cast<std::size_t>(fit)].hypothesis.effects;
-  int best = -1;
-  for (int j = 0; j < static_cast<int>(fits.size()); ++j) {
-    const auto& part = fits[static_cast<std::size_t>(j)].hypothesis.effects;
-    const auto is_there = [&](int k) { return k != without && std::count(all.begin(), all.end(), k) > 0; };
-    if (part.size() + 1 != all.size() || !std::all_of(part.begin(), part.end(), is_there)) continue;
-    if (best < 0 || weight[static_cast<std::size_t>(j)] > weight[static_cast<std::size_t>(best)]) best = j;
-  }
-  return best;
-}
-
-double Attribution::log_evidence(int fit) const {
-  const auto i = static_cast<std::size_t>(fit);
-  return fits[i].log_evidence + remainder[i].gain - evidence_penalty[i];
-}
-
 Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress) {
   return Attributor(model, fitter, progress).attribute();
-}
-
-void set_probabilities(Attribution& attribution) {
-  // The evidence overstates, not the prior: data that say nothing leave it as it is.
-  std::vector<std::pair<std::string, double>> weights;
-  const auto add = [&](const std::string& name, double log_evidence, double log_prior) {
-    weights.emplace_back(name, (log_evidence - attribution.fits.front().log_evidence) / calibration().temperature + log_prior);
-  };
-  for (std::size_t i = 0; i < attribution.names.size(); ++i)
-    add(attribution.names[i], attribution.log_evidence(static_cast<int>(i)), attribution.log_prior[i]);
-  for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
-  add("outside", attribution.discrepancy.log_evidence, std::log(prior_discrepancy));
-  std::vector<double> logarithms;
-  for (const auto& [name, weight] : weights) logarithms.push_back(weight);
-  const double total = log_sum_exp(logarithms);
-  attribution.probability.clear();
-  for (const auto& [name, weight] : weights) attribution.probability[name] = std::exp(weight - total);
-}
-
-double probability_of(const Attribution& attribution, const std::vector<std::string>& effects) {
-  double sum = 0;
-  for (const auto& [name, p] : attribution.probability) {
-    const std::vector<std::string> acting = split(name, '+');
-    const bool all = std::all_of(effects.begin(), effects.end(),
-                                 [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; });
-    if (all) sum += p;
-  }
-  return sum;
 }
 
 }  // namespace snag

@@ -47,6 +47,8 @@ struct Attribution {
 /// Nats that outside, a mistake, or an effect beyond the first has to bring more than the simpler account of the data, to be said. They can
 /// take up what the form of a law leaves, so that chance alone makes some nats.
 inline constexpr double nats_of_rule = 6;
+/// Share of the prior for a cause that nobody listed.
+inline constexpr double prior_outside = 0.1;
 
 /// Candidates of the experiment that this base case can show, by index; why the others cannot goes to `blind`.
 std::vector<int> live_candidates(const Responses& model, std::map<std::string, std::string>& blind);

@@ -1,0 +1,71 @@
+// Which hypothesis leads, and the probabilities of all from evidence and prior:
+//
+//   P(h) = exp(ln Z_h/T + ln prior_h) / sum over all hypotheses, those that were not fitted and outside among them
+//
+// Z: evidence with the choice of a remainder, less what a guard takes away; T: temperature of the calibration, by which evidence
+// overstates.
+#include <algorithm>
+#include <cmath>
+
+#include "base/words.hpp"
+#include "diagnosis/attribution/attribution.hpp"
+#include "diagnosis/attribution/calibration.hpp"
+#include "diagnosis/statistics/statistics.hpp"
+
+namespace snag {
+
+int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
+
+int Attribution::best_with_effect() const {
+  int best = 0;
+  for (int i = 1; i < static_cast<int>(weight.size()); ++i)
+    if (best == 0 || weight[i] > weight[best]) best = i;
+  return best;
+}
+
+int Attribution::best_part_of(int fit, int without) const {
+  const auto& all = fits[static_cast<std::size_t>(fit)].hypothesis.effects;
+  int best = -1;
+  for (int j = 0; j < static_cast<int>(fits.size()); ++j) {
+    const auto& part = fits[static_cast<std::size_t>(j)].hypothesis.effects;
+    const auto is_there = [&](int k) { return k != without && std::count(all.begin(), all.end(), k) > 0; };
+    if (part.size() + 1 != all.size() || !std::all_of(part.begin(), part.end(), is_there)) continue;
+    if (best < 0 || weight[static_cast<std::size_t>(j)] > weight[static_cast<std::size_t>(best)]) best = j;
+  }
+  return best;
+}
+
+double Attribution::log_evidence(int fit) const {
+  const auto i = static_cast<std::size_t>(fit);
+  return fits[i].log_evidence + remainder[i].gain - evidence_penalty[i];
+}
+
+void set_probabilities(Attribution& attribution) {
+  // The evidence overstates, not the prior: data that say nothing leave it as it is.
+  std::vector<std::pair<std::string, double>> weights;
+  const auto add = [&](const std::string& name, double log_evidence, double log_prior) {
+    weights.emplace_back(name, (log_evidence - attribution.fits.front().log_evidence) / calibration().temperature + log_prior);
+  };
+  for (std::size_t i = 0; i < attribution.names.size(); ++i)
+    add(attribution.names[i], attribution.log_evidence(static_cast<int>(i)), attribution.log_prior[i]);
+  for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
+  add("outside", attribution.discrepancy.log_evidence, std::log(prior_outside));
+  std::vector<double> logarithms;
+  for (const auto& [name, weight] : weights) logarithms.push_back(weight);
+  const double total = log_sum_exp(logarithms);
+  attribution.probability.clear();
+  for (const auto& [name, weight] : weights) attribution.probability[name] = std::exp(weight - total);
+}
+
+double probability_of(const Attribution& attribution, const std::vector<std::string>& effects) {
+  double sum = 0;
+  for (const auto& [name, p] : attribution.probability) {
+    const std::vector<std::string> acting = split(name, '+');
+    const bool all = std::all_of(effects.begin(), effects.end(),
+                                 [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; });
+    if (all) sum += p;
+  }
+  return sum;
+}
+
+}  // namespace snag
