@@ -10,6 +10,7 @@
 #include "parallel/session.hpp"
 #include "report/bench_page.hpp"
 #include "report/verdict_page.hpp"
+#include "report/verdict_words.hpp"
 
 namespace snag {
 
@@ -28,7 +29,7 @@ void diagnose_and_publish(const DiagnoseOptions& options) {
   const Verdict verdict = diagnose_file(options);
   publish(
       options.out, [&] { return verdict_page(verdict); },
-      [&] { return verdict_sentence(verdict) + "\n" + (options.out / "report.html").string(); });
+      [&] { return verdict_sentence(verdict) + "\n" + verdict_advice(verdict) + "\n" + (options.out / "report.html").string(); });
 }
 
 void bench_and_publish(const DiagnoseBenchOptions& options) {

@@ -183,11 +183,26 @@ void CaseSimulator::find_nuisances(const Experiment& experiment) {
       nuisances_.push_back({calibration_of(observable), 1, all});
 }
 
+bool CaseSimulator::is_of_case(const std::string& nuisance) const {
+  return std::none_of(observables_.begin(), observables_.end(), [&](const Observable& o) { return calibration_of(o) == nuisance; });
+}
+
+CaseChange CaseSimulator::change_of(const RunRequest& request) const {
+  std::map<std::string, double> of_case = request.nuisances;
+  std::erase_if(of_case, [this](const auto& input) { return !is_of_case(input.first); });
+  return points_.at(static_cast<std::size_t>(request.point)).base.change(request.effects, of_case, request.seed, request.forms);
+}
+
+std::string CaseSimulator::resolved_case(const RunRequest& request) {
+  const PointCase& base = points_.at(static_cast<std::size_t>(request.point)).base;
+  std::vector<std::string> overrides = change_of(request).overrides;
+  if (!base.is_whole_run() || request.step_factor != 1) overrides.push_back(base.with_step_factor(request.step_factor));
+  return base.resolved_with(overrides, &store_);
+}
+
 CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
   const Point& point = points_.at(static_cast<std::size_t>(request.point));
-  std::map<std::string, double> of_case = request.nuisances;
-  for (const Observable& observable : observables_) of_case.erase(calibration_of(observable));
-  CaseChange change = point.base.change(request.effects, of_case, request.seed, request.forms);
+  CaseChange change = change_of(request);
   std::sort(change.overrides.begin(), change.overrides.end());
   std::string settings = text_of({{"step", request.step_factor}});
   std::vector<std::string> names;

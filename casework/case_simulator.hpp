@@ -34,6 +34,12 @@ class CaseSimulator final : public Simulator {
   int n_runs() const override { return n_runs_; }
   int n_used() const override { return static_cast<int>(used_.size()); }
   int n_imported() const override;
+  /// What a run changes of the base case of its point.
+  CaseChange change_of(const RunRequest& request) const;
+  /// The case of a run with all its keys and its time step, to be read from any folder. Collective over all ranks; throws Error.
+  std::string resolved_case(const RunRequest& request);
+  /// Whether an uncertain input is of the cases; else it is a calibration of the measurement.
+  bool is_of_case(const std::string& nuisance) const;
 
  private:
   struct Point {

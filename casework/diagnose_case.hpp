@@ -13,7 +13,7 @@ struct DiagnoseOptions {
   bool quiet = false;
 };
 
-/// Reads the experiment, runs and judges; writes verdict.json. Collective; throws Error.
+/// Reads the experiment, runs and judges; writes verdict.json, posterior.json and the improved cases. Collective; throws Error.
 Verdict diagnose_file(const DiagnoseOptions& options);
 
 }  // namespace snag

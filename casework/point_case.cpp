@@ -79,6 +79,14 @@ std::vector<std::string> listed_forces(const toml::table& root) {
   return names;
 }
 
+/// All ranks build a case whose water is computed; each builds the others for itself.
+MPI_Comm ranks_of(const CaseFile& file) {
+  StartSettings start;
+  const Section section = start.section();
+  file.root().table(section).read(section.parameters);
+  return file.root().has("mesh") && !start.frozen ? MPI_COMM_WORLD : MPI_COMM_SELF;
+}
+
 /// v turned by an angle about a unit axis (Rodrigues).
 Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
@@ -93,12 +101,8 @@ PointCase& PointCase::operator=(PointCase&&) noexcept = default;
 PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, FlowCache* store)
     : file_(file), tree_(std::make_unique<Tree>()) {
   const CaseFile read = CaseFile::read(file, overrides);
-  StartSettings start;
-  const Section start_section = start.section();
-  read.root().table(start_section).read(start_section.parameters);
-  const bool whole_run = read.root().has("mesh") && !start.frozen;
   const log::Silence silence;
-  const Simulation run(read, whole_run ? MPI_COMM_WORLD : MPI_COMM_SELF, {}, store);
+  const Simulation run(read, ranks_of(read), {}, store);
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
   case_file_ = read;
   resolved_ = read.resolved(), sha256_ = read.sha256();
@@ -288,6 +292,13 @@ std::vector<std::string> PointCase::from_elsewhere(std::vector<std::string> over
     text = text.substr(0, equals + 1) + toml_text(std::filesystem::absolute(file_.parent_path() / name).lexically_normal().string());
   }
   return overrides;
+}
+
+std::string PointCase::resolved_with(const std::vector<std::string>& overrides, FlowCache* store) const {
+  const CaseFile file = with(overrides);
+  const log::Silence silence;
+  const Simulation run(file, ranks_of(file), {}, store);
+  return file.resolved();
 }
 
 CaseFile PointCase::with(const std::vector<std::string>& overrides) const { return CaseFile::parse(resolved_, file_.string(), overrides); }

@@ -66,6 +66,8 @@ class PointCase {
   const std::string& resolved() const { return resolved_; }
   /// The same overrides for a copy of the case in another folder: paths are relative to the case file.
   std::vector<std::string> from_elsewhere(std::vector<std::string> overrides) const;
+  /// The case of such a run with all its keys, built once: an error in it is thrown.
+  std::string resolved_with(const std::vector<std::string>& overrides, FlowCache* store) const;
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field),

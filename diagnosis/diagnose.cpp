@@ -1,6 +1,7 @@
 #include "diagnosis/diagnose.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <tuple>
@@ -11,10 +12,13 @@
 #include "diagnosis/attribution/attribution.hpp"
 #include "diagnosis/attribution/restart.hpp"
 #include "diagnosis/data/noise.hpp"
+#include "diagnosis/data/outliers.hpp"
 #include "diagnosis/judgement/curves.hpp"
 #include "diagnosis/judgement/how_far.hpp"
 #include "diagnosis/judgement/judgement.hpp"
+#include "diagnosis/judgement/new_conditions.hpp"
 #include "diagnosis/judgement/next_experiment.hpp"
+#include "diagnosis/judgement/posterior.hpp"
 #include "diagnosis/localisation/where.hpp"
 
 namespace snag {
@@ -58,11 +62,72 @@ void note_noise(const Experiment& experiment, Verdict& verdict) {
   }
 }
 
+// Lines of the data file as they stand in a note, the first ones.
+std::string lines_of(const std::vector<OutlierRow>& rows) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(most, rows.size()); ++i) lines.push_back(std::to_string(rows[i].line));
+  return joined(lines) + (rows.size() > most ? " and " + std::to_string(rows.size() - most) + " more, which verdict.json lists" : "");
+}
+
+void note_outliers(const Experiment& given, const std::vector<OutliersFound>& all, Verdict& verdict) {
+  for (std::size_t o = 0; o < all.size(); ++o) {
+    if (all[o].samples.empty()) continue;
+    const std::string& id = given.observables[o].id;
+    OutlierRows& found = verdict.outliers[id];
+    found.share = all[o].share, found.nats = all[o].nats;
+    for (const std::size_t i : all[o].samples) {
+      const Datum& d = given.data[i];
+      found.rows.push_back({d.line, given.points[static_cast<std::size_t>(d.point)].id, d.replicate, d.time});
+    }
+    std::stable_sort(found.rows.begin(), found.rows.end(), [](const OutlierRow& a, const OutlierRow& b) { return a.line < b.line; });
+    verdict.notes.push_back(counted(std::ssize(found.rows), "row") + " of " + id + " (" + words(100 * found.share) +
+                            " %) lie where no noise brings them, by " + rounded(found.nats) + " nats; they are left out: line" +
+                            (found.rows.size() > 1 ? "s " : " ") + lines_of(found.rows) + " of the data. Look at them.");
+  }
+}
+
+// Largest difference between the runs of a state and those of a fit at the training points, in standard uncertainties of the data.
+double off_by(Responses& model, const State& state, const Fit& fit) {
+  const std::vector<Response> answers = model.run(state, model.training());
+  double off = 0;
+  for (std::size_t p = 0; p < answers.size(); ++p) {
+    const PointSummary& point = model.points()[static_cast<std::size_t>(model.training()[p])];
+    const Eigen::VectorXd difference = finite(answers[p].value - fit.at.responses[p].value);
+    for (int i = 0; i < point.n_gaussian; ++i) off = std::max(off, std::abs(difference[i]) / std::sqrt(point.covariance(i, i)));
+  }
+  return off;
+}
+
+// A case has one form of each law: those forms that come nearest to the fitted mixture, one effect after the other.
+ImprovedModel improved_model(Responses& model, const Fit& fit) {
+  ImprovedModel improved;
+  State state = lead_of(fit.at.state);
+  if (fit.at.state.shares.size() > 0) {
+    improved.off_by_forms = off_by(model, state, fit);
+    for (std::size_t e = 0; e < state.effects.size(); ++e) {
+      const int n_forms = model.effects()[static_cast<std::size_t>(state.effects[e].first)].n_forms;
+      for (int form = 0; form < n_forms && model.runs_left() > static_cast<int>(model.training().size()); ++form) {
+        State tried = state;
+        tried.forms.resize(state.effects.size(), 0);
+        if (tried.forms[e] == form) continue;
+        tried.forms[e] = form;
+        if (const double off = off_by(model, tried, fit); off < improved.off_by_forms)
+          improved.off_by_forms = off, state = std::move(tried);
+      }
+    }
+  }
+  for (std::size_t p = 0; p < model.points().size(); ++p) improved.runs.push_back(model.leading_run(state, static_cast<int>(p)));
+  return improved;
+}
+
 }  // namespace
 
-Verdict diagnose(const Experiment& experiment, Simulator& simulator, const DiagnosisOptions& options) {
-  check_budget(experiment, simulator);
+Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisOptions& options) {
+  check_budget(given, simulator);
   Verdict verdict;
+  const std::vector<OutliersFound> outliers = find_outliers(given);
+  const Experiment experiment = without(given, outliers);
   verdict.name = experiment.name;
   verdict.data_sha256 = experiment.data_sha256, verdict.withheld_sha256 = experiment.withheld_sha256;
   Responses model(experiment, simulator);
@@ -70,6 +135,7 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   Attribution attribution = attribute(model, fitter, options.progress);
   const int chosen = judge(model, attribution, verdict);
   note_noise(experiment, verdict);
+  note_outliers(given, outliers, verdict);
   verdict.notes.insert(verdict.notes.end(), model.notes().begin(), model.notes().end());
   verdict.identifiability = attribution.identifiability;
   verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == "outside");
@@ -78,6 +144,12 @@ Verdict diagnose(const Experiment& experiment, Simulator& simulator, const Diagn
   if (options.progress) options.progress("withheld points", 0.9);
   measure_shrinkage(model, attribution, chosen, verdict);
   withdraw_what_shrinks_nothing(verdict);
+  if (chosen > 0) {
+    const Fit& fit = attribution.fits[static_cast<std::size_t>(chosen)];
+    verdict.posterior = posterior_draws(model, fit, attribution.names[static_cast<std::size_t>(chosen)], experiment.seed);
+    if (verdict.verdict == "effects") verdict.improved = improved_model(model, fit);
+  }
+  if (verdict.verdict == "tie") verdict.identifiability.new_conditions = new_conditions(model, attribution);
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
   if (const int taken = simulator.n_imported(); taken > 0)

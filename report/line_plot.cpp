@@ -179,6 +179,10 @@ std::string dots(const PlotLine& line, const Axis& x, const Axis& y) {
 }
 
 std::string path_of(const PlotLine& line, const Axis& x, const Axis& y, const std::string& style) {
+  if (line.scattered) {
+    const std::string points = dots(line, x, y);
+    return points.empty() ? "" : "<path d=\"" + points + "\" fill=\"none\" " + style + "/>\n";
+  }
   std::string path;
   bool is_open = false;
   for (const std::size_t i : drawn(line.y)) {

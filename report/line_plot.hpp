@@ -12,6 +12,7 @@ struct PlotLine {
   std::vector<double> x, y;
   bool faint = false;      // thin and grey, behind the others
   bool dotted = false;     // a dot at each point
+  bool scattered = false;  // dots alone, in any order
   bool continues = false;  // the line before after a gap: its colour, no entry in the legend
 };
 

@@ -12,17 +12,11 @@
 #include "report/html.hpp"
 #include "report/line_plot.hpp"
 #include "report/page.hpp"
+#include "report/verdict_words.hpp"
 
 namespace snag {
 
 namespace {
-
-std::string percent(double share) {
-  if (std::isnan(share)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, share < 0.1 && share > 0 ? "%.1f %%" : "%.0f %%", 100 * share);
-  return text;
-}
 
 struct Bar {
   std::string label, text;
@@ -57,7 +51,7 @@ std::string which(const Verdict& v) {
   std::sort(sorted.rbegin(), sorted.rend());
   std::vector<Bar> all;
   for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 10); ++i)
-    all.push_back({sorted[i].second, percent(sorted[i].first), sorted[i].first, i == 0});
+    all.push_back({sorted[i].second, probability_in_words(sorted[i].first), sorted[i].first, i == 0});
   return bars(all) +
          "<p>The bar of an effect is the probability that it acts, alone or together with another. For an effect that these data cannot "
          "show it is the probability before the data. None: no effect is missing. Outside: the cause is not in the library.</p>\n";
@@ -68,9 +62,44 @@ std::string strengths(const Verdict& v) {
   for (const auto& [name, estimate] : v.parameters)
     rows.push_back(
         {escaped(name) + (estimate.absorbing ? " (far from its physically expected value: it may be compensating for another error)" : ""),
-         html::number(estimate.mean) + " ± " + html::number(estimate.sd) + (estimate.unit == "1" ? "" : " " + escaped(estimate.unit)),
+         rounded(estimate.mean) + " ± " + rounded(estimate.sd) + (estimate.unit == "1" ? "" : " " + escaped(estimate.unit)),
          html::number(estimate.cochran_p)});
   return rows.empty() ? "" : html::table({"Strength", "fitted", "p that the points agree on it"}, rows);
+}
+
+std::string unit_in_label(const std::string& unit) { return unit == "1" || unit.empty() ? "" : " [" + unit + "]"; }
+
+/// Draws of one variable over another.
+std::string pair_plot(const PosteriorDraws::Variable& a, const PosteriorDraws::Variable& b) {
+  constexpr std::size_t shown = 500;
+  PlotLine draws{.label = "", .x = {}, .y = {}, .scattered = true};
+  for (std::size_t i = 0; i < std::min(shown, a.draws.size()); ++i) draws.x.push_back(a.draws[i]), draws.y.push_back(b.draws[i]);
+  char correlation[32];
+  std::snprintf(correlation, sizeof correlation, "%.2f", correlation_of(a, b));
+  const auto label = [](const PosteriorDraws::Variable& v) {
+    return v.name + (v.is_strength ? unit_in_label(v.unit) : " [standard uncertainties]");
+  };
+  return figure({.title = std::string("correlation ") + correlation, .x_label = label(a), .y_label = label(b), .lines = {draws}});
+}
+
+/// The strengths against each other, and each against the input that it is confused with most.
+std::string pairs_of_strengths(const Verdict& v) {
+  std::vector<const PosteriorDraws::Variable*> strengths, inputs;
+  for (const PosteriorDraws::Variable& variable : v.posterior.variables) (variable.is_strength ? strengths : inputs).push_back(&variable);
+  std::string plots;
+  for (std::size_t i = 0; i < strengths.size(); ++i)
+    for (std::size_t j = i + 1; j < strengths.size(); ++j) plots += pair_plot(*strengths[i], *strengths[j]);
+  constexpr double confused = 0.3;
+  for (const PosteriorDraws::Variable* strength : strengths) {
+    const auto size = [&](const PosteriorDraws::Variable* input) { return std::abs(correlation_of(*strength, *input)); };
+    const auto most = std::max_element(inputs.begin(), inputs.end(), [&](const auto* a, const auto* b) { return size(a) < size(b); });
+    if (most != inputs.end() && size(*most) > confused) plots += pair_plot(*strength, **most);
+  }
+  return plots.empty() ? ""
+                       : "<p>Draws from the posterior under " + escaped(v.posterior.hypothesis) +
+                             ": strengths against each other, and against the input that the data tell them from least. posterior.json has "
+                             "all of them; arviz.from_json reads it.</p>\n<div class=\"plots\">" +
+                             plots + "</div>\n";
 }
 
 std::string how_far(const Verdict& v) {
@@ -82,7 +111,8 @@ std::string how_far(const Verdict& v) {
                            {"noise floor", html::number(v.gap.floor), v.gap.floor, false},
                            {"remainder", html::number(v.gap.remainder), v.gap.remainder, false}});
   const auto row = [](const std::string& name, const Shrinkage& s) {
-    return std::vector<std::string>{escaped(name), percent(s.mean), std::isnan(s.mean) ? "-" : percent(s.low) + " to " + percent(s.high)};
+    return std::vector<std::string>{escaped(name), share_in_words(s.mean),
+                                    std::isnan(s.mean) ? "-" : share_in_words(s.low) + " to " + share_in_words(s.high)};
   };
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, s] : v.shrinkage) rows.push_back(row(name, s));
@@ -214,10 +244,6 @@ std::string remark_on(const GapCell& cell) {
   return remark + (cell.withheld ? "withheld" : "");
 }
 
-std::string window(const GapCell& cell) {
-  return std::isnan(cell.window[0]) ? "whole run" : words(cell.window[0]) + " to " + words(cell.window[1]) + " s";
-}
-
 /// Data and simulation of the paths that differ most: as they are, and beside it what is left of the measured values.
 std::string curves(const Verdict& v) {
   std::string plots, effects;
@@ -261,7 +287,7 @@ std::string where(const Verdict& v) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const GapCell& c = *cells[i];
     (i < shown ? rows : more)
-        .push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window(c)),
+        .push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window_in_words(c)),
                     html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
                     (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark_on(c)});
   }
@@ -282,12 +308,13 @@ std::string evidence(const Verdict& v) {
     const auto left_out = v.leave_one_out.find(name);
     const auto p = v.probability.find(name);
     rows.push_back({escaped(name), html::number(nats), left_out == v.leave_one_out.end() ? "" : html::number(left_out->second),
-                    p == v.probability.end() ? "" : percent(p->second)});
+                    p == v.probability.end() ? "" : probability_in_words(p->second)});
   }
   std::string text = html::table({"Hypothesis", "evidence over none, nats", "points left out one by one, nats", "probability"}, rows);
   rows.clear();
   for (const PredictiveCheck& check : v.checks) rows.push_back({escaped(check.name), html::number(check.value), html::number(check.p)});
   if (!rows.empty()) text += html::table({"Does the first hypothesis explain the data?", "value", "p"}, rows);
+  if (!v.improved.why_none.empty()) text += "<p>No case_with_effects.toml: " + escaped(v.improved.why_none) + "</p>\n";
   for (const std::string& note : v.notes) text += "<p>" + escaped(note) + "</p>\n";
   return text + "<p>" + std::to_string(v.runs) + " runs. Data sha256 " + v.data_sha256 + ".</p>\n";
 }
@@ -299,6 +326,14 @@ std::string next(const Verdict& v) {
   // A cause that is attributed needs no more repeats.
   if (!v.identifiability.next_experiment.empty() && v.wording != "attributed")
     text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
+  std::vector<std::vector<std::string>> conditions;
+  for (const NewCondition& c : v.identifiability.new_conditions)
+    conditions.push_back({escaped(condition_in_words(c)), escaped(c.observable), html::number(c.nats), html::number(c.nats_of_repeat)});
+  if (!conditions.empty())
+    text +=
+        "<p>Conditions that were not measured, and by how much one test there is expected to tell the two likeliest hypotheses "
+        "apart:</p>\n" +
+        html::table({"Condition", "observable", "nats", "of one more repeat, nats"}, conditions);
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});
   return text + (rows.empty() ? "" : html::table({"Effect at its expected strength", "signal over uncertainty", ""}, rows));
@@ -306,35 +341,14 @@ std::string next(const Verdict& v) {
 
 }  // namespace
 
-std::string verdict_sentence(const Verdict& v) {
-  if (v.verdict == "none") return "No gap beyond the uncertainty: no effect is missing that these data could show.";
-  if (v.verdict == "outside")
-    return "There is a gap, and no effect of the library explains it." +
-           (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
-  if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
-  if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
-  // The page states shares only where there are at least two: of several effects, or of one effect and the unexplained rest.
-  std::string causes;
-  const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
-  for (std::size_t i = 0; i < v.effects.size(); ++i) {
-    causes += (i > 0 ? ", " : "") + v.effects[i];
-    constexpr double told = 0.005;
-    if (has_shares && i < v.causes.size() && v.causes[i].share >= told) causes += " (" + percent(v.causes[i].share) + " of it)";
-  }
-  const std::string rest = v.unexplained > 0 ? "; " + percent(v.unexplained) + " of it stays unexplained" : "";
-  const bool doubted = v.wording == "suspected" && v.p_effects >= 0.9;
-  return "The gap comes from " + causes + rest + ": " + v.wording +
-         (doubted ? ", for a check of the verdict failed (see The evidence)." : ", probability " + percent(v.p_effects) + ".");
-}
-
 std::string verdict_page(const Verdict& v) {
   std::string page =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>Snag: " +
       escaped(v.name) + "</title>\n<style>" + std::string(report_style) + "</style>\n</head>\n<body>\n<h1>" + escaped(v.name) +
       "</h1>\n<p class=\"origin\">Diagnosis of the gap between simulation and measurement, by version " + version_number + " (" +
-      version_git + ")</p>\n<p class=\"outcome\">" + escaped(verdict_sentence(v)) + "</p>\n";
-  page += section("Which effect", which(v) + strengths(v));
+      version_git + ")</p>\n<p class=\"outcome\">" + escaped(verdict_sentence(v)) + "</p>\n<p>" + escaped(verdict_advice(v)) + "</p>\n";
+  page += section("Which effect", which(v) + strengths(v) + pairs_of_strengths(v));
   page += section("How far the gap shrinks", how_far(v));
   page += section("Where the gap is", where(v));
   page += section("What to measure next", next(v));

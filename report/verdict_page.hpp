@@ -6,9 +6,8 @@
 
 namespace snag {
 
-/// The verdict in one sentence.
-std::string verdict_sentence(const Verdict& verdict);
-/// report.html: the verdict, which (probabilities), how far (four bars), where (cells), what to measure next; the evidence below.
+/// report.html: the verdict and what to do, which (probabilities), how far (four bars), where (cells), what to measure next; the evidence
+/// below.
 std::string verdict_page(const Verdict& verdict);
 
 }  // namespace snag

@@ -90,8 +90,10 @@ struct PointTable {
         {{.key = "id", .target = &point.id, .unit = "", .meaning = "Name of the operating point.", .required = true},
          case_setting,
          setting("set", &point.set, "Values of the case that this point replaces, as for --set: \"time.end_s=0.2\"."),
-         setting("role", &role, "train: the data are fitted; withheld: the data only test how far the gap shrinks.",
-                 {"train", "withheld"})},
+         setting("role", &role, "train: the data are fitted; withheld: the data only test how far the gap shrinks.", {"train", "withheld"}),
+         setting("group", &point.group,
+                 "Name of a group of points that were measured together: on one day, with one set-up, at one speed. That their calibration "
+                 "is off, by a factor or an offset, is then a hypothesis of its own (scale:GROUP, offset:OBSERVABLE@GROUP).")},
         true};
   }
 };
@@ -103,6 +105,8 @@ OperatingPoint read_point(const Table& table, const CaseFile& file) {
   point.case_file = file.path(keys.case_file);
   point.withheld = keys.role == "withheld";
   point.where = table.where();
+  if (point.group.find('+') != std::string::npos)
+    throw Error(ExitCode::usage, table.where() + " group \"" + point.group + "\" has a +, which joins names of hypotheses; leave it out");
   point.input_u = table.table("input_u").numbers();
   for (const auto& [key, u] : point.input_u) {
     if (!std::isfinite(u) || u < 0)
@@ -337,6 +341,7 @@ Experiment read_experiment(const CaseFile& file) {
                                        ": the same point, replicate, time and observable as line " + std::to_string(samples[i - 1].second) +
                                        "; keep one of them");
     experiment.data.push_back(samples[i].first);
+    experiment.data.back().line = samples[i].second;
   }
   experiment.data_sha256 = table.data_sha256, experiment.withheld_sha256 = table.withheld_sha256;
   check_points(experiment, data_name);

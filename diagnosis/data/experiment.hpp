@@ -34,6 +34,7 @@ struct OperatingPoint {
   bool withheld = false;                                  // used for "how far" only
   std::vector<std::string> set{};                         // values of the case that this point replaces, "section.key=value"
   std::vector<std::pair<std::string, double>> input_u{};  // relative standard uncertainty by key of the case
+  std::string group{};                                    // of points that share a calibration of their own; empty: none
   std::string where{};                                    // "DIAGNOSIS.toml:12: [point]", for messages
 };
 
@@ -49,6 +50,7 @@ struct Datum {
   double time = std::numeric_limits<double>::quiet_NaN();  // s; NaN: a scalar of the replicate
   double value = 0;
   bool censored = false;  // the true value is larger (a test that ended)
+  int line = 0;           // of the data file
 };
 
 struct Experiment {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "base/parameter.hpp"
+#include "base/units.hpp"
 #include "base/words.hpp"
 #include "observe/observables.hpp"
 
@@ -133,6 +135,63 @@ std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment) {
   return mistakes;
 }
 
+std::vector<Mistake> mistakes_of_groups(const Experiment& experiment) {
+  std::map<std::string, std::vector<int>> groups;
+  int n_training = 0;
+  for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) {
+    const OperatingPoint& point = experiment.points[static_cast<std::size_t>(p)];
+    n_training += !point.withheld;
+    if (!point.group.empty()) groups[point.group].push_back(p);
+  }
+  // Observables that one factor can be wrong of: those of a calibration group, else those with one unit, as one instrument measures them.
+  std::map<std::string, std::vector<int>> calibrations;
+  std::vector<double> range(experiment.observables.size(), 0);
+  for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
+    const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
+    if (observable.kind != Observable::Kind::gaussian && observable.kind != Observable::Kind::lognormal) continue;
+    calibrations[observable.calibration_group.empty() ? observable.unit : observable.calibration_group].push_back(o);
+    double low = infinity, high = -infinity;
+    for (const Datum& d : experiment.data)
+      if (d.observable == o) low = std::min({low, d.value, 0.0}), high = std::max({high, d.value, 0.0});
+    range[static_cast<std::size_t>(o)] = high - low;
+  }
+  constexpr double sd = 0.05, most = 0.5;  // of a factor that is thought to be one; of an offset, over the range of the numbers
+  std::vector<Mistake> mistakes;
+  const auto add = [&](Mistake::Kind kind, const std::string& name, const std::string& parameter, const std::string& unit, double size,
+                       const std::vector<int>& points, const std::vector<int>& observables) {
+    mistakes.push_back({.kind = kind,
+                        .effect = {.name = name,
+                                   .parameter = parameter,
+                                   .unit = unit,
+                                   .mean = 0,
+                                   .sd = sd * size,
+                                   .minimum = -most * size,
+                                   .maximum = most * size,
+                                   .is_mistake = true},
+                        .points = points,
+                        .observables = observables});
+  };
+  for (const auto& [group, points] : groups) {
+    const auto training =
+        std::count_if(points.begin(), points.end(), [&](int p) { return !experiment.points[static_cast<std::size_t>(p)].withheld; });
+    if (training == 0 || training == n_training) continue;
+    for (const auto& [calibration, observables] : calibrations) {
+      const std::string name = "scale:" + group + (calibrations.size() > 1 ? "/" + calibration : "");
+      add(Mistake::Kind::scale, name, "relative error of a calibration at these points", "1", 1, points, observables);
+      for (const int o : observables) {
+        const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
+        const double size = range[static_cast<std::size_t>(o)];
+        if (observable.kind != Observable::Kind::gaussian || size == 0) continue;
+        const double unit = parse_unit(observable.unit)->factor;
+        add(Mistake::Kind::offset, "offset:" + observable.id + "@" + group, "offset of the numbers at these points", observable.unit,
+            size / unit, points, {o});
+        mistakes.back().factor = unit;
+      }
+    }
+  }
+  return mistakes;
+}
+
 std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::string& unit, double ratio) {
   constexpr double degree = std::numbers::pi / 180, inch = 25.4;
   constexpr double near = 0.2;  // of the logarithm
@@ -155,6 +214,11 @@ void mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& s
   if (mistake.kind == Mistake::Kind::sign || mistake.kind == Mistake::Kind::unit) {
     for (std::size_t s = 0; s < values.size(); ++s)
       if (changes(s)) values[s] *= mistake.kind == Mistake::Kind::sign ? -1 : mistake.factor;
+    return;
+  }
+  if (mistake.kind == Mistake::Kind::scale || mistake.kind == Mistake::Kind::offset) {
+    for (std::size_t s = 0; s < values.size(); ++s)
+      if (changes(s)) values[s] = mistake.kind == Mistake::Kind::scale ? (1 + theta) * values[s] : values[s] + theta * mistake.factor;
     return;
   }
   std::map<int, std::vector<std::pair<double, double>>> paths;  // by observable

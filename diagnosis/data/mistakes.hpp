@@ -6,7 +6,9 @@
 //   clock       what is measured at t was there at t + theta, s
 //   frame_rate  what is measured at t was there at (1 + theta) t
 //   sign:AXIS   positions and velocities along an axis have the other sign; there or not
-//   unit:UNIT   the numbers of all observables with this unit are another factor larger (1000, 25.4, 180/pi, ...); there or not
+//   scale:GROUP what is measured at a group of points is (1 + theta) times the true number (of several instruments: scale:GROUP/CALIBRATION
+//   or UNIT) offset:OBSERVABLE@GROUP  it is theta more, in the unit of the observable unit:UNIT   the numbers of all observables with this
+//   unit are another factor larger (1000, 25.4, 180/pi, ...); there or not
 //
 // All but the inputs change what a run answers with, not the run.
 #include <span>
@@ -19,20 +21,23 @@
 namespace snag {
 
 struct Mistake {
-  enum class Kind { input, clock, frame_rate, sign, unit };
+  enum class Kind { input, clock, frame_rate, sign, unit, scale, offset };
   Kind kind = Kind::input;
   Effect effect;
   std::string input{};             // key of it
-  std::vector<int> points{};       // that share the input
+  std::vector<int> points{};       // that share the input, or the calibration; of the other mistakes none: they are made at all points
   std::vector<int> observables{};  // that it changes
   std::vector<int> rates{};        // of them: per time, so that a frame rate changes their numbers too
-  double factor = 1;               // of a unit: simulated numbers times this are as the data say them
+  double factor = 1;               // of a unit: simulated numbers times this are as the data say them; of an offset: SI value of its unit
 };
 
 /// Those of inputs: keys that several points share, or the only point has.
 std::vector<Mistake> mistakes_of_inputs(const Experiment& experiment, std::span<const Nuisance> nuisances);
 /// Those of times and axes that the data can hold.
 std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment);
+/// Calibrations of groups of points, OperatingPoint::group: not of a group that holds all points of training, whose calibration is that of
+/// the camera.
+std::vector<Mistake> mistakes_of_groups(const Experiment& experiment);
 /// A wrong unit of the observables with this unit; `ratio`: of data to simulation, by least squares. None where it is no known factor.
 std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::string& unit, double ratio);
 

@@ -22,16 +22,22 @@ struct Contrasts {
   std::vector<std::vector<double>> series;  // [R - 1][time], over u
 };
 
-/// Helmert's contrasts of the repeats that have all times of the first one.
+/// Helmert's contrasts of the repeats at the times that all of them have; repeats with less than half of the times of the longest one are
+/// left aside, so that one that ended early does not end them all.
 Contrasts contrasts_of(const std::map<int, std::map<double, double>>& repeats, double u) {
   Contrasts result;
-  for (const auto& [time, value] : repeats.begin()->second) result.times.push_back(time);
+  std::size_t most = 0;
+  for (const auto& [replicate, values] : repeats) most = std::max(most, values.size());
+  std::vector<const std::map<double, double>*> used;
+  for (const auto& [replicate, values] : repeats)
+    if (2 * values.size() >= most) used.push_back(&values);
+  for (const auto& [time, value] : *used.front())
+    if (std::all_of(used.begin(), used.end(), [&, t = time](const auto* values) { return values->contains(t); }))
+      result.times.push_back(time);
   std::vector<std::vector<double>> complete;
-  for (const auto& [replicate, values] : repeats) {
-    std::vector<double> path;
-    for (const double time : result.times)
-      if (const auto found = values.find(time); found != values.end()) path.push_back(found->second);
-    if (path.size() == result.times.size()) complete.push_back(std::move(path));
+  for (const auto* values : used) {
+    complete.emplace_back();
+    for (const double time : result.times) complete.back().push_back(values->at(time));
   }
   for (std::size_t r = 1; r < complete.size(); ++r) {
     result.series.emplace_back();

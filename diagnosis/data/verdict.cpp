@@ -60,6 +60,14 @@ Json shrinkage(const Shrinkage& s) { return {{"mean", number(s.mean)}, {"low", n
 
 Json identifiability(const Identifiability& i) {
   Json json{{"detectability", numbers(i.detectability)}, {"ties", i.ties}, {"next_experiment", i.next_experiment}, {"blind", i.blind}};
+  json["new_conditions"] = Json::array();
+  for (const NewCondition& c : i.new_conditions)
+    json["new_conditions"].push_back({{"point", c.point},
+                                      {"input", c.input},
+                                      {"factor", c.factor},
+                                      {"observable", c.observable},
+                                      {"nats", number(c.nats)},
+                                      {"nats_of_repeat", number(c.nats_of_repeat)}});
   for (const auto& [name, row] : i.cosines) json["cosines"][name] = numbers(row);
   return json;
 }
@@ -109,8 +117,17 @@ std::string verdict_json(const Verdict& v) {
   for (const auto& [observable, noise] : v.noise)
     json["noise"][observable] = {
         {"factor", number(noise.factor)}, {"correlation_time_s", number(noise.correlation_time)}, {"nats", number(noise.nats)}};
+  json["outliers"] = Json::object();
+  for (const auto& [observable, found] : v.outliers) {
+    Json rows = Json::array();
+    for (const OutlierRow& row : found.rows)
+      rows.push_back({{"line", row.line}, {"point", row.point}, {"replicate", row.replicate}, {"t_s", row.time}});
+    json["outliers"][observable] = {{"share", number(found.share)}, {"nats", number(found.nats)}, {"rows", rows}};
+  }
   json["checks"] = Json::object();
   for (const PredictiveCheck& check : v.checks) json["checks"][check.name] = {{"value", number(check.value)}, {"p", number(check.p)}};
+  json["case_with_effects"] = {{"files", v.improved.files}, {"off_by_forms_u", number(v.improved.off_by_forms)}};
+  if (!v.improved.why_none.empty()) json["case_with_effects"]["why_none"] = v.improved.why_none;
   json["notes"] = v.notes;
   json["runs"] = v.runs;
   json["data_sha256"] = v.data_sha256;

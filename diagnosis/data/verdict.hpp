@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/data/posterior_draws.hpp"
+#include "diagnosis/data/simulator.hpp"
+
 namespace snag {
 
 /// One cell of "where": an observable in a window of time at an operating point.
@@ -57,6 +60,14 @@ struct GapBars {
   double before = 0, after = 0, floor = 0, remainder = 0;
 };
 
+/// A condition that was not measured: an input of a point times a factor.
+struct NewCondition {
+  std::string point, input;
+  double factor = 1;
+  std::string observable;               // that tells most there
+  double nats = 0, nats_of_repeat = 0;  // of one test there; of one more repeat where that tells most
+};
+
 /// What the experiment can detect, before any data are used.
 struct Identifiability {
   std::map<std::string, double> detectability{};                   // d_k: prior-mean signature over its uncertainty; below 3 it is blind
@@ -64,6 +75,7 @@ struct Identifiability {
   std::vector<std::vector<std::string>> ties{};
   std::map<std::string, std::string> blind{};  // effect -> why this base case or these data cannot show it
   std::string next_experiment;
+  std::vector<NewCondition> new_conditions{};  // of a tie: those that tell twice as much as a repeat or more, the best first
 };
 
 /// A posterior predictive check of the first hypothesis.
@@ -85,6 +97,26 @@ struct NoiseFound {
   double nats = 0;                          // by which the repeats speak for it
 };
 
+/// A sample of a path that no noise makes, and that was left out (outliers.hpp).
+struct OutlierRow {
+  int line = 0;  // of the data file
+  std::string point;
+  int replicate = 0;
+  double time = 0;  // s
+};
+struct OutlierRows {
+  double share = 0, nats = 0;  // of the samples of the observable; by which the data speak for outliers
+  std::vector<OutlierRow> rows{};
+};
+
+/// The model as the verdict improves it: with the named effects at their fitted strengths, inputs as fitted.
+struct ImprovedModel {
+  std::vector<RunRequest> runs{};  // by operating point; empty: the verdict names no effect
+  double off_by_forms = 0;         // largest difference of these runs, each law in its leading form, from the fitted mixture of forms, in u
+  std::vector<std::string> files{};  // the cases of the points that were written
+  std::string why_none{};            // in a sentence; empty: there are files
+};
+
 struct Verdict {
   std::string name;                    // of the experiment
   std::string verdict;                 // effects | none | outside | tie | blind
@@ -102,8 +134,11 @@ struct Verdict {
   std::vector<Cause> causes{};                    // of a verdict that names effects, in their order
   double unexplained = std::numeric_limits<double>::quiet_NaN();  // share of the gap that stays beside them; NaN: no effect is named
   std::map<std::string, EffectEstimate> parameters{};
-  std::map<std::string, double> nuisances{};  // fitted deviations under the first hypothesis, in standard uncertainties; name@points
-  std::map<std::string, NoiseFound> noise{};  // by observable; absent: as stated
+  std::map<std::string, double> nuisances{};      // fitted deviations under the first hypothesis, in standard uncertainties; name@points
+  std::map<std::string, NoiseFound> noise{};      // by observable; absent: as stated
+  std::map<std::string, OutlierRows> outliers{};  // by observable; absent: none
+  PosteriorDraws posterior{};                     // of the hypothesis that the parameters are of
+  ImprovedModel improved{};
   std::vector<PredictiveCheck> checks{};
   std::vector<std::string> notes{};  // guards that spoke, in sentences
   double placebo_rate = 0;           // of placebo effects that a screening would have chosen

@@ -99,6 +99,7 @@ void Responses::find_mistakes(const std::vector<Response>& answers) {
   };
   add(mistakes_of_inputs(experiment_, simulator_.nuisances()));
   add(mistakes_of_measurement(experiment_));
+  add(mistakes_of_groups(experiment_));
   std::map<std::string, std::pair<double, double>> products;  // by unit: of data and simulation, of simulation with itself
   for (const int p : training_)
     for (int i = 0; i < points_[p].n_gaussian; ++i) {
@@ -123,6 +124,7 @@ void Responses::mismeasure(const State& state, int point, std::span<RunResult> r
   for (const auto& [k, theta] : state.effects) {
     const Mistake* made = mistake(k);
     if (made == nullptr || made->kind == Mistake::Kind::input || theta == 0) continue;
+    if (!made->points.empty() && std::count(made->points.begin(), made->points.end(), point) == 0) continue;
     for (RunResult& result : results)
       if (result.failure.empty()) snag::mismeasure(*made, theta, simulator_.slots(point), result.values);
   }
@@ -131,6 +133,14 @@ void Responses::mismeasure(const State& state, int point, std::span<RunResult> r
 bool Responses::acts_at(int nuisance, int point) const {
   const auto& points = nuisances_[nuisance].points;
   return std::find(points.begin(), points.end(), point) != points.end();
+}
+
+std::string Responses::name_of_nuisance(int nuisance) const {
+  const FreeNuisance& own = nuisances_[static_cast<std::size_t>(nuisance)];
+  if (own.points.size() == experiment_.points.size()) return own.name;
+  std::vector<std::string> points;
+  for (const int p : own.points) points.push_back(experiment_.points[static_cast<std::size_t>(p)].id);
+  return own.name + "@" + joined(points);
 }
 
 int Responses::n_seeds(const State& state) const {

@@ -81,9 +81,14 @@ class Responses {
   int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
   State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }
   bool acts_at(int nuisance, int point) const;
+  /// "flow.amplitude@A"; of what all points share its name alone.
+  std::string name_of_nuisance(int nuisance) const;
   /// What of the data is not compared, in sentences.
   const std::vector<std::string>& notes() const { return notes_; }
   bool restarts(int point) const { return simulator_.restarts(point); }
+
+  /// The run of a state at a point, with the leading forms and the first seed.
+  RunRequest leading_run(const State& state, int point) const { return requests_of({lead_of(state), point}).front(); }
 
   struct Request {
     State state;

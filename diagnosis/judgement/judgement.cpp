@@ -273,14 +273,8 @@ class Judge {
 
   void note_inputs(const Fit& fit) {
     const Eigen::VectorXd fitted = fit.solution.d - fit.linear.prior;
-    const auto& nuisances = model_.nuisances();
-    for (std::size_t j = 0; j < nuisances.size(); ++j) {
-      std::vector<std::string> points;
-      for (const int p : nuisances[j].points) points.push_back(model_.experiment().points[p].id);
-      const bool everywhere = points.size() == model_.experiment().points.size();
-      v_.nuisances[nuisances[j].name + (everywhere ? "" : "@" + joined(points))] =
-          fitted[fit.linear.lower.size() + static_cast<Eigen::Index>(j)];
-    }
+    for (std::size_t j = 0; j < model_.nuisances().size(); ++j)
+      v_.nuisances[model_.name_of_nuisance(static_cast<int>(j))] = fitted[fit.linear.lower.size() + static_cast<Eigen::Index>(j)];
   }
 
   void note_parameters(int fit) {

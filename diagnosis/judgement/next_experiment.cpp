@@ -11,30 +11,22 @@ namespace snag {
 
 namespace {
 
-struct Proposal {
-  double T = 0;  // of one more replicate: square of the difference in its standard uncertainties
-  std::string observable, point;
-  double time = 0;  // s, where the predictions differ most
-};
-
 // T of one observable at one point, rows begin .. end.
-Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int begin, int end) {
+Separation separation(const Responses& model, std::size_t p, const Predictions& predictions, int begin, int end) {
   const PointSummary& point = model.points()[model.training()[p]];
   const int n = end - begin;
   const Row& first = point.rows[begin];
-  Eigen::VectorXd difference = (a.at.responses[p].value - b.at.responses[p].value).segment(begin, n);
-  difference = finite(difference);
+  const Eigen::VectorXd difference = finite(predictions.difference.segment(begin, n));
   Eigen::MatrixXd C = point.covariance.block(begin, begin, n, n) * std::max(1, first.n_replicates);
-  const Eigen::VectorXd numerical = a.at.numerical_error[p].segment(begin, n);
+  const Eigen::VectorXd numerical = predictions.numerical_error.segment(begin, n);
   C += numerical * numerical.transpose();
-  for (const auto& by_nuisance : a.at.by_nuisance) {
-    if (by_nuisance[p].value.size() == 0) continue;
-    const Eigen::VectorXd change = (by_nuisance[p].value - a.at.origin[p].value).segment(begin, n) / nuisance_step;
+  for (const Eigen::VectorXd& all : predictions.by_input) {
+    const Eigen::VectorXd change = all.segment(begin, n);
     if (change.allFinite()) C += change * change.transpose();
   }
   C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
-  Proposal result{difference.dot(C.llt().solve(difference)), model.experiment().observables[first.observable].id,
-                  model.experiment().points[point.point].id, first.begin};
+  Separation result{difference.dot(C.llt().solve(difference)), model.experiment().observables[first.observable].id,
+                    model.experiment().points[point.point].id, first.begin};
   double largest = 0;
   for (int i = 0; i < n; ++i) {
     const double size = std::abs(difference[i]) / std::sqrt(C(i, i));
@@ -43,8 +35,15 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   return result;
 }
 
+Predictions predictions_of(const Fit& a, const Fit& b, std::size_t p) {
+  Predictions predictions{a.at.responses[p].value - b.at.responses[p].value, a.at.numerical_error[p], {}};
+  for (const auto& by_nuisance : a.at.by_nuisance)
+    if (by_nuisance[p].value.size() > 0) predictions.by_input.push_back((by_nuisance[p].value - a.at.origin[p].value) / nuisance_step);
+  return predictions;
+}
+
 // The same of a row with a likelihood of its own, by the variance of one replicate; spreads are no measurement of one.
-Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int row) {
+Separation separation(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int row) {
   const PointSummary& point = model.points()[model.training()[p]];
   const Row& own = point.rows[row];
   const double difference = a.at.responses[p].value[row] - b.at.responses[p].value[row],
@@ -53,7 +52,7 @@ Proposal proposal(const Responses& model, const Fit& a, const Fit& b, std::size_
   if (own.kind == Row::Kind::time) variance = own.sigma * own.sigma;
   if (own.kind == Row::Kind::count) variance = mean * std::max(1.0, own.sigma);
   if (own.kind == Row::Kind::event) variance = mean * (1 - mean);
-  Proposal result{0, model.experiment().observables[own.observable].id, model.experiment().points[point.point].id, own.begin};
+  Separation result{0, model.experiment().observables[own.observable].id, model.experiment().points[point.point].id, own.begin};
   if (std::isfinite(difference) && variance > 0) result.T = difference * difference / variance;
   return result;
 }
@@ -89,27 +88,50 @@ std::string spoken(std::string name) {
 
 }  // namespace
 
+Separation best_separation(const Responses& model, std::size_t training_point, const Predictions& predictions) {
+  const PointSummary& point = model.points()[model.training()[training_point]];
+  Separation best;
+  for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
+    while (end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable) ++end;
+    Separation tried = separation(model, training_point, predictions, begin, end);
+    if (tried.T > best.T) best = std::move(tried);
+  }
+  return best;
+}
+
+namespace {
+
+Separation repeat_that_tells_most(const Responses& model, const Fit& a, const Fit& b) {
+  Separation best;
+  for (std::size_t p = 0; p < model.training().size(); ++p) {
+    if (Separation tried = best_separation(model, p, predictions_of(a, b, p)); tried.T > best.T) best = std::move(tried);
+    const PointSummary& point = model.points()[model.training()[p]];
+    for (int row = point.n_gaussian; row < static_cast<int>(point.rows.size()); ++row)
+      if (Separation tried = separation(model, a, b, p, row); tried.T > best.T) best = std::move(tried);
+  }
+  return best;
+}
+
+}  // namespace
+
+double best_repeat(const Responses& model, const Fit& a, const Fit& b) { return repeat_that_tells_most(model, a, b).T; }
+
+int rival_of(const Attribution& attribution, int fit) {
+  int rival = -1;
+  for (int i = 0; i < static_cast<int>(attribution.fits.size()); ++i)
+    if (i != fit && (rival < 0 || attribution.weight[i] > attribution.weight[rival])) rival = i;
+  return rival;
+}
+
 std::string next_experiment(const Responses& model, const Attribution& attribution, bool unexplained) {
   const int first = attribution.first();
   if (unexplained) return what_remains(model, attribution.fits[first]);
-  int second = -1;
-  for (int i = 0; i < static_cast<int>(attribution.fits.size()); ++i)
-    if (i != first && (second < 0 || attribution.weight[i] > attribution.weight[second])) second = i;
+  const int second = rival_of(attribution, first);
   if (second < 0) return "";
   const Fit &a = attribution.fits[first], &b = attribution.fits[second];
   // Derivatives by the inputs are known where a fit linearized them.
   if (a.at.by_nuisance.empty() && !model.nuisances().empty()) return "";
-  Proposal best;
-  for (std::size_t p = 0; p < model.training().size(); ++p) {
-    const PointSummary& point = model.points()[model.training()[p]];
-    for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
-      while (end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable) ++end;
-      const Proposal tried = proposal(model, a, b, p, begin, end);
-      if (tried.T > best.T) best = tried;
-    }
-    for (int row = point.n_gaussian; row < static_cast<int>(point.rows.size()); ++row)
-      if (const Proposal tried = proposal(model, a, b, p, row); tried.T > best.T) best = tried;
-  }
+  const Separation best = repeat_that_tells_most(model, a, b);
   const std::string both = spoken(attribution.names[first]) + " from " + spoken(attribution.names[second]);
   constexpr double wanted_nats = 6, most_replicates = 1000;
   const double replicates = std::ceil(2 * wanted_nats / std::max(best.T, 1e-300));

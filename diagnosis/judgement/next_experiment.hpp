@@ -7,6 +7,26 @@
 
 namespace snag {
 
+/// What two hypotheses predict of the rows of a point, before the noise of a measurement.
+struct Predictions {
+  Eigen::VectorXd difference, numerical_error;
+  std::vector<Eigen::VectorXd> by_input{};  // changes by one standard uncertainty of each input
+};
+
+/// T of one more repeat.
+struct Separation {
+  double T = 0;
+  std::string observable, point;
+  double time = 0;  // s, where the predictions differ most; NaN for a scalar
+};
+
+/// Of the Gaussian observable that separates them best, at a point of training.
+Separation best_separation(const Responses& model, std::size_t training_point, const Predictions& predictions);
+/// T of one more repeat where it tells most.
+double best_repeat(const Responses& model, const Fit& a, const Fit& b);
+/// The likeliest fit beside this one; -1 if there is none.
+int rival_of(const Attribution& attribution, int fit);
+
 /// In a sentence: which observable at which point and when, and how many replicates; empty where there is nothing to separate.
 std::string next_experiment(const Responses& model, const Attribution& attribution, bool unexplained);
 

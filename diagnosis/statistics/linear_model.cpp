@@ -106,6 +106,21 @@ double log_rectangle_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A
 
 }  // namespace
 
+TruncatedDraw truncated_normal_draw(double lower, double upper, double uniform) {
+  if (lower > 0) {  // below zero the distribution function has all its digits
+    const TruncatedDraw mirrored = truncated_normal_draw(-upper, -lower, uniform);
+    return {-mirrored.value, mirrored.log_mass};
+  }
+  const double log_mass = log_normal_mass(lower, upper);
+  constexpr double far = -30;  // there the density falls as exp(-z^2/2) alone does: z^2/2 is exponential beyond the bound
+  if (upper < far) {
+    const double rest = std::isinf(lower) ? 0 : std::exp(0.5 * (upper * upper - lower * lower));
+    return {-std::sqrt(upper * upper - 2 * std::log1p(-uniform * (1 - rest))), log_mass};
+  }
+  const double below = normal_cdf(lower);
+  return {std::clamp(normal_quantile(std::clamp(below + uniform * std::exp(log_mass), 1e-300, 1 - 1e-16)), lower, upper), log_mass};
+}
+
 double log_truncated_gaussian(double g, double a, double lower, double upper) {
   const double centre = -g / a, width = 1 / std::sqrt(a);
   return 0.5 * g * g / a + std::log(width) + 0.5 * log_2pi + log_normal_mass((lower - centre) / width, (upper - centre) / width);

@@ -37,4 +37,11 @@ double log_truncated_gaussian(double g, double a, double lower, double upper);
 /// Source: Mendell and Elston (1974), Biometrics 30, 41-57.
 double log_box_integral(const Eigen::VectorXd& g, const Eigen::MatrixXd& A, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
+/// A standard normal number between two bounds, as the uniform number in [0, 1) picks it, and the logarithm of the mass between them; also
+/// far in the tails.
+struct TruncatedDraw {
+  double value = 0, log_mass = 0;
+};
+TruncatedDraw truncated_normal_draw(double lower, double upper, double uniform);
+
 }  // namespace snag

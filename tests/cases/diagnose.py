@@ -7,6 +7,8 @@ import re
 import shutil
 import tomllib
 
+import numpy
+
 import harness
 
 EXAMPLE = harness.SOURCE_DIR / "cases" / "diagnose-sphere"
@@ -74,6 +76,53 @@ class Diagnose(harness.CaseTest):
         file.write_text(file.read_text().replace('effect = "geometry"', 'effect = "geometri"'))
         refused = self.diagnose(file, "refused", code=2)
         self.assertIn("geometri", refused.stderr)
+
+    def data_of_runs(self, folder, *settings):
+        """The data of the example made anew: by runs of its own cases with other settings, 20 times each, and noise."""
+        noise = numpy.random.default_rng(1)
+        rows = ["point,replicate,t_s,observable,value"]
+        for point in "ABCDEFG":
+            words = ["--overwrite", *(word for one in ("output.report=false", *settings) for word in ("--set", one))]
+            rags = self.run_case(folder / f"point_{point}.toml", 1, *words, out=f"truth-{point}").monitor("rags")
+            for t in numpy.arange(0.02, 0.401, 0.02):
+                z = numpy.interp(t, rags.column("time"), rags.column("z"))
+                rows += [f"{point},{r},{t:.3f},z,{1e3 * z + 0.2 * noise.standard_normal():.4f}" for r in (1, 2, 3)]
+        (folder / "data.csv").write_text("\n".join(rows) + "\n")
+
+    def test_improved_case_is_the_prediction(self):
+        """The case that a verdict leaves is accepted as it is, and its run is the prediction of the verdict, digit by digit; a verdict that
+        names nothing leaves none, and says why."""
+        file = self.example() / "DIAGNOSIS.toml"
+        text = file.read_text().replace("bias_u = 0.05", "bias_u = 0")
+        file.write_text(text + '[model]\ncandidates = ["drag_magnitude", "drag_exponent", "added_mass"]\n')
+        self.data_of_runs(file.parent, "coupling.schiller_naumann.drag_factor=1.4")
+        done = self.diagnose(file)
+        verdict = self.verdict(done)
+        self.assertEqual((verdict["verdict"], verdict["effects"]), ("effects", ["drag_magnitude"]), verdict["notes"])
+        improved = verdict["case_with_effects"]
+        self.assertEqual(improved["files"], [f"case_with_effects_{point}.toml" for point in "ABCDEFG"])
+        self.assertEqual(improved["off_by_forms_u"], 0)
+        page = (done.folder / "report.html").read_text()
+        self.assertIn("Go on with case_with_effects_A.toml", page)
+        self.assertIn("drag_magnitude = ", page)
+        self.assertTrue(verdict["curves"])
+        for curve in verdict["curves"]:
+            case = done.folder / f"case_with_effects_{curve['point']}.toml"
+            self.assertIn("#   drag_magnitude: strength", case.read_text())
+            checked = harness.snag(["check", case])
+            self.assertEqual(checked.code, 0, checked.tail())
+            rags = self.run_case(case, 1, out=f"improved-{curve['point']}").monitor("rags")
+            for t, predicted, base in zip(curve["t_s"], curve["with_effect"], curve["base"], strict=True):
+                z = 1e3 * numpy.interp(t, rags.column("time"), rags.column("z"))
+                self.assertAlmostEqual(z / predicted, 1, delta=1e-9)
+                self.assertNotAlmostEqual(z / base, 1, delta=1e-3)
+        self.data_of_runs(file.parent)
+        none = self.diagnose(file)
+        verdict = self.verdict(none)
+        self.assertEqual(verdict["verdict"], "none", verdict["notes"])
+        self.assertEqual(verdict["case_with_effects"]["files"], [])
+        self.assertIn("The verdict names no cause", (none.folder / "report.html").read_text())
+        self.assertEqual(sorted(path.name for path in none.folder.iterdir() if path.name.startswith(("case_with", "posterior"))), [])
 
     def test_refuses_what_it_cannot_read(self):
         spoiled = {

@@ -1,5 +1,5 @@
-"""Requirement: `import snag` reads what the program writes, as the tutorial prints it: monitors with their units, summaries, cases, studies and verdicts;
-what is not there is told with what would write it."""
+"""Requirement: `import snag` reads what the program writes, as the tutorial prints it: monitors with their units, summaries, cases, studies, verdicts
+and posteriors; what is not there is told with what would write it."""
 # timeout: 300
 # cost: 12
 import contextlib
@@ -9,6 +9,8 @@ import os
 import pathlib
 import re
 import shutil
+
+import numpy
 
 import harness
 import snag
@@ -104,6 +106,23 @@ class PythonPackage(harness.CaseTest):
         self.assertEqual(verdict.evidence.index[0], max(content["evidence"]["log_evidence"], key=content["evidence"]["log_evidence"].get))
         self.assertEqual(verdict.shrinkage.loc["added_mass", "mean"], content["shrinkage"]["added_mass"]["mean"])
         self.assertEqual(len(verdict.curves), sum(len(curve["t_s"]) for curve in content["curves"]))
+
+    def test_posterior(self):
+        """Mean and standard deviation of the draws are those of the verdict, to the error of their number; the layout is ArviZ's."""
+        folder = self.shared / "results" / "diagnose-sphere"
+        verdict, content = snag.Verdict(folder), json.loads((folder / "posterior.json").read_text())
+        self.assertEqual(set(content), {"posterior", "posterior_attrs"})  # groups, and attributes of them, of arviz.from_dict
+        for value in content["posterior_attrs"].values():
+            self.assertIsInstance(value, str)  # netCDF holds no tables
+        shapes = {numpy.shape(chains) for chains in content["posterior"].values()}
+        self.assertEqual(shapes, {(4, 500)})
+        draws, strength = verdict.posterior, verdict.strengths.loc["added_mass"]
+        self.assertEqual(content["posterior_attrs"]["hypothesis"], "added_mass")
+        self.assertLess(abs(draws["added_mass"].mean() - strength["mean"]), 4 * strength["sd"] / len(draws) ** 0.5)
+        self.assertAlmostEqual(draws["added_mass"].std() / strength["sd"], 1, delta=4 / (2 * len(draws)) ** 0.5)
+        self.assertEqual(set(draws) - {"added_mass"}, set(verdict.json["nuisances"]))
+        for name, fitted in verdict.json["nuisances"].items():
+            self.assertLess(abs(draws[name].mean() - fitted), 4 / len(draws) ** 0.5, name)
 
     def test_what_is_not_there(self):
         with self.assertRaisesRegex(FileNotFoundError, "snag run, study or diagnose"):

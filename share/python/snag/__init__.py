@@ -6,7 +6,7 @@
     run.summary["pump"]["head_m"], run.rags, run.case["time.end_s"]
     snag.Study("results/drop").runs     # one row a run
     verdict = snag.Verdict("results/diagnose-sphere")
-    verdict.causes, verdict.probability, verdict.cells
+    verdict.causes, verdict.probability, verdict.cells, verdict.posterior
 
 `snag.open(FOLDER)` finds out which of them a folder holds. docs/tutorial-python.md is the tutorial, docs/outputs.md names every column and key.
 """

@@ -84,5 +84,17 @@ class Verdict:
         rows = named | found["rejected"] | {"regression": found["regression"]}
         return pandas.DataFrame.from_dict(rows, orient="index", columns=["mean", "low", "high"])
 
+    @functools.cached_property
+    def posterior(self):
+        """Draws of the strengths and of the inputs under the leading hypothesis, one row a draw; attrs["units"] has their units.
+        ArviZ reads the same file: arviz.from_json(FOLDER / "posterior.json")."""
+        import numpy
+        import pandas
+
+        found = json.loads(existing(self.folder / "posterior.json", "snag diagnose, unless the verdict is none or blind,").read_text())
+        draws = pandas.DataFrame({name: numpy.ravel(chains) for name, chains in found["posterior"].items()})
+        draws.attrs["units"] = json.loads(found["posterior_attrs"]["units"])
+        return draws
+
     def __repr__(self):
         return f"Verdict({str(self.folder)!r}): {self.verdict}, {self.wording}" + (f": {', '.join(self.effects)}" if self.effects else "")

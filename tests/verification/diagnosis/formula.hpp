@@ -199,4 +199,16 @@ inline Experiment experiment(const Truth& truth, int n_train, int n_withheld, in
   return e;
 }
 
+inline Verdict judged(const Experiment& experiment) {
+  Sphere sphere(experiment);
+  return diagnose(experiment, sphere);
+}
+
+/// Names of the effects as one hypothesis, "added_mass+lift"; else none, outside, tie or blind.
+inline std::string said(const Verdict& verdict) {
+  std::string name;
+  for (const std::string& effect : verdict.effects) name += (name.empty() ? "" : "+") + effect;
+  return verdict.verdict == "effects" ? name : verdict.verdict;
+}
+
 }  // namespace snag::formula

@@ -1,27 +1,18 @@
 // timeout: 300
 // cost: 10
-// Requirement: an input that is far off and mistakes of the measurement (unit, sign, clock, frame rate) are named as what they are, not
-// blamed on an effect and not called outside.
+// Requirement: an input that is far off and mistakes of the measurement (unit, sign, clock, frame rate, calibration of a group of points)
+// are named as what they are, not blamed on an effect and not called outside.
 #include <gtest/gtest.h>
 
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
+using formula::judged;
+using formula::said;
 
 namespace {
 
 constexpr double noise = 5e-4;
-
-Verdict judged(const Experiment& experiment) {
-  formula::Sphere sphere(experiment);
-  return diagnose(experiment, sphere);
-}
-
-std::string said(const Verdict& verdict) {
-  std::string name;
-  for (const std::string& effect : verdict.effects) name += (name.empty() ? "" : "+") + effect;
-  return verdict.verdict == "effects" ? name : verdict.verdict;
-}
 
 }  // namespace
 
@@ -59,4 +50,38 @@ TEST(Mistakes, UnitSignClockFrameRate) {
   }
   std::printf("mistakes of the measurement: %d of %d named\n", right, n);
   EXPECT_GE(right, n - 2);
+}
+
+// Three groups of three points, two of each for training: the numbers of one group are 4 to 8 % too large, or shifted by 4 mm. Without a
+// mistake the groups change nothing.
+TEST(Mistakes, CalibrationOfAGroupOfPoints) {
+  int right = 0, n = 0, effects = 0, nulls = 0;
+  const auto grouped = [](const formula::Truth& truth, std::uint64_t seed) {
+    Experiment experiment = formula::experiment(truth, 6, 3, 3, noise, seed);
+    for (std::size_t p = 0; p < experiment.points.size(); ++p) experiment.points[p].group = std::array{"low", "middle", "high"}[p % 3];
+    return experiment;
+  };
+  const auto check = [&](const std::string& name, const Verdict& verdict) {
+    ++n, right += said(verdict) == name;
+    if (said(verdict) != name) std::printf("%s: %s\n", name.c_str(), said(verdict).c_str());
+  };
+  for (int i = 0; i < 3; ++i) {
+    Experiment scale = grouped({}, 8400 + i), offset = scale;
+    const double factor = 1.04 + 0.02 * i;
+    for (Datum& d : scale.data) d.value *= d.point % 3 == 2 ? factor : 1;
+    const Verdict common = judged(scale);
+    check("scale:high", common);
+    if (said(common) == "scale:high") {
+      const EffectEstimate& fitted = common.parameters.at("scale:high");
+      EXPECT_NEAR(fitted.mean, factor - 1, 4 * fitted.sd);
+    }
+    for (Datum& d : offset.data) d.value += d.point % 3 == 1 && d.observable == 1 ? 4e-3 : 0;
+    check("offset:z@middle", judged(offset));
+    nulls += said(judged(grouped({}, 8500 + i))) == "none";
+    effects += said(judged(grouped({.effects = {{"lift", 1}}}, 8600 + i))) == "lift";
+  }
+  std::printf("calibrations of groups: %d of %d named; %d of 3 nulls none, %d of 3 effects named\n", right, n, nulls, effects);
+  EXPECT_GE(right, n - 2);
+  EXPECT_EQ(nulls, 3);
+  EXPECT_GE(effects, 2);
 }

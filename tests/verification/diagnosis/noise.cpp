@@ -7,15 +7,11 @@
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
+using formula::judged;
 
 namespace {
 
 constexpr double noise = 5e-4;
-
-Verdict judged(const Experiment& experiment) {
-  formula::Sphere sphere(experiment);
-  return diagnose(experiment, sphere);
-}
 
 }  // namespace
 

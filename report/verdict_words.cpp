@@ -1,0 +1,118 @@
+#include "report/verdict_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "base/words.hpp"
+
+namespace snag {
+
+namespace {
+
+std::string strength_in_words(const Verdict& v, const std::string& name) {
+  const auto found = v.parameters.find(name);
+  if (found == v.parameters.end() || found->second.sd == 0) return "";
+  const EffectEstimate& e = found->second;
+  return " = " + rounded(e.mean) + " ± " + rounded(e.sd) + (e.unit == "1" ? "" : " " + e.unit);
+}
+
+/// What to correct of data or inputs where the named cause is a mistake of theirs; empty: it is an effect of the model.
+std::string correction(const Verdict& v, const std::string& name) {
+  const std::string kind = name.substr(0, name.find(':')), of = name.find(':') == std::string::npos ? "" : name.substr(kind.size() + 1);
+  const std::string strength = strength_in_words(v, name);
+  if (kind == "unit") return "Correct the unit of the data that are stated in " + of + ".";
+  if (kind == "sign") return "Turn round the sign of the axis " + of + " of the data.";
+  if (kind == "clock") return "Correct the clock of the data: theta" + strength + ".";
+  if (kind == "frame_rate") return "Correct the frame rate of the data: relative error" + strength + ".";
+  if (kind == "scale") return "Calibrate the points " + of + " again: relative error" + strength + ".";
+  if (kind == "offset") return "Calibrate " + of + " again: offset" + strength + ".";
+  if (kind == "input") return "Look up or measure " + of + " again: relative error of the case's value" + strength + ".";
+  if (kind == "measurement") return "Calibrate the camera again: relative error of its scale" + strength + ".";
+  return "";
+}
+
+}  // namespace
+
+std::string share_in_words(double share) {
+  if (std::isnan(share)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, share < 0.1 && share > 0 ? "%.1f %%" : "%.0f %%", 100 * share);
+  return text;
+}
+
+std::string probability_in_words(double p) {
+  constexpr double nearly_one = 0.99;
+  return p > nearly_one ? "over 99 %" : p < 1 - nearly_one ? "below 1 %" : share_in_words(p);
+}
+
+std::string window_in_words(const GapCell& cell) {
+  return std::isnan(cell.window[0]) ? "whole run" : words(cell.window[0]) + " to " + words(cell.window[1]) + " s";
+}
+
+std::string condition_in_words(const NewCondition& condition) {
+  return "point " + condition.point + " with " + condition.input + (condition.factor < 1 ? " halved" : " doubled");
+}
+
+std::string verdict_sentence(const Verdict& v) {
+  if (v.verdict == "none") return "No gap beyond the uncertainty: no effect is missing that these data could show.";
+  if (v.verdict == "outside")
+    return "There is a gap, and no effect of the library explains it." +
+           (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
+  if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
+  if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
+  // The page states shares only where there are at least two: of several effects, or of one effect and the unexplained rest.
+  std::string causes;
+  const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
+  for (std::size_t i = 0; i < v.effects.size(); ++i) {
+    causes += (i > 0 ? ", " : "") + v.effects[i];
+    constexpr double told = 0.005;
+    if (has_shares && i < v.causes.size() && v.causes[i].share >= told) causes += " (" + share_in_words(v.causes[i].share) + " of it)";
+  }
+  const std::string rest = v.unexplained > 0 ? "; " + share_in_words(v.unexplained) + " of it stays unexplained" : "";
+  const bool doubted = v.wording == "suspected" && v.p_effects >= 0.9;
+  return "The gap comes from " + causes + rest + ": " + v.wording +
+         (doubted ? ", for a check of the verdict failed (see The evidence)." : ", probability " + probability_in_words(v.p_effects) + ".");
+}
+
+std::string verdict_advice(const Verdict& v) {
+  if (v.verdict == "none") return "Leave the case as it is.";
+  if (v.verdict == "blind") return "Change nothing by these data: measure where the effects show (What to measure next).";
+  if (v.verdict == "tie") {
+    const auto& conditions = v.identifiability.new_conditions;
+    if (conditions.empty()) return "Change nothing yet. " + v.identifiability.next_experiment;
+    return "Change nothing yet. Measure " + conditions.front().observable + " at " + condition_in_words(conditions.front()) +
+           ": one test there tells the two likeliest causes apart by " + rounded(conditions.front().nats) + " nats; 6 are wanted.";
+  }
+  const GapCell* largest = nullptr;
+  for (const GapCell& cell : v.where)
+    if (!cell.withheld && (largest == nullptr || std::abs(cell.z) > std::abs(largest->z))) largest = &cell;
+  if (v.verdict == "outside")
+    return std::string("Do not tune the case to these data: no strength of an effect is right.") +
+           (largest == nullptr ? ""
+                               : " Look for the cause where the gap is largest: " + largest->observable + " at " + largest->point + ", " +
+                                     window_in_words(*largest) + ".");
+  std::string text;
+  std::vector<std::string> held;
+  for (const std::string& name : v.effects) {
+    const std::string one = correction(v, name);
+    if (one.empty())
+      held.push_back(name + strength_in_words(v, name));
+    else
+      text += (text.empty() ? "" : " ") + one;
+  }
+  if (v.improved.files.empty()) return text;
+  constexpr double told = 1;  // standard uncertainties
+  const bool is_fit = v.improved.off_by_forms <= told;
+  const std::string go_on = v.wording != "attributed" ? "Check the cause first; then go on with " : is_fit ? "Go on with " : "Begin with ";
+  text += (text.empty() ? "" : " ") + go_on + v.improved.files.front() +
+          (v.improved.files.size() > 1 ? " and its like for the other points" : "") +
+          (held.empty() ? ", where it is as fitted." : ", which holds " + joined(held) + ".");
+  if (!is_fit)
+    text += " The fit mixes forms of a law and a case has one: its run is off the fit by up to " + rounded(v.improved.off_by_forms) +
+            " standard uncertainties, so adjust the strength there.";
+  return text;
+}
+
+}  // namespace snag

@@ -1,0 +1,50 @@
+// labels: long
+// timeout: 300
+// cost: 5
+// Requirement: where the data do not decide, a condition is proposed at which one test tells the two likeliest hypotheses apart by at least
+// twice the nats of a repeat, in 8 of 10 ties; none is proposed for effects that are one at every condition.
+#include <gtest/gtest.h>
+
+#include "tests/verification/diagnosis/formula.hpp"
+
+using namespace snag;
+using formula::judged;
+
+TEST(NewConditions, TellMoreThanRepeats) {
+  int ties = 0, proposed = 0;
+  for (int i = 0; ties < 10 && i < 100; ++i) {
+    const double coarse = std::array{2e-3, 3e-3, 4e-3}[static_cast<std::size_t>(i % 3)];  // m
+    const std::pair<const std::string, double> weak[] = {
+        {"added_mass", 0.3}, {"pressure_gradient", 0.4}, {"lift", 0.5}, {"operating_point", 0.1}};
+    const Verdict verdict = judged(formula::experiment({.effects = {weak[i / 3 % 4]}}, 2, 0, 1, coarse, 8700 + i));
+    if (verdict.verdict != "tie") {
+      EXPECT_TRUE(verdict.identifiability.new_conditions.empty());
+      continue;
+    }
+    ++ties;
+    const auto& conditions = verdict.identifiability.new_conditions;
+    proposed += !conditions.empty();
+    double before = infinity;
+    for (const NewCondition& c : conditions) {
+      EXPECT_GE(c.nats, 2 * c.nats_of_repeat);
+      EXPECT_LE(c.nats, before);
+      before = c.nats;
+    }
+    std::printf("%s or %s: ", verdict.tie.front().c_str(), verdict.tie.size() > 1 ? verdict.tie[1].c_str() : "");
+    if (!conditions.empty())
+      std::printf("%s of %s times %g, %.2g nats, of a repeat %.2g", conditions[0].input.c_str(), conditions[0].point.c_str(),
+                  conditions[0].factor, conditions[0].nats, conditions[0].nats_of_repeat);
+    std::printf("\n");
+  }
+  std::printf("%d of %d ties with a condition that tells more\n", proposed, ties);
+  EXPECT_EQ(ties, 10);
+  EXPECT_GE(proposed, 8);
+}
+
+TEST(NewConditions, NoneForTwins) {
+  const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 6, 0, 3, 5e-4, 8800);
+  formula::Sphere sphere(experiment, false, true);
+  const Verdict verdict = diagnose(experiment, sphere);
+  EXPECT_EQ(verdict.verdict, "tie");
+  EXPECT_TRUE(verdict.identifiability.new_conditions.empty());
+}

@@ -1,0 +1,122 @@
+// timeout: 300
+// cost: 8
+// Requirement: outliers in 1 to 5 % of the rows are found and told by their number; they make no verdict "outside" and are not blamed on
+// an effect. Where there are none, none are found: neither in noise that is understated or lasts, nor in what the piece really did.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "diagnosis/data/outliers.hpp"
+#include "tests/verification/diagnosis/formula.hpp"
+
+using namespace snag;
+using formula::judged;
+using formula::said;
+
+namespace {
+
+constexpr double noise = 5e-4;
+
+/// Moves a share of the rows by 10 to 300 times the noise, either way; their indices.
+std::set<std::size_t> spoil(Experiment& experiment, double share, std::uint64_t seed) {
+  NormalNumbers random(seed);
+  std::set<std::size_t> spoilt;
+  for (std::size_t i = 0; i < experiment.data.size(); ++i) {
+    experiment.data[i].line = static_cast<int>(i) + 2;
+    if (random.uniform() > share) continue;
+    const double size = 10 * std::pow(30.0, random.uniform());
+    experiment.data[i].value += (random.uniform() < 0.5 ? -1 : 1) * size * noise;
+    spoilt.insert(i);
+  }
+  return spoilt;
+}
+
+std::size_t n_found(const Experiment& experiment) {
+  std::size_t n = 0;
+  for (const OutliersFound& found : find_outliers(experiment)) n += found.samples.size();
+  return n;
+}
+
+}  // namespace
+
+TEST(Outliers, AreFoundByTheirRows) {
+  for (const int n_replicates : {1, 3})
+    for (const double share : {0.01, 0.03, 0.05}) {
+      std::size_t right = 0, wrong = 0, there = 0, rows = 0;
+      for (int i = 0; i < 6; ++i) {
+        Experiment experiment = formula::experiment({.effects = {{"lift", 1}}}, 6, 3, n_replicates, noise, 7500 + i);
+        const std::set<std::size_t> spoilt = spoil(experiment, share, 7600 + i);
+        there += spoilt.size(), rows += experiment.data.size();
+        for (const OutliersFound& found : find_outliers(experiment))
+          for (const std::size_t sample : found.samples) (spoilt.contains(sample) ? right : wrong) += 1;
+      }
+      std::printf("%d repeats, %.0f %% outliers: %zu of %zu found, %zu others of %zu\n", n_replicates, 100 * share, right, there, wrong,
+                  rows - there);
+      // Of a single series at 5 %, two in five outliers have another one within two samples, and only some of these are told apart.
+      EXPECT_GE(static_cast<double>(right), (n_replicates > 1 ? 0.9 : 0.75) * static_cast<double>(there));
+      EXPECT_LE(static_cast<double>(wrong), 0.002 * static_cast<double>(rows));
+    }
+}
+
+TEST(Outliers, AreNotFoundWhereThereAreNone) {
+  std::size_t found = 0;
+  for (int i = 0; i < 10; ++i) {
+    const int n_replicates = 1 + 2 * (i % 2);
+    const auto made = [&](const formula::Truth& truth, double factor) {
+      Experiment experiment = formula::experiment(truth, 6, 3, n_replicates, factor * noise, 7700 + i);
+      for (Observable& observable : experiment.observables) observable.noise_u = noise;
+      return experiment;
+    };
+    found += n_found(made({}, 1));
+    found += n_found(made({}, 3));                                               // understated noise
+    found += n_found(made({.gust = 20}, 0.1));                                   // the piece was pushed, 20 m/s2 for 0.08 s
+    found += n_found(made({.effects = {{"turbulent_dispersion", 0.05}}}, 0.1));  // repeats that scatter, each on its way
+    Experiment lasting = made({}, 1e-9);
+    NormalNumbers random(7800 + i);
+    double e = 0;
+    for (Datum& d : lasting.data) d.value += noise * (e = d.time < 0.03 ? random() : 0.9 * e + std::sqrt(1 - 0.81) * random());
+    found += n_found(lasting);
+  }
+  EXPECT_EQ(found, 0);
+}
+
+// A piece that bounces from a wall changes its velocity from one sample to the next: a kink is no outlier.
+TEST(Outliers, AKinkIsNone) {
+  for (const int n_replicates : {1, 2, 3}) {
+    Experiment experiment = formula::experiment({}, 1, 0, n_replicates, noise, 7900);
+    NormalNumbers random(7901);
+    for (Datum& d : experiment.data) d.value = std::abs(d.time - 0.4) + noise * random();  // 1 m/s down and up again, 20 mm a sample
+    EXPECT_EQ(n_found(experiment), 0) << n_replicates;
+  }
+}
+
+TEST(Outliers, AreNotBlamedOnEffects) {
+  int none = 0, none_without = 0, outside = 0, named = 0, named_without = 0, n = 0;
+  for (int i = 0; i < 6; ++i, ++n) {
+    const double share = std::array{0.01, 0.03, 0.05}[static_cast<std::size_t>(i % 3)];
+    const int n_replicates = 1 + i % 3;
+    Experiment null = formula::experiment({}, 6, 0, n_replicates, noise, 8000 + i);
+    none_without += said(judged(null)) == "none";
+    const std::size_t there = spoil(null, share, 8100 + i).size();
+    const Verdict verdict = judged(null);
+    if (said(verdict) != "none")
+      std::printf("null, %.0f %%, %d repeats: %s %s\n", 100 * share, n_replicates, said(verdict).c_str(), verdict.wording.c_str());
+    none += said(verdict) == "none", outside += verdict.verdict == "outside";
+    std::size_t rows = 0;
+    for (const auto& [observable, found] : verdict.outliers) rows += found.rows.size();
+    EXPECT_GE(static_cast<double>(rows), 0.7 * static_cast<double>(there));
+    EXPECT_NE(verdict_json(verdict).find("\"line\": "), std::string::npos);
+    const std::string effect = std::array{"added_mass", "lift", "pressure_gradient"}[static_cast<std::size_t>(i / 2)];
+    const formula::Truth truth{.effects = {{effect, effect == "added_mass" ? 0.5 : 1.0}}};
+    Experiment experiment = formula::experiment(truth, 6, 0, n_replicates, noise, 8200 + i);
+    named_without += said(judged(experiment)) == effect;
+    spoil(experiment, share, 8300 + i);
+    const Verdict of_spoilt = judged(experiment);
+    named += said(of_spoilt) == effect, outside += of_spoilt.verdict == "outside";
+  }
+  std::printf("with outliers: %d of %d nulls none (%d without), %d of %d effects named (%d without), %d outside\n", none, n, none_without,
+              named, n, named_without, outside);
+  EXPECT_GE(none, none_without - 1);
+  EXPECT_EQ(outside, 0);
+  EXPECT_GE(named, named_without - 1);
+}
