@@ -15,7 +15,7 @@ import numpy
 import harness
 import snag
 from examples import printed_files
-from tutorials import documented_columns
+from tutorials import documented_columns, documented_units
 
 EXAMPLE = harness.SOURCE_DIR / "cases" / "diagnose-sphere"
 TUTORIAL = harness.SOURCE_DIR / "docs" / "tutorial-python.md"
@@ -63,7 +63,7 @@ class PythonPackage(harness.CaseTest):
             lines = (folder / "monitors" / f"{name}.csv").read_text().splitlines()
             self.assertEqual([f"{column} [{unit}]" for column, unit in frame.attrs["units"].items()], lines[0].split(","))
             for column, unit in frame.attrs["units"].items():
-                self.assertEqual(documented[name][column], unit, f"{name}: {column}")
+                self.assertEqual(documented_units(documented[name], column), [unit], f"{name}: {column}")
             self.assertEqual(frame.shape, (len(lines) - 1, len(lines[0].split(","))))
             self.assertEqual(frame.iloc[-1].tolist(), [float(value) for value in lines[-1].split(",")])
         with self.assertRaisesRegex(KeyError, "no monitor pump; it has .*rags"):

@@ -33,6 +33,11 @@ def pattern(column):
     return column.replace("PATCH", r"\w+").replace("ZONE", "(rotor|stator)")
 
 
+def documented_units(columns, name):
+    """Units that docs/outputs.md states for a column of a monitor: one, if it is documented once."""
+    return [unit for column, unit in columns.items() if re.fullmatch(pattern(column), name)]
+
+
 class Tutorial(harness.CaseTest):
     """Shared with tutorials_long.py."""
 
@@ -64,9 +69,7 @@ class Tutorial(harness.CaseTest):
             columns, _ = re.subn(r"\s+$", "", file.read_text().splitlines()[0])
             for column in columns.split(","):
                 name, unit = re.fullmatch(r"(\w+) \[(.+)\]", column).groups()
-                known = {pattern(one): u for one, u in written[file.stem].items()}
-                units = [u for one, u in known.items() if re.fullmatch(one, name)]
-                self.assertEqual(units, [unit], f"docs/outputs.md, {file.name}: {column}")
+                self.assertEqual(documented_units(written[file.stem], name), [unit], f"docs/outputs.md, {file.name}: {column}")
             names = [column.split(" [")[0] for column in columns.split(",")]
             for one in written[file.stem]:
                 self.assertTrue(any(re.fullmatch(pattern(one), name) for name in names), f"docs/outputs.md, {file.name}: {one} is not written")
