@@ -52,7 +52,7 @@ void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
   pressure_gradient(flow.pressure, boundary, boundary.values().pressure, flow.boundary_pressure, flow.pressure_gradient);
 }
 
-void Continuity::restore_facet_pressure(const Flow& flow, const BoundarySet& boundary) {
+void Continuity::find_facet_pressure(const Flow& flow, const BoundarySet& boundary) {
   std::vector<double> at_boundary = flow.boundary_pressure;
   std::vector<Vec3> gradient = flow.pressure_gradient;
   pressure_gradient(flow.pressure, boundary, flow.boundary_pressure, at_boundary, gradient);
@@ -277,6 +277,7 @@ void Continuity::correct_cells(Flow& flow, bool with_pressure) {
   gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_, facet_correction_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_ * gradient_[c];
   if (!with_pressure) return;
+  facet_pressure_.resize(facet_correction_.size());  // a resumed run without balances has none
   for (std::size_t i = 0; i < facet_correction_.size(); ++i) facet_pressure_[i] += facet_correction_[i];
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.pressure[c] += correction_[c], flow.pressure_gradient[c] += gradient_[c];
   for (std::size_t b = 0; b < boundary_correction_.size(); ++b) flow.boundary_pressure[b] += boundary_correction_[b];

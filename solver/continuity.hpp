@@ -47,8 +47,9 @@ class Continuity {
 
   /// Pressure at the facets of the sliding interface in the Gauss gradient, [n_interior - first_facet], Pa.
   const std::vector<double>& facet_pressure() const { return facet_pressure_; }
-  /// The same from flow.pressure as it stands (a resume); the flow stays. Collective.
-  void restore_facet_pressure(const Flow& flow, const BoundarySet& boundary);
+  /// The same from flow.pressure as it stands, at the begin of a step, so that a resumed run has the same to the bit; the flow stays.
+  /// Collective.
+  void find_facet_pressure(const Flow& flow, const BoundarySet& boundary);
 
   FluxHistory history;
   std::vector<double>

@@ -179,7 +179,6 @@ void FlowSolver::load_water(CheckpointReader& checkpoint) {
   read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
   read_boundary(checkpoint, "flow/boundary_pressure", rows, mesh, flow.boundary_pressure);
   read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
-  continuity_.restore_facet_pressure(flow, boundary_);
 }
 
 /// On the mesh as it was when the preconditioner was set up.

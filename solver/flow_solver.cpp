@@ -167,6 +167,8 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     turbulence_->mesh_turned(flow, boundary_);
     report.seconds_mesh += seconds() - turned;
   }
+  // Where the mesh slides its turn has found them.
+  if (balances_ && !(rotating_zone_ && rotating_zone_->slides())) continuity_.find_facet_pressure(flow, boundary_);
   const double share = momentum_.guess_from_history(flow, continuity_.history, time);
   momentum_.take_given_flux(flow, boundary_);
   // At small steps the divergence of the guess is small against 1/dt, and with extrapolated fluxes a closed guess feeds noise back: it
