@@ -64,7 +64,7 @@ std::string heading(const CaseSimulator& simulator, const OperatingPoint& point,
   text += "# Keys that differ from the base case:\n";
   for (const std::string& key : simulator.change_of(run).overrides) text += "#   " + key + "\n";
   if (verdict.improved.off_by_forms > 0)
-    text += "# The verdict mixes forms of a law; this case has the nearest one: its run is off by at most " +
+    text += "# The verdict mixes forms of a law. This case has one form, the nearest. Its run differs from the mixture by at most " +
             rounded(verdict.improved.off_by_forms) + " standard uncertainties of the data.\n";
   return text;
 }

@@ -6,9 +6,9 @@
 //
 // p comes from the two samples before and the two after in the same series (the cubic through them), or from the median of the other
 // repeats at the same time where there are two of them: whichever has the smaller s at this point. A sample is an outlier where |z| > 5 and
-// the series beside it agrees across it: a kink of the path, or what all repeats show, is none. Up to three in a row are found. They are
-// left out where the mixture is ahead by 6 nats over all samples of an observable; else none is. Scalars of a replicate are not looked at:
-// their scatter is evidence of its own.
+// the samples before it predict those behind it. A kink of the path is therefore no outlier, nor is a deviation that all repeats have. Up
+// to three outliers in a row are found. They are left out where the mixture leads by 6 nats over all samples of an observable; otherwise
+// no sample is left out. Scalars of a replicate are not examined: their scatter is evidence of its own.
 #include <vector>
 
 #include "diagnosis/data/experiment.hpp"

@@ -1,5 +1,5 @@
 """Requirement: `import snag` reads what the program writes, as the tutorial prints it: monitors with their units, summaries, cases, studies, verdicts
-and posteriors; what is not there is told with what would write it."""
+and posteriors. If a file is missing, the message says which command writes it."""
 # timeout: 300
 # cost: 12
 import contextlib

@@ -1,7 +1,7 @@
 // timeout: 300
 // cost: 8
-// Requirement: outliers in 1 to 5 % of the rows are found and told by their number; they make no verdict "outside" and are not blamed on
-// an effect. Where there are none, none are found: neither in noise that is understated or lasts, nor in what the piece really did.
+// Requirement: outliers in 1 to 5 % of the rows are found, and the number of each row is reported. They make no verdict "outside", and no
+// effect is named for them. Data without outliers have none found: understated noise, correlated noise and real motion are no outliers.
 #include <gtest/gtest.h>
 
 #include <set>
