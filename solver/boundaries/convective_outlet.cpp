@@ -28,8 +28,9 @@ struct ConvectiveOutlet final : Boundary {
   Section section() override {
     return {.name = name,
             .meaning =
-                "The flow leaves as it comes, carried on at the mean speed; eddies pass with little reflection. The pressure "
-                "level is free: no other patch needs to give it, and none may be needed to (no target_flow_rate).",
+                "The flow leaves as it comes, carried on at the mean speed; eddies pass with little reflection. What flows in through "
+                "the other patches leaves here, and no patch needs to give the pressure. A step in which the stream crosses more "
+                "than three cells at the outlet may diverge: take pressure_outlet for such steps.",
             .parameters = {}};
   }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
