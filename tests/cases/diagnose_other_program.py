@@ -115,6 +115,7 @@ angular_frequency_rad_s = [{water.omega}, 0, 0]
 [[particle]]
 diameter_m = {d}
 density_kg_m3 = {density}
+shear_modulus_Pa = 1e4  # it touches nothing: a soft sphere needs a fifth of the sub-steps
 position_m = [0, {height}, 0]
 [[wall]]
 kind = "plane"

@@ -33,6 +33,7 @@ ENVIRONMENT = dict(
     OMPI_MCA_mpi_yield_when_idle="1",
     OMPI_MCA_hwloc_base_binding_policy="none",
     OMPI_MCA_btl_base_warn_component_unused="0",
+    OMPI_MCA_odls_base_sigkill_timeout="0",  # mpirun otherwise waits two seconds after every run that ends with a code other than 0
 )
 # mpirun adds its own paragraphs to the stderr of a program that ends with a code other than 0.
 MPIRUN_CHATTER = re.compile(

@@ -132,21 +132,21 @@ class RagInPump(harness.CaseTest):
         self.agree("cell")
 
     def stop_and_resume(self, ranks, kernel="gaussian", *, after):
-        case, folder = self.pump(kernel), self.work / "stopped"
+        """Stopped after each of these numbers of steps and resumed; the end is that of the run that was not."""
+        case, folder, how = self.pump(kernel), self.work / "stopped", []
         whole = self.whole(kernel, ranks)
-        mpirun = harness.start(["run", case, "--out", folder], ranks)
-        harness.wait_for_records(folder / "monitors" / "coupling.csv", after, mpirun)
-        os.kill(harness.program_processes(mpirun)[-1], signal.SIGTERM)
-        stdout, stderr = mpirun.communicate(timeout=120)
-        self.assertEqual(mpirun.returncode, 7, stdout + stderr)
+        for n_steps in after:
+            mpirun = harness.start(["run", case, "--out", folder, *how], ranks)
+            harness.wait_for_records(folder / "monitors" / "coupling.csv", n_steps, mpirun)
+            os.kill(harness.program_processes(mpirun)[-1], signal.SIGTERM)
+            stdout, stderr = mpirun.communicate(timeout=120)
+            self.assertEqual(mpirun.returncode, 7, stdout + stderr)
+            how = ["--resume"]
         resumed = self.run_case(case, ranks, "--resume", out="stopped")
         self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").glob(f"*_{self.n_steps:06}.vtp")))
 
-    def test_stop_before_the_last_rag_is_put_in(self):
-        self.stop_and_resume(2, after=4)
-
-    def test_stop_in_mid_transit_with_the_cell_kernel(self):
-        self.stop_and_resume(3, "cell", after=18)
+    def test_stops_before_the_last_rag_is_put_in_and_in_mid_transit(self):
+        self.stop_and_resume(3, "cell", after=(4, 18))
 
 
 if __name__ == "__main__":

@@ -28,16 +28,16 @@ class LongRagInPump(rag_in_pump.RagInPump):
                 self.assert_monitors_agree(one, other, monitor, 1e-6)
 
     def test_stop_in_mid_transit_on_one_rank(self):
-        self.stop_and_resume(1, after=28)
+        self.stop_and_resume(1, after=(28,))
 
     def test_stop_in_mid_transit_on_two_ranks(self):
-        self.stop_and_resume(2, after=28)
+        self.stop_and_resume(2, after=(28,))
 
     def test_stop_before_the_last_rag_is_put_in(self):
-        self.stop_and_resume(2, after=8)
+        self.stop_and_resume(2, after=(8,))
 
-    def test_stop_in_mid_transit_with_the_cell_kernel(self):
-        self.stop_and_resume(3, "cell", after=38)
+    def test_stops_before_the_last_rag_is_put_in_and_in_mid_transit(self):
+        self.stop_and_resume(3, "cell", after=(8, 38))
 
 
 del rag_in_pump.RagInPump

@@ -1,0 +1,16 @@
+# labels: long
+# timeout: 1200
+# processors: 3
+"""Requirement: many_rags.py with a pile of 240 rags."""
+import harness
+import many_rags
+
+
+class LongPile(many_rags.Pile):
+    layers = 15
+
+
+del many_rags.Pile, many_rags.ManyRags
+
+if __name__ == "__main__":
+    harness.main()
