@@ -9,6 +9,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "simulation/setup/case_reynolds.hpp"
 #include "simulation/setup/checks.hpp"
 #include "solver/fields/rotating_zone.hpp"
 
@@ -132,6 +133,24 @@ double cross_section(const FlowSolver& water) {
     if (!water.boundary().is_wall(p)) openings += patch_area(water.flow, p);
   if (openings > 0) return openings;
   return std::pow(sum(MPI_COMM_WORLD, std::span(water.flow.mesh.cell_volume).first(water.flow.mesh.n_cells)), 2. / 3);
+}
+
+/// nu over the largest nu_t of the cells that no wall function sets: where it is above 1 in a flow that is turbulent, the turbulence has
+/// died out in the computation. Collective.
+std::optional<double> molecular_over_eddy_viscosity(const Simulation& simulation) {
+  const Flow& flow = simulation.water->flow;
+  const std::optional<CaseReynolds> Re = case_reynolds(simulation);
+  if (!Re || Re->number < transition_of_a_pipe || sum(MPI_COMM_WORLD, static_cast<std::int64_t>(flow.eddy_viscosity.size())) == 0)
+    return {};
+  std::vector<char> at_wall(static_cast<std::size_t>(flow.mesh.n_cells), 0);
+  for (const int c : cells_at_walls(*simulation.water)) at_wall[static_cast<std::size_t>(c)] = 1;
+  double largest = -1;  // no cell yet
+  for (int c = 0; c < flow.mesh.n_cells; ++c)
+    if (!at_wall[static_cast<std::size_t>(c)]) largest = std::max(largest, flow.eddy_viscosity[c]);
+  largest = maximum(MPI_COMM_WORLD, largest);
+  if (largest < 0) return {};
+  const double molecular = flow.dynamic_viscosity / flow.density;
+  return molecular / std::max(largest, 1e-12 * molecular);  // so that it is a number
 }
 
 }  // namespace
@@ -405,7 +424,8 @@ void Outputs::write_phase() const {
 
 void Outputs::summarise_checks(Summary& s) const {
   if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
-    s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps()};
+    s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps(),
+               molecular_over_eddy_viscosity(simulation_)};
     constexpr double least_share = 0.01;  // at shut-off nothing passes but round-off
     const double scale = std::max(largest_through_, least_share * water->watch().speed() * cross_section_);
     if (scale > 0) s.conservation.mass_imbalance = largest_imbalance_ / scale;

@@ -151,7 +151,8 @@ nlohmann::ordered_json balance_json(const BalanceSummary& balance) {
 nlohmann::ordered_json water_json(const WaterSummary& water) {
   return {{"speed_scale_m_s", water.speed_scale},
           {"max_speed_over_scale", water.max_speed_over_scale},
-          {"unsolved_steps", water.unsolved_steps}};
+          {"unsolved_steps", water.unsolved_steps},
+          {"molecular_over_eddy_viscosity", or_null(water.molecular_over_eddy_viscosity)}};
 }
 
 nlohmann::ordered_json walls_json(const WallsSummary& walls) {

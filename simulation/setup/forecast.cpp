@@ -13,6 +13,7 @@
 #include "parallel/quantile.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "simulation/setup/case_reynolds.hpp"
 #include "solver/monitors.hpp"
 
 namespace snag {
@@ -23,9 +24,6 @@ constexpr double largest_turn = 30;      // degrees a step: 12 steps a revolutio
 constexpr double advised_turn = 6;       // degrees a step; up to 5.8 the head of a pump was within 0.2 % of that of small steps
 constexpr double good_turn = 5;          // degrees a step, for the remedies
 constexpr double advised_courant = 100;  // of the median cell without a rotor
-constexpr double transition = 4000;      // Reynolds number of a pipe from which the flow is turbulent
-constexpr double least_body = 1e-4;      // volume of a body over the power 3/2 of its surface; 0.09 for a sphere
-constexpr double whole_extent = 0.99;    // of the mesh
 constexpr double friction_speed = 0.05;  // u_tau/U
 constexpr double viscous_layer = 11;     // y+ below which the wall function takes a cell for one at the edge of the log layer
 // Orders of magnitude on one core of a present workstation; timing.csv of a run has those of this machine.
@@ -89,73 +87,16 @@ void foresee_walls(const Simulation& simulation, Forecast& result) {
   }
 }
 
-/// A length that the Reynolds number is of, m, and what it is.
-struct Width {
-  double length = 0;
-  std::string of;
-};
-
-/// The flow is around the walls, not between them: the walls enclose a volume without water,  1/3 sum (x_f - x_m).S < 0.
-bool is_external(const Simulation& simulation) {
-  const Mesh& mesh = *simulation.mesh;
-  const BoundarySet& boundary = simulation.water->boundary();
-  Vec3 moment, vector;  // sum |S| x_f, m3; sum S, m2
-  double area = 0, volume = 0;
-  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
-    for (int f = mesh.patches[p].first; f < mesh.patches[p].end() && boundary.is_wall(p); ++f) {
-      const double magnitude = norm(mesh.face_vector[f]);
-      moment += magnitude * mesh.face_centre[f], vector += mesh.face_vector[f], area += magnitude;
-      volume += dot(mesh.face_centre[f], mesh.face_vector[f]) / 3;
-    }
-  area = sum(mesh.comm, area);
-  if (area == 0) return false;
-  const Vec3 mean = sum(mesh.comm, std::span<const Vec3>(&moment, 1)) / area;
-  volume = sum(mesh.comm, volume) - dot(mean, sum(mesh.comm, std::span<const Vec3>(&vector, 1))) / 3;
-  return volume < -least_body * std::pow(area, 1.5);
-}
-
-/// Of the widest wall patch: its largest extent along an axis in which it does not reach through the whole mesh, as a cylinder between two
-/// planes of symmetry does.
-Width body_width(const Simulation& simulation) {
-  const Mesh& mesh = *simulation.mesh;
-  const Vec3 domain = bounding_box(mesh).size();
-  Width widest;
-  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
-    if (!simulation.water->boundary().is_wall(p)) continue;
-    const Patch& patch = mesh.patches[p];
-    std::vector<Vec3> nodes;
-    for (int f = patch.first; f < patch.end(); ++f)
-      for (const int node : row(mesh.face_node_start, mesh.face_node, f)) nodes.push_back(mesh.node[node]);
-    const Vec3 size = bounding_box(mesh.comm, nodes).size();
-    for (int axis = 0; axis < 3; ++axis)
-      if (size[axis] < whole_extent * domain[axis] && size[axis] > widest.length) widest = {size[axis], "body " + patch.name};
-  }
-  return widest;
-}
-
-/// Of the widest patch that water passes.
-Width opening_width(const Simulation& simulation) {
-  const Mesh& mesh = *simulation.mesh;
-  Width widest;
-  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p) {
-    if (!simulation.water->boundary().is_open(p)) continue;
-    const double width = std::sqrt(4 * patch_area(simulation.water->flow, p) / std::numbers::pi);
-    if (width > widest.length) widest = {width, "patch " + mesh.patches[p].name};
-  }
-  return widest;
-}
-
 /// Laminar where the flow is turbulent.
 void foresee_transition(const Simulation& simulation, Forecast& result) {
-  const Flow& flow = simulation.water->flow;
-  const Width width = is_external(simulation) ? body_width(simulation) : opening_width(simulation);
-  if (width.length == 0) return;
-  const double Re = simulation.water->watch().speed() * width.length * flow.density / flow.dynamic_viscosity;
-  result.text +=
-      "Reynolds number " + rounded(Re) + " with the speed of the case and the width of " + width.of + ", " + rounded(width.length) + " m\n";
-  if (flow.turbulent_kinetic_energy.empty() && !simulation.laminar_asked() && Re > transition)
+  const std::optional<CaseReynolds> found = case_reynolds(simulation);
+  if (!found) return;
+  const double Re = found->number;
+  result.text += "Reynolds number " + rounded(Re) + " with the speed of the case and the width of " + found->width_of + ", " +
+                 rounded(found->width) + " m\n";
+  if (simulation.water->flow.turbulent_kinetic_energy.empty() && !simulation.laminar_asked() && Re > transition_of_a_pipe)
     result.warnings.push_back("the flow is computed as laminar at a Reynolds number of " + rounded(Re) + ", turbulent above some " +
-                              rounded(transition) +
+                              rounded(transition_of_a_pipe) +
                               "; give [turbulence] model = \"k_epsilon\", or model = \"laminar\" where that is meant");
 }
 

@@ -63,6 +63,18 @@ class Turbulence(harness.CaseTest):
         for file in (run.folder / "fields").glob("*.pvtu"):
             self.assertFalse((NAMES | {OMEGA}) & set(cell_fields(file)), file.name)
 
+    def test_run_without_turbulence_is_no_success(self):
+        """Weak at inlet and start, and no time to grow: the water goes as a laminar one at a Reynolds number of 2e5, behind wall functions."""
+        case = self.channel("k_epsilon", "turbulence_intensity = 1e-5")
+        alive = self.run_case(self.channel("k_epsilon", "turbulence_intensity = 0.1", "alive"), 2, out="alive")
+        self.assertLess(alive.summary["water"]["molecular_over_eddy_viscosity"], 0.1)
+        weak = [word for one in ("turbulence.initial_k_m2_s2=1e-9", "turbulence.initial_epsilon_m2_s3=1", "time.step_s=1e-5", "time.end_s=3e-5") for word in ("--set", one)]
+        none = self.run_case(case, 2, *weak, code=4)
+        self.assertGreater(none.summary["water"]["molecular_over_eddy_viscosity"], 1)
+        self.assertIn("no turbulence at the end", "\n".join(none.messages))
+        viscous = self.run_case(case, 2, "--set", "turbulence.model=laminar", out="laminar")
+        self.assertIsNone(viscous.summary["water"]["molecular_over_eddy_viscosity"])
+
     def test_unknown_model(self):
         run = self.run_case(self.channel("k_epsilom"), 1, code=2)
         self.assertIn("k_epsilon", "\n".join(run.messages))

@@ -282,6 +282,7 @@ TEST_F(Report, EveryCheckCanFail) {
   for (const auto& [group, key, value] :
        std::vector<std::tuple<std::string, std::string, double>>{{"water", "max_speed_over_scale", 21},
                                                                  {"water", "unsolved_steps", 21},
+                                                                 {"water", "molecular_over_eddy_viscosity", 2},
                                                                  {"conservation", "mass_imbalance_rel", 2e-4},
                                                                  {"conservation", "momentum_exchange_rel", 2e-10},
                                                                  {"conservation", "interface_closure_rel", 2e-12},
@@ -296,7 +297,7 @@ TEST_F(Report, EveryCheckCanFail) {
     EXPECT_FALSE(holds(outcome_sentence(summary), "as planned")) << key;
     EXPECT_TRUE(holds(outcome_sentence(summary), "Check failed: ")) << key;
   }
-  EXPECT_EQ(checked(good).size(), 9u) << "a check was added: let it fail here, too";
+  EXPECT_EQ(checked(good).size(), 10u) << "a check was added: let it fail here, too";
 }
 
 // A run that was killed before its summary still has a report of its monitors, case and log, which says so.
