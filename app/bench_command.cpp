@@ -28,7 +28,7 @@ Action add_bench(CLI::App& app) {
       "size (Debian package lammps)");
   command->add_option("--level", options->level, "flow: mesh coarse (30 thousand cells) or medium (200 thousand, default)");
   command->add_option("--steps", options->n_steps, "flow, coupling: steps that are timed (default 8)");
-  command->add_flag("--quick", options->quick, "dem: the small cases only");
+  command->add_flag("--quick", options->quick, "dem: the small cases only; coupling: a quarter of the particles and cells");
   return [options] {
     if (options->target == "dem") {
       DemBenchOptions dem{.peer = options->peer, .quick = options->quick};
@@ -36,7 +36,7 @@ Action add_bench(CLI::App& app) {
       return bench_dem(dem);
     }
     if (options->target == "coupling") {
-      CouplingBenchOptions coupling{.n_steps = options->n_steps, .peer = options->peer};
+      CouplingBenchOptions coupling{.n_steps = options->n_steps, .peer = options->peer, .quick = options->quick};
       if (!options->folder.empty()) coupling.out = options->folder;
       return bench_coupling(coupling);
     }

@@ -28,12 +28,8 @@ const MPI_Comm world = MPI_COMM_WORLD;
 constexpr int n_warm_up = 2;
 
 /// A rag that stands across the stream along x.
-const char* const rag_and_time = R"(
-[time]
-end_s = 1
-step_ms = 0.4
-[[rag]]
-radius_mm = 1
+std::string rag_and_time(bool quick) {
+  return std::string("[time]\nend_s = 1\nstep_ms = 0.4\n[[rag]]\nradius_mm = ") + (quick ? "2" : "1") + R"(
 density_model = "jensen_2018"
 pose = "flat"
 centre_m = [0.08, 0.13, 0.17]
@@ -42,9 +38,10 @@ crosswise = [0.05, 1, 0]
 [coupling]
 forces = ["free_stream_drag"]
 )";
+}
 
-std::string in_a_duct(const std::filesystem::path& mesh, const std::string& kernel) {
-  return "[mesh]\nfile = \"" + mesh.string() + "\"\n" + rag_and_time + "mode = \"two_way\"\n" + kernel + R"(
+std::string in_a_duct(const std::filesystem::path& mesh, const std::string& kernel, bool quick) {
+  return "[mesh]\nfile = \"" + mesh.string() + "\"\n" + rag_and_time(quick) + "mode = \"two_way\"\n" + kernel + R"(
 [flow]
 initial_velocity_m_s = [1, 0, 0]
 pressure_tolerance = 1e-4
@@ -62,8 +59,8 @@ kind = "symmetry"
 )";
 }
 
-std::string in_a_prescribed_stream() {
-  return std::string(rag_and_time) + "mode = \"one_way\"\n[flow]\nkind = \"prescribed\"\nvelocity_m_s = [1, 0, 0]\n";
+std::string in_a_prescribed_stream(bool quick) {
+  return rag_and_time(quick) + "mode = \"one_way\"\n[flow]\nkind = \"prescribed\"\nvelocity_m_s = [1, 0, 0]\n";
 }
 
 /// Means over the timed steps, s of the slowest rank.
@@ -125,19 +122,19 @@ ExitCode bench_coupling(const CouplingBenchOptions& options) {
   if (options.n_steps < 1) throw Error(ExitCode::usage, "--steps " + std::to_string(options.n_steps) + ": at least 1 is needed");
   if (options.peer && rank_of(world) == 0)
     log::warning("bench: no program of Debian couples bonded cloth and unresolved water; Snag alone is timed");
-  const auto mesh = bench_mesh(
-      options.out, "duct",
-      {"channel", "--set", "length_mm=200", "height_mm=260", "width_mm=340", "cells=\"tetrahedra\"", "size_mm=9", "wall_ratio=1"});
+  const auto mesh = bench_mesh(options.out, options.quick ? "small_duct" : "duct",
+                               {"channel", "--set", "length_mm=200", "height_mm=260", "width_mm=340", "cells=\"tetrahedra\"",
+                                options.quick ? "size_mm=15" : "size_mm=9", "wall_ratio=1"});
   Findings findings;
   const std::pair<const char*, const char*> kernels[] = {{"cell", "kernel = \"cell\""},
                                                          {"gaussian", "kernel = \"gaussian\"\nkernel_width_mm = 6"},
                                                          {"wendland", "kernel = \"wendland\"\nkernel_width_mm = 6"}};
   for (const auto& [name, settings] : kernels) {
     log::info("bench: kernel " + std::string(name));
-    findings.add_kernel(name, timed(in_a_duct(mesh, settings), options.n_steps));
+    findings.add_kernel(name, timed(in_a_duct(mesh, settings, options.quick), options.n_steps));
   }
   log::info("bench: rag in a prescribed stream");
-  const Timed alone = timed(in_a_prescribed_stream(), options.n_steps);
+  const Timed alone = timed(in_a_prescribed_stream(options.quick), options.n_steps);
   findings.add("rag_in_prescribed_flow", 1e-6 * alone.n_particles * alone.n_sub_steps / alone.step, "M/s",
                "million particle-steps a second with drag, on the clock, all ranks");
   on_all_ranks(world, [&] {

@@ -8,8 +8,9 @@ namespace snag {
 
 struct CouplingBenchOptions {
   std::filesystem::path out = "results/bench-coupling";
-  int n_steps = 8;    // timed, of each kernel
-  bool peer = false;  // there is none, which a warning says
+  int n_steps = 8;     // timed, of each kernel
+  bool peer = false;   // there is none, which a warning says
+  bool quick = false;  // a quarter of the particles and cells
 };
 
 /// Writes bench.json to the output folder and prints it as a table. Collective; throws Error.

@@ -1,5 +1,5 @@
 // timeout: 600
-// Pumps of one to seven vanes on coarse meshes, against figures that follow from the plan view alone.
+// Pumps of one, three and seven vanes on coarse meshes, against figures that follow from the plan view alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -132,7 +132,7 @@ TEST_P(VanedPump, VanesAreEqualAndEvenlySpaced) {
   for (const auto& [k, sides] : area) EXPECT_NEAR(sides / (b * vane.perimeter()), 1, 0.15) << "vane " << k;
 }
 
-INSTANTIATE_TEST_SUITE_P(Pump, VanedPump, testing::Values(1, 2, 3, 4, 5, 6, 7));
+INSTANTIATE_TEST_SUITE_P(Pump, VanedPump, testing::Values(1, 3, 7));
 
 // Numbers of vanes outside of 1 to 7, and vanes that overlap or nearly close their passages, are refused with value, rule and remedy.
 TEST(Vanes, AreRefusedWhereTheyDoNotFit) {
@@ -148,12 +148,12 @@ TEST(Vanes, AreRefusedWhereTheyDoNotFit) {
 
 // Another seed makes another mesh of the same pump and sizes, and no cell of it is worse than the quality asked for.
 TEST(Vanes, MeshFollowsSeedAndQuality) {
-  const auto made = snag_mesh("pump --out seed_2.msh --set vanes=2 mesh_seed=2 minimum_quality=0.2 " + coarse);
+  const auto made = snag_mesh("pump --out seed_2.msh --set vanes=3 mesh_seed=2 minimum_quality=0.2 " + coarse);
   ASSERT_EQ(made.code, 0) << made.output;
   EXPECT_GE(std::stod(made.output.substr(made.output.find("least ") + 6)), 0.2) << made.output;
   EXPECT_NE(made.output.find("below 0.2: 0"), std::string::npos) << made.output;
-  const MeshFile &one = pump_of(2).mesh, two = read_mesh(folder() / "seed_2.msh");
-  EXPECT_FALSE(bytes(folder() / "vanes_2.msh") == bytes(folder() / "seed_2.msh"));
+  const MeshFile &one = pump_of(3).mesh, two = read_mesh(folder() / "seed_2.msh");
+  EXPECT_FALSE(bytes(folder() / "vanes_3.msh") == bytes(folder() / "seed_2.msh"));
   EXPECT_NEAR(one.volume("rotor") / two.volume("rotor"), 1, 1e-3);
   EXPECT_NEAR(static_cast<double>(one.elements.size()) / static_cast<double>(two.elements.size()), 1, 0.05);
 }
