@@ -39,7 +39,8 @@ struct CouplingSummary {
 struct WaterSummary {
   double speed_scale = 0, max_speed_over_scale = 0;  // m/s; 1
   int unsolved_steps = 0;                            // most in a row
-  /// nu over the largest nu_t of the cells away from walls at the end, 1; absent: no turbulence model, or a Reynolds number without turbulence.
+  /// nu over the largest nu_t of the cells away from walls at the end, 1; absent: no turbulence model, or a Reynolds number without
+  /// turbulence.
   std::optional<double> molecular_over_eddy_viscosity;
 };
 
