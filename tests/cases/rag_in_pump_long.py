@@ -12,6 +12,9 @@ class LongRagInPump(rag_in_pump.RagInPump):
     settings = {"end_ms": 5, "height_m": 0.1, "speed_m_s": 5, "insert_ms": 2, "picture_ms": 2.5}
     ranks = {"gaussian": (2, 3, 5), "cell": (2, 3)}
 
+    def test_cell_kernel_on_any_number_of_ranks(self):
+        self.agree("cell")
+
     def test_the_whole_rag_on_any_number_of_ranks(self):
         """The rag, the pump and the kernel of the demo at full speed, from the start, the rag reaching into the eye."""
         case = harness.SOURCE_DIR / "cases" / "pump-demo" / "case.toml"
