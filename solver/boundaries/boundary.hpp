@@ -1,5 +1,5 @@
 #pragma once
-// Boundary conditions of the flow: one kind, one file in solver/boundaries/, chosen for each patch by the [[boundary]] tables of the case.
+// Boundary conditions of the flow: one kind, one file in solver/boundaries/kinds/, chosen for each patch by the [[boundary]] tables of the case.
 #include <memory>
 #include <string>
 #include <vector>
