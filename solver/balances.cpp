@@ -171,7 +171,7 @@ void Balances::add_boundary(const Step& step) {
       const double F = flow.density * step.momentum.convecting_flux()[f];  // kg/s
       const double kinetic = is_open && F != 0 ? 0.5 * norm_squared(carried) / F : 0;
       const Vec3 n = S / norm(S);
-      const bool given = step.boundary.fixes(patch) == PrescribedQuantity::velocity;
+      const bool given = step.boundary.velocity_side(patch) == Side::value;
       // The velocity at the face: as given, as it is carried, or that of the cell along the plane.
       const Vec3 u_b = given ? step.boundary.values().velocity[b] : is_open ? (F != 0 ? carried / F : u) : u - dot(u, n) * n;
       const double done = dot(u_b, rubbed + omitted), dissipated = dot(u - u_b, rubbed + omitted);

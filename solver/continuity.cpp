@@ -18,15 +18,6 @@ namespace {
 // Of the fluxes through a cell's faces: no solve can be asked for less than their rounding.
 constexpr double rounding = 1e-15;
 
-std::vector<Side> pressure_sides(const Mesh& mesh, const BoundarySet& boundary) {
-  std::vector<Side> sides;
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    const PrescribedQuantity fixes = boundary.fixes(static_cast<int>(p));
-    sides.push_back(fixes == PrescribedQuantity::pressure ? Side::value : Side::slope);
-  }
-  return sides;
-}
-
 }  // namespace
 
 Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings)
@@ -34,7 +25,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       wall_slope(mesh.n_faces - mesh.n_interior),
       mesh_(mesh),
       settings_(settings),
-      squares_(mesh, pressure_sides(mesh, boundary)),
+      squares_(mesh, boundary.pressure_sides()),
       poisson_(mesh, settings.multigrid, !boundary.fixes_pressure()),
       coefficient_(mesh.n_faces),
       correction_(mesh.n_all_cells()),
@@ -65,7 +56,7 @@ void Continuity::pressure_gradient(const std::vector<double>& pressure, const Bo
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int b = f - mesh_.n_interior;
-      given_[b] = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure ? fixed[b] : wall_slope[b];
+      given_[b] = boundary.pressure_side(static_cast<int>(p)) == Side::value ? fixed[b] : wall_slope[b];
     }
   facet_pressure_.resize(static_cast<std::size_t>(mesh_.n_interior - mesh_.first_facet));
   squares_.gradient(mesh_.weight, pressure, given_, slope_);
@@ -113,7 +104,7 @@ Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& va
 /// What the boundary gives to p': the change of the fixed pressure, or of the normal slope.
 void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const bool fixed = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure;
+    const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
       if (fixed) {
@@ -149,12 +140,12 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
 
 void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const PrescribedQuantity fixes = boundary.fixes(static_cast<int>(p));
+    const FaceFlux source = boundary.flux(static_cast<int>(p));
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
-      if (fixes == PrescribedQuantity::velocity) {
+      if (source == FaceFlux::given) {
         flow.flux[f] = boundary.values().flux[b];
-      } else if (fixes == PrescribedQuantity::normal_velocity) {
+      } else if (source == FaceFlux::tight) {
         flow.flux[f] = flow.mesh_flux[f];
       } else {
         const Vec3 &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
@@ -172,7 +163,7 @@ void Continuity::set_coefficients(const BoundarySet& boundary) {
   coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
   for (int f = 0; f < mesh_.n_interior; ++f) coefficient_[f] = conductance(mesh_.face_vector[f], mesh_.delta[f]);
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const bool fixed = boundary.fixes(static_cast<int>(p)) == PrescribedQuantity::pressure;
+    const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
       coefficient_[f] = fixed ? conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
   }

@@ -117,7 +117,7 @@ std::vector<double> DivergenceWatch::courant_of(double dt) const {
 void DivergenceWatch::see_conditions(const Flow& flow, const BoundarySet& boundary) {
   std::array<double, 3> largest{0, -infinite, -infinite};  // speed, p, -p
   for (int p = 0; p < static_cast<int>(mesh_.patches.size()); ++p) {
-    const bool fixes_pressure = boundary.fixes(p) == PrescribedQuantity::pressure;
+    const bool fixes_pressure = boundary.pressure_side(p) == Side::value;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int b = f - mesh_.n_interior;
       const double given = boundary.values().pressure[b];

@@ -24,17 +24,6 @@ constexpr double exploded = 1e6;          // momentum residual over its right-ha
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-std::vector<Side> velocity_sides(const Mesh& mesh, const BoundarySet& boundary) {
-  std::vector<Side> sides;
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    const PrescribedQuantity fixes = boundary.fixes(static_cast<int>(p));
-    sides.push_back(fixes == PrescribedQuantity::velocity   ? Side::value
-                    : fixes == PrescribedQuantity::pressure ? Side::slope
-                                                            : Side::mirror);
-  }
-  return sides;
-}
-
 MomentumSettings momentum_settings(const FlowSettings& settings) {
   return {.convection = settings.convection, .limiter = settings.limiter, .tolerance = settings.momentum_tolerance};
 }
@@ -59,7 +48,7 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
     : flow(mesh),
       settings_(settings),
       boundary_(mesh, std::move(boundary)),
-      squares_(mesh, velocity_sides(mesh, boundary_)),
+      squares_(mesh, boundary_.velocity_sides()),
       momentum_(mesh, momentum_settings(settings)),
       continuity_(mesh, boundary_, continuity_settings(settings)),
       turbulence_(turbulence ? std::move(turbulence) : turbulence_models().make("laminar", "[turbulence]")),

@@ -179,7 +179,7 @@ void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const st
 void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
   if (!flow.rotating_zone || !flow.rotating_zone->slides()) return;
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    if (boundary.fixes(static_cast<int>(p)) != PrescribedQuantity::velocity) continue;
+    if (boundary.flux(static_cast<int>(p)) != FaceFlux::given) continue;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
       if (mesh_.cell_zone[mesh_.owner[f]] == flow.rotating_zone->zone())
         flux_[f] = boundary.values().flux[f - mesh_.n_interior] - flow.mesh_flux[f];
@@ -215,8 +215,8 @@ struct Momentum::BoundaryFace {
     const Vec3 &S = mesh.face_vector[f], &d = mesh.delta[f];
     const Mat3& G = equation.gradient_[P];
     const double F = flow.density * equation.flux_[f], mu = flow.face_viscosity[f];
-    switch (boundary.fixes(patch)) {
-      case PrescribedQuantity::velocity: {
+    switch (boundary.velocity_side(patch)) {
+      case Side::value: {
         const Vec3& u = boundary.values().velocity[b];
         const double c = conductance(S, d);
         friction_slope = {mu * c, mu * c, mu * c};
@@ -230,7 +230,7 @@ struct Momentum::BoundaryFace {
         if (flow.variable_viscosity) friction_source += mu * transposed_product(G, S);
         break;
       }
-      case PrescribedQuantity::pressure: {
+      case Side::slope: {
         const double area = norm(S);
         const Vec3 n = S / area;
         if (flow.variable_viscosity) friction_source = mu * transposed_product(G, S);
@@ -240,9 +240,9 @@ struct Momentum::BoundaryFace {
           convection_source = F * (equation.flux_[f] + flow.mesh_flux[f]) / area * n;
         break;
       }
-      case PrescribedQuantity::normal_velocity: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal
-                                                   // part implicit;
-                                                   // mu grad u^T adds the same again
+      case Side::mirror: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal
+                            // part implicit;
+                            // mu grad u^T adds the same again
         const double area = norm(S);
         const Vec3 n = S / area;
         const double c = (flow.variable_viscosity ? 2 : 1) * mu * area / dot(d, n);
@@ -251,6 +251,8 @@ struct Momentum::BoundaryFace {
         friction_source = scaled(friction_slope, u) - c * dot(u, n) * n;
         break;
       }
+      case Side::none:
+        break;
     }
   }
 };

@@ -10,7 +10,7 @@ std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary) {
   std::vector<Opening> found;
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     const Patch& patch = mesh.patches[p];
-    if (boundary.fixes(static_cast<int>(p)) != PrescribedQuantity::pressure && !boundary.is_outlet(static_cast<int>(p))) continue;
+    if (boundary.pressure_side(static_cast<int>(p)) != Side::value && !boundary.is_outlet(static_cast<int>(p))) continue;
     std::vector<Vec3> vectors, moments;
     std::vector<double> areas;
     for (int f = patch.first; f < patch.end(); ++f) {

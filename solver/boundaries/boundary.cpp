@@ -37,6 +37,30 @@ std::vector<std::string> patch_names(const Mesh& mesh) {
 
 }  // namespace
 
+Side Boundary::velocity_side() const {
+  switch (fixes()) {
+    case PrescribedQuantity::velocity:
+      return Side::value;
+    case PrescribedQuantity::pressure:
+      return Side::slope;
+    case PrescribedQuantity::normal_velocity:
+      break;
+  }
+  return Side::mirror;
+}
+
+FaceFlux Boundary::flux() const {
+  switch (fixes()) {
+    case PrescribedQuantity::velocity:
+      return FaceFlux::given;
+    case PrescribedQuantity::pressure:
+      return FaceFlux::from_cell;
+    case PrescribedQuantity::normal_velocity:
+      break;
+  }
+  return FaceFlux::tight;
+}
+
 Registry<Boundary>& boundaries() {
   static Registry<Boundary> registry("boundary kind");
   return registry;
@@ -110,8 +134,9 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
     conditions_[p].boundary->prepare(mesh, mesh.patches[p], conditions_);
     conditions_[p].turbulence.prepare(mesh, mesh.patches[p], conditions_[p].where);
-    fixes_pressure_ =
-        fixes_pressure_ || (conditions_[p].boundary->fixes() == PrescribedQuantity::pressure && mesh.patches[p].count_global > 0);
+    velocity_sides_.push_back(conditions_[p].boundary->velocity_side());
+    pressure_sides_.push_back(conditions_[p].boundary->pressure_side());
+    fixes_pressure_ = fixes_pressure_ || (pressure_sides_.back() == Side::value && mesh.patches[p].count_global > 0);
   }
 }
 
@@ -158,7 +183,7 @@ void BoundarySet::restore_state(const std::vector<double>& state) {
 BoundarySet::NetFlux BoundarySet::net_flux() const {
   std::vector<double> out, carried;
   for (std::size_t p = 0; p < conditions_.size(); ++p) {
-    if (fixes(static_cast<int>(p)) != PrescribedQuantity::velocity) continue;
+    if (flux(static_cast<int>(p)) != FaceFlux::given) continue;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const auto b = static_cast<std::size_t>(f - mesh_.n_interior);
       out.push_back(values_.flux[b]);
@@ -174,7 +199,7 @@ void BoundarySet::carry_off_the_rest() {
   const auto for_each_face = [&](const auto& visit) {
     for (std::size_t p = 0; p < conditions_.size(); ++p) {
       const int patch = static_cast<int>(p);
-      if (!is_outlet(patch) || fixes(patch) != PrescribedQuantity::velocity) continue;
+      if (!is_outlet(patch) || flux(patch) != FaceFlux::given) continue;
       for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) visit(f, f - mesh_.n_interior);
     }
   };

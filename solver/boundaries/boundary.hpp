@@ -1,5 +1,6 @@
 #pragma once
-// Boundary conditions of the flow: one kind, one file in solver/boundaries/kinds/, chosen for each patch by the [[boundary]] tables of the case.
+// Boundary conditions of the flow: one kind, one file in solver/boundaries/kinds/, chosen for each patch by the [[boundary]] tables of the
+// case.
 #include <memory>
 #include <string>
 #include <vector>
@@ -7,14 +8,22 @@
 #include "base/registry.hpp"
 #include "solver/boundaries/inlet_turbulence.hpp"
 #include "solver/fields/flow.hpp"
+#include "solver/operators/gradient.hpp"
 
 namespace snag {
 
-/// What a condition prescribes on its patch; all else follows from it.
+/// What a condition prescribes on its patch. The answers that the operators need follow from it, unless the condition gives its own.
 ///   velocity:         u and the flux are given, p is extrapolated from inside (walls, inlets)
 ///   pressure:         p is given, du/dn = 0; fluid that enters comes along the normal (outlets)
 ///   normal_velocity:  u.n = 0, no friction, dp/dn = 0 (planes of symmetry)
 enum class PrescribedQuantity { velocity, pressure, normal_velocity };
+
+/// Where the flux through the faces of a patch comes from.
+enum class FaceFlux {
+  given,     // BoundaryValues::flux
+  tight,     // nothing passes: the volume that the face sweeps
+  from_cell  // interpolated from the cell with the pressure at the face, as fluid leaves or enters
+};
 
 /// Values at the boundary faces, face f at f - n_interior.
 struct BoundaryValues {
@@ -34,18 +43,25 @@ class Boundary {
   /// Its keys in a [[boundary]] table; the records point into this object.
   virtual Section section() = 0;
   virtual PrescribedQuantity fixes() const = 0;
+  /// How the velocity of a cell ends at a face, for its gradients, friction and convection: value (friction by the difference to
+  /// BoundaryValues::velocity, which fluid carries through the face), slope (no friction; fluid that enters comes along the normal) or
+  /// mirror (friction of the normal part alone, nothing carried).
+  virtual Side velocity_side() const;
+  /// How the pressure ends: value (BoundaryValues::pressure) or slope.
+  virtual Side pressure_side() const { return fixes() == PrescribedQuantity::pressure ? Side::value : Side::slope; }
+  virtual FaceFlux flux() const;
   /// True for solid walls, where wall functions act.
   virtual bool is_wall() const { return false; }
   /// Equivalent sand roughness of a wall, m; 0: smooth.
   virtual double roughness() const { return 0; }
   /// True where water passes: not at walls and planes of symmetry.
-  bool is_open() const { return !is_wall() && fixes() != PrescribedQuantity::normal_velocity; }
+  bool is_open() const { return !is_wall() && flux() != FaceFlux::tight; }
   /// True where the pressure is as given, false where its level follows from the flow.
-  virtual bool pressure_is_prescribed() const { return fixes() == PrescribedQuantity::pressure; }
+  virtual bool pressure_is_prescribed() const { return pressure_side() == Side::value; }
   /// True where what the water carries has left for good once it is beyond the patch.
-  virtual bool is_outlet() const { return fixes() == PrescribedQuantity::pressure; }
+  virtual bool is_outlet() const { return pressure_side() == Side::value; }
   /// True where the case gives the velocity: not where a condition draws it from the flow that leaves.
-  bool velocity_is_given() const { return fixes() == PrescribedQuantity::velocity && !is_outlet(); }
+  bool velocity_is_given() const { return velocity_side() == Side::value && !is_outlet(); }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
   virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
   /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
@@ -87,7 +103,11 @@ class BoundarySet {
   /// Set all fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
   BoundaryValues exchange_for_rest_state();
   void restore(const BoundaryValues& values) { values_ = values; }
-  PrescribedQuantity fixes(int patch) const { return conditions_[patch].boundary->fixes(); }
+  Side velocity_side(int patch) const { return velocity_sides_[patch]; }
+  Side pressure_side(int patch) const { return pressure_sides_[patch]; }
+  FaceFlux flux(int patch) const { return conditions_[patch].boundary->flux(); }
+  const std::vector<Side>& velocity_sides() const { return velocity_sides_; }
+  const std::vector<Side>& pressure_sides() const { return pressure_sides_; }
   bool is_wall(int patch) const { return conditions_[patch].boundary->is_wall(); }
   double roughness(int patch) const { return conditions_[patch].boundary->roughness(); }
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
@@ -105,7 +125,7 @@ class BoundarySet {
   void restore_state(const std::vector<double>& state);
 
  private:
-  /// Flux out of the domain through the patches that prescribe the velocity, m3/s.
+  /// Flux out of the domain through the patches that give it, m3/s.
   struct NetFlux {
     double net = 0;      // out less in
     double carried = 0;  // sum of what passes the faces and of what walls carry along themselves: the scale of the round-off
@@ -114,7 +134,8 @@ class BoundarySet {
   void carry_off_the_rest();
   void check_net_flux() const;
   const Mesh& mesh_;
-  std::vector<PatchBoundary> conditions_;  // in the order of the patches
+  std::vector<PatchBoundary> conditions_;              // in the order of the patches
+  std::vector<Side> velocity_sides_, pressure_sides_;  // of each patch
   BoundaryValues values_;
   bool fixes_pressure_ = false;
 };

@@ -30,7 +30,47 @@ struct RisingPressure final : Boundary {
   }
 };
 
+/// Suction through a porous plane: a given speed through the faces, along which the water slips.
+struct Suction final : Boundary {
+  double speed = 0.3;  // m/s, out
+  Section section() override { return {}; }
+  PrescribedQuantity fixes() const override { return PrescribedQuantity::normal_velocity; }
+  Side velocity_side() const override { return Side::slope; }
+  FaceFlux flux() const override { return FaceFlux::given; }
+  void update(const Flow& flow, const Patch& patch, double, BoundaryValues& values) const override {
+    for (int f = patch.first; f < patch.end(); ++f) values.flux[f - flow.mesh.n_interior] = speed * norm(flow.mesh.face_vector[f]);
+  }
+};
+
 }  // namespace
+
+// Requirement: a condition that answers the operators with a combination of its own (flux given, velocity by slope) is one struct: uniform
+// oblique flow that it sucks off stays uniform.
+TEST(Balance, BoundaryQuestions) {
+  const Mesh mesh = tetrahedra();
+  const Vec3 uniform{1, 0, 0.3};
+  auto boundary = conditions(R"(
+[[boundary]]
+patches = ["x0", "z0", "z1"]
+kind = "velocity_inlet"
+velocity_m_s = [1, 0, 0.3]
+[[boundary]]
+patches = ["y0", "y1"]
+kind = "symmetry"
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+)");
+  for (PatchBoundary& condition : boundary)
+    if (condition.patch == "z1") condition.boundary = std::make_unique<Suction>();
+  FlowSolver solver(mesh, channel_settings(0.01), std::move(boundary));
+  for (int c = 0; c < mesh.n_cells; ++c) solver.flow.velocity[c] = uniform;
+  for (int i = 0; i < 3; ++i) solver.advance(0.02);
+  for (int c = 0; c < mesh.n_cells; ++c) EXPECT_LT(norm(solver.flow.velocity[c] - uniform), 1e-9);
+  for (const Patch& patch : mesh.patches)
+    for (int f = patch.first; f < patch.end(); ++f)
+      EXPECT_NEAR(solver.flow.flux[f], dot(uniform, mesh.face_vector[f]), 1e-10) << patch.name;
+}
 
 // A pressure that rises at the outlet lifts the pressure everywhere and changes nothing else.
 TEST(Balance, rising_outlet_pressure) {
