@@ -66,8 +66,7 @@ void FieldOutput::write(const Flow& flow) {
          {std::pair{"turbulent_kinetic_energy [m2/s2]", &flow.turbulent_kinetic_energy},
           std::pair{"dissipation_rate [m2/s3]", &flow.dissipation_rate}, std::pair{"eddy_viscosity [m2/s]", &flow.eddy_viscosity}})
       piece_.cell_arrays.push_back(owned(name, *values));
-  if (!flow.specific_dissipation_rate.empty())
-    piece_.cell_arrays.push_back(owned("specific_dissipation_rate [1/s]", flow.specific_dissipation_rate));
+  for (const ModelField& field : flow.model_fields) piece_.cell_arrays.push_back(owned(field.name + " [" + field.unit + "]", field.values));
   if (flow.rotating_zone) {
     piece_.points = mesh_.node;  // they may have turned
     VtkArray turning{"turning [1]", 1, {}, true};

@@ -133,7 +133,8 @@ void scale_flow(Flow& flow, const Flow& as_started, double factor) {
   scale(flow.boundary_pressure, as_started.boundary_pressure, square);
   scale(flow.turbulent_kinetic_energy, as_started.turbulent_kinetic_energy, square);
   scale(flow.dissipation_rate, as_started.dissipation_rate, square * factor);
-  scale(flow.specific_dissipation_rate, as_started.specific_dissipation_rate, factor);
+  for (std::size_t i = 0; i < flow.model_fields.size(); ++i)
+    scale(flow.model_fields[i].values, as_started.model_fields[i].values, std::pow(factor, flow.model_fields[i].velocity_power));
 }
 
 StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const std::filesystem::path& folder) {

@@ -5,6 +5,7 @@
 //
 // f (`reaction`, N/m3) is what the rags give, set by the coupling before each step and zero without rags.
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -12,6 +13,13 @@
 namespace snag {
 
 class RotatingZone;
+
+/// A cell field that one turbulence model has and others lack.
+struct ModelField {
+  std::string name, unit;      // in field files
+  int velocity_power = 0;      // it grows with this power of the velocity, where only convection counts
+  std::vector<double> values;  // [n_all_cells]
+};
 
 struct Flow {
   explicit Flow(const Mesh& mesh);
@@ -42,7 +50,7 @@ struct Flow {
 
   // of a turbulence model, empty without one
   std::vector<double> turbulent_kinetic_energy, dissipation_rate, eddy_viscosity;  // k, m2/s2; epsilon, m2/s3; nu_t, m2/s; [n_all_cells]
-  std::vector<double> specific_dissipation_rate;  // omega = epsilon/(C_mu k), 1/s, of a model that transports it; likewise
+  std::vector<ModelField> model_fields;
   std::vector<double> y_plus;               // [n_faces - n_interior], u y/nu of the cell at a wall face, u the friction velocity of the
                                             // model or C_mu^(1/4) k^(1/2); 0 elsewhere
   std::vector<std::uint8_t> wall_function;  // likewise: 1 where face_viscosity (u_P - u_w)/y is the shear of a wall function

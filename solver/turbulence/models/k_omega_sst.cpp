@@ -54,7 +54,10 @@ class KOmegaSst final : public TwoEquationModel {
   std::vector<StoredField> stored() override;
 
  private:
-  std::vector<double>& field_of_phi(Flow& flow) const override { return flow.specific_dissipation_rate; }
+  std::vector<double>& field_of_phi(Flow& flow) const override {
+    if (flow.model_fields.empty()) flow.model_fields.push_back({"specific_dissipation_rate", "1/s", 1, {}});
+    return flow.model_fields.front().values;
+  }
   double phi_of(const TurbulenceValues& values) const override { return values.epsilon / (C_mu_ * values.k); }
   double turnover_rate(double, double omega) const override { return C_mu_ * omega; }
   double entering_viscosity(double k, double omega) const override { return k / omega; }

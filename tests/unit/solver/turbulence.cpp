@@ -98,12 +98,11 @@ TEST(AutomaticWalls, shear_and_omega) {
   }
 }
 
-// Every model registers itself: none of the folder is dropped by the linker; and the manual shows the choice and each model.
+// Requirement: every source file in solver/turbulence/models/ registers a model (the linker drops none); and the manual shows the choice
+// and each model.
 TEST(Turbulence, registry) {
   EXPECT_EQ(turbulence_models().names().size(), n_sources("solver/turbulence/models"));
-  const std::vector<std::string> known{"k_epsilon", "k_omega_sst", "laminar", "realizable_k_epsilon"};
-  EXPECT_EQ(turbulence_models().names(), known);
-  EXPECT_EQ(turbulence_sections().size(), known.size() + 1);
+  EXPECT_EQ(turbulence_sections().size(), turbulence_models().names().size() + 1);
 }
 
 // A misspelt model is an error that names the nearest.
