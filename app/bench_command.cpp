@@ -9,6 +9,8 @@
 
 namespace snag {
 
+namespace {
+
 Action add_bench(CLI::App& app) {
   struct Options : FlowBenchOptions {
     std::string target;
@@ -46,5 +48,8 @@ Action add_bench(CLI::App& app) {
     return bench_flow(*options);
   };
 }
+const Command bench(50, add_bench);
+
+}  // namespace
 
 }  // namespace snag

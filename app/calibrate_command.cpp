@@ -111,8 +111,6 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
   return ExitCode::ok;
 }
 
-}  // namespace
-
 Action add_calibrate(CLI::App& app) {
   const auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = app.add_subcommand(
@@ -129,5 +127,8 @@ Action add_calibrate(CLI::App& app) {
   command->add_option("--out", options->out, "Output folder (default results/calibrate-NAME of the tests' file)");
   return [options] { return run_calibrate(*options); };
 }
+const Command calibrate(80, add_calibrate);
+
+}  // namespace
 
 }  // namespace snag

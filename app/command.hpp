@@ -1,5 +1,6 @@
 #pragma once
-// The subcommands: each file adds its own to the command line and returns what is to be done when the user asks for it.
+// The subcommands: one file each, which registers itself, adds its options to the command line and returns what is to be done when the
+// user asks for it.
 #include <functional>
 
 #include "base/error.hpp"
@@ -12,16 +13,9 @@ namespace snag {
 
 using Action = std::function<ExitCode()>;
 
-Action add_run(CLI::App& app);
-Action add_check(CLI::App& app);
-Action add_mesh(CLI::App& app);
-Action add_study(CLI::App& app);
-Action add_calibrate(CLI::App& app);
-Action add_bench(CLI::App& app);
-Action add_observe(CLI::App& app);
-Action add_report(CLI::App& app);
-Action add_diagnose(CLI::App& app);
-Action add_manual(CLI::App& app);
-Action add_completion(CLI::App& app);
+/// `const Command registered(10, add_run);` registers a subcommand. `place`: where help lists it; no two are the same.
+struct Command {
+  Command(int place, Action (*add)(CLI::App& app));
+};
 
 }  // namespace snag

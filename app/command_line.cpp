@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,12 @@ constexpr const char* about =
     "(checkpoint "
     "written)";
 
+/// The functions that add them, by their places in the help.
+std::map<int, Action (*)(CLI::App&)>& commands() {
+  static std::map<int, Action (*)(CLI::App&)> all;
+  return all;
+}
+
 /// A misspelt subcommand gets the nearest known one.
 void explain_unknown_command(int argc, char** argv, const std::vector<std::string>& known) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -41,13 +49,13 @@ int parse_and_act(int argc, char** argv, const Session& session) {
   app.set_version_flag("--version", std::string("snag ") + version_number + " (" + version_git + ")\n" + version_citation);
   bool build_info = false;
   app.add_flag("--build-info", build_info, "Compiler, flags and libraries of this program");
-  const std::vector<std::pair<std::string, Action>> actions = {
-      {"run", add_run(app)},       {"check", add_check(app)},          {"mesh", add_mesh(app)},
-      {"study", add_study(app)},   {"bench", add_bench(app)},          {"observe", add_observe(app)},
-      {"report", add_report(app)}, {"calibrate", add_calibrate(app)},  {"diagnose", add_diagnose(app)},
-      {"manual", add_manual(app)}, {"completion", add_completion(app)}};
+  std::vector<std::pair<std::string, Action>> actions;
   std::vector<std::string> known;
-  for (const auto& [name, action] : actions) known.push_back(name);
+  for (const auto& [place, add] : commands()) {
+    Action action = add(app);
+    known.push_back(app.get_subcommands([](const CLI::App*) { return true; }).back()->get_name());
+    actions.emplace_back(known.back(), std::move(action));
+  }
   explain_unknown_command(argc, argv, known);
   try {
     app.parse(argc, argv);
@@ -69,6 +77,10 @@ int parse_and_act(int argc, char** argv, const Session& session) {
 }
 
 }  // namespace
+
+Command::Command(int place, Action (*add)(CLI::App& app)) {
+  if (!commands().emplace(place, add).second) throw std::logic_error("two commands have the place " + std::to_string(place));
+}
 
 int run_command_line(int argc, char** argv, const Session& session) {
   ExitCode code = ExitCode::io;

@@ -44,8 +44,6 @@ std::string completion_script(const CLI::App& app) {
          "complete -o default -F _snag snag\n";
 }
 
-}  // namespace
-
 Action add_completion(CLI::App& app) {
   const auto out = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("completion", "Print the completion of commands and options for bash: source <(snag completion)");
@@ -60,5 +58,8 @@ Action add_completion(CLI::App& app) {
     return ExitCode::ok;
   };
 }
+const Command completion(110, add_completion);
+
+}  // namespace
 
 }  // namespace snag

@@ -39,8 +39,6 @@ void bench_and_publish(const DiagnoseBenchOptions& options) {
       [&] { return card_text(scores.card); });
 }
 
-}  // namespace
-
 Action add_diagnose(CLI::App& app) {
   struct Options {
     DiagnoseOptions one;
@@ -72,5 +70,8 @@ Action add_diagnose(CLI::App& app) {
     return ExitCode::ok;
   };
 }
+const Command diagnose(90, add_diagnose);
+
+}  // namespace
 
 }  // namespace snag

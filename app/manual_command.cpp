@@ -10,6 +10,8 @@
 
 namespace snag {
 
+namespace {
+
 Action add_manual(CLI::App& app) {
   const auto out = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand(
@@ -26,5 +28,8 @@ Action add_manual(CLI::App& app) {
     return ExitCode::ok;
   };
 }
+const Command manual(100, add_manual);
+
+}  // namespace
 
 }  // namespace snag

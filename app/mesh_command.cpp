@@ -23,8 +23,6 @@ ExitCode judge(const std::string& file, double scale) {
   return found.failures.empty() ? ExitCode::ok : ExitCode::mesh;
 }
 
-}  // namespace
-
 Action add_mesh(CLI::App& app) {
   struct Options {
     std::string judged;
@@ -46,5 +44,8 @@ Action add_mesh(CLI::App& app) {
     return ExitCode::usage;
   };
 }
+const Command mesh(30, add_mesh);
+
+}  // namespace
 
 }  // namespace snag

@@ -52,8 +52,6 @@ std::vector<ObserveGroup> groups_of(const std::vector<std::string>& words) {
   return groups;
 }
 
-}  // namespace
-
 Action add_observe(CLI::App& app) {
   struct Options {
     ObserveOptions observe;
@@ -80,5 +78,8 @@ Action add_observe(CLI::App& app) {
     return ExitCode::ok;
   };
 }
+const Command observe(60, add_observe);
+
+}  // namespace
 
 }  // namespace snag

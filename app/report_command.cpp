@@ -23,8 +23,6 @@ void log_film(const Film& film, const std::string& folder) {
   if (!film.problem.empty()) log::warning("film: pictures are missing: " + film.problem);
 }
 
-}  // namespace
-
 Action add_report(CLI::App& app) {
   const auto folder = std::make_shared<std::string>();
   const auto with_film = std::make_shared<bool>(false);
@@ -42,5 +40,8 @@ Action add_report(CLI::App& app) {
     return ExitCode::ok;
   };
 }
+const Command report(70, add_report);
+
+}  // namespace
 
 }  // namespace snag

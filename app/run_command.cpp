@@ -16,8 +16,6 @@ void add_case_options(CLI::App& command, RunOptions& options) {
       ->allow_extra_args(false);
 }
 
-}  // namespace
-
 Action add_run(CLI::App& app) {
   struct Options : RunOptions {
     bool dry_run = false;
@@ -32,6 +30,7 @@ Action add_run(CLI::App& app) {
   options->write_report = write_report;
   return [options] { return options->dry_run ? check_case(*options) : run_case(*options); };
 }
+const Command run(10, add_run);
 
 Action add_check(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
@@ -40,5 +39,8 @@ Action add_check(CLI::App& app) {
   add_case_options(*command, *options);
   return [options] { return check_case(*options); };
 }
+const Command check(20, add_check);
+
+}  // namespace
 
 }  // namespace snag

@@ -9,6 +9,8 @@
 
 namespace snag {
 
+namespace {
+
 Action add_study(CLI::App& app) {
   const auto options = std::make_shared<StudyOptions>();
   CLI::App* command = app.add_subcommand("study", "Run a case with several values of its keys; writes a table and plots of the results");
@@ -19,5 +21,8 @@ Action add_study(CLI::App& app) {
   options->write_results = write_study_results;
   return [options] { return run_study(*options); };
 }
+const Command study(40, add_study);
+
+}  // namespace
 
 }  // namespace snag
