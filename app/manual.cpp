@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "base/case_tables.hpp"
 #include "base/section_text.hpp"
 #include "diagnosis/data/experiment.hpp"
 #include "observe/camera.hpp"
 #include "simulation/setup/mesh_generator.hpp"
-#include "simulation/setup/sections.hpp"
 #include "simulation/study.hpp"
 #include "textile/textile_tests.hpp"
 
@@ -47,8 +47,8 @@ std::string case_file_manual() {
     text += section_text(section);
     add_former_names(section, former_names);
   };
-  AllSections all;
-  for (const Section& section : all.list()) add(section);
+  const CaseTables all;
+  for (const Section& section : all.sections()) add(section);
   text +=
       "# The study file\n\n"
       "A file of its own for `snag study`: a case, what varies, what is kept of each run.\n\n";

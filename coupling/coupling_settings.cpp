@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "coupling/kernel.hpp"
 #include "parallel/sum.hpp"
@@ -132,6 +133,7 @@ std::vector<Section> coupling_sections() {
   }
   return sections;
 }
+const bool coupling_tables = add_case_table(230, coupling_sections);
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 
 namespace snag {
@@ -36,6 +37,7 @@ Section PrescribedFlow::section() {
             "Gradient of k; k is zero where it would be negative."},
            {"dissipation_rate", &dissipation_rate, "m2/s3", 0, 1e6, Basis::assumed, "Dissipation rate epsilon of this turbulence."}}};
 }
+const bool prescribed_flow_table = add_case_table<PrescribedFlow>(120);
 
 double PrescribedFlow::viscosity() const {
   if (dynamic_viscosity && kinematic_viscosity)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/quotation.hpp"
 #include "base/words.hpp"
@@ -171,6 +172,7 @@ Section HoldSettings::section() {
         "The hold ends with the first time step that begins at this time or later; not given: it lasts to the end."}},
       true};
 }
+const bool hold_table = add_case_table<HoldSettings>(180);
 
 Holds::Holds(const Table& root, const RagSystem& rags, const Vec3& gravity) : rags_(rags), gravity_(gravity) {
   std::vector<std::string> all_where;

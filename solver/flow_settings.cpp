@@ -1,5 +1,6 @@
 #include "solver/flow_settings.hpp"
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "solver/convection/convection.hpp"
@@ -40,6 +41,7 @@ Section FlowSettings::section() {
   };
   return flow;
 }
+const bool flow_table = add_case_table<FlowSettings>(50);
 
 double FlowSettings::viscosity() const {
   if (dynamic_viscosity && kinematic_viscosity)

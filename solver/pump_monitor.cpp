@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "solver/monitors.hpp"
@@ -41,6 +42,7 @@ Section PumpSettings::section() {
            {"gravity", &gravity, "m/s2", 1e-6, 1e6, Basis::literature,
             "Gravity for the conversion of pressure to head; no force follows from it."}}};
 }
+const bool pump_table = add_case_table<PumpSettings>(100);
 
 PumpMonitor::PumpMonitor(const Flow& flow, const PumpSettings& settings)
     : inlet_(patch_of(flow.mesh, "inlet", settings.inlet)),

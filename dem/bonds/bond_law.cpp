@@ -1,5 +1,7 @@
 #include "dem/bonds/bond_law.hpp"
 
+#include "base/case_tables.hpp"
+
 namespace snag {
 
 Registry<BondLaw>& bond_laws() {
@@ -21,6 +23,7 @@ std::vector<Section> bond_law_sections() {
   }
   return sections;
 }
+const bool bond_law_tables = add_case_table(170, bond_law_sections);
 
 std::unique_ptr<PieceBonds> bonds_of(const Rag& rag) {
   return rag.bond_law ? rag.bond_law->bonds(rag) : bond_laws().make(default_bond_law, rag.name)->bonds(rag);

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "base/case_tables.hpp"
+
 namespace snag {
 
 Registry<ContactLaw>& contact_laws() {
@@ -33,5 +35,6 @@ std::vector<Section> contact_law_sections() {
   }
   return sections;
 }
+const bool contact_law_tables = add_case_table(220, contact_law_sections);
 
 }  // namespace snag

@@ -1,12 +1,14 @@
 #include "dem/contacts/contact_settings.hpp"
 
+#include "base/case_tables.hpp"
+
 namespace snag {
 
-std::vector<Parameter> ContactSettings::parameters() {
+Section ContactSettings::section() {
   const auto number = [](const char* key, double* target, double minimum, double maximum, Basis basis, const char* meaning) {
     return Parameter{.key = key, .target = target, .minimum = minimum, .maximum = maximum, .basis = basis, .meaning = meaning};
   };
-  return {
+  std::vector<Parameter> parameters{
       setting("law", &law_name, "Law of contact; the keys of the law are in a table of its name.", contact_laws().names()),
       setting("self_contact", &self_contact, "Contacts between the particles of one piece; false: its folds pass through each other."),
       setting("mutual_contact", &mutual_contact,
@@ -36,10 +38,12 @@ std::vector<Parameter> ContactSettings::parameters() {
                 .basis = Basis::assumed,
                 .meaning = "Fastest impact that the sub-step must resolve: it sets the Hertz impact time."},
   };
+  return {"contact", "Contacts of particles that are not bonded to each other, and with walls.", std::move(parameters)};
 }
+const bool contact_table = add_case_table<ContactSettings>(200);
 
 void ContactSettings::read(const Table& contact) {
-  contact.read(parameters());
+  contact.read(section().parameters);
   const std::shared_ptr<ContactLaw> chosen = contact_laws().make(law_name, contact.where() + " law");
   contact.table(law_name).read(chosen->parameters());
   law = chosen;

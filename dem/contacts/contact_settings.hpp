@@ -25,8 +25,8 @@ struct ContactSettings {
   double skin_over_radius = 0.5;     // of the largest particle
   double impact_speed = 5;           // m/s, for stable_step
 
-  /// Records of the table; they refer to this object.
-  std::vector<Parameter> parameters();
+  /// The table; its records refer to this object.
+  Section section();
   /// Reads the table and that of the chosen law.
   void read(const Table& contact);
 };

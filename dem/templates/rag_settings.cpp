@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "base/case_tables.hpp"
+
 namespace snag {
 
 namespace {
@@ -209,6 +211,10 @@ Section RagSettings::section() {
   add_size(*this, r), add_mass(*this, r), add_pose(*this, r), add_bonds(*this, r), add_contacts(*this, r);
   return {text.table, text.meaning, r, true};
 }
+const bool rag_table = add_case_table<RagSettings>(130, RagSettings::Shape::rag);
+const bool disc_table = add_case_table<RagSettings>(140, RagSettings::Shape::disc);
+const bool fibre_table = add_case_table<RagSettings>(150, RagSettings::Shape::fibre);
+const bool particle_table = add_case_table<RagSettings>(160, RagSettings::Shape::particle);
 
 Section DemSettings::section() {
   return {"dem",
@@ -222,6 +228,7 @@ Section DemSettings::section() {
             .basis = Basis::assumed,
             .meaning = "Sub-step over the stable sub-step."}}};
 }
+const bool dem_table = add_case_table<DemSettings>(190);
 
 namespace {
 

@@ -1,18 +1,19 @@
 #include "dem/walls/walls.hpp"
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
 
-std::vector<Parameter> WallSettings::parameters() {
+Section WallSettings::section() {
   const auto length = [](const char* key, Vec3* target, const char* meaning) {
     return Parameter{.key = key, .target = target, .unit = "m", .meaning = meaning};
   };
   Parameter kind_of_wall = setting("kind", &kind, "What the wall is.", {"plane", "box", "patches", "stl"});
   kind_of_wall.required = true;
-  return {
+  std::vector<Parameter> parameters{
       kind_of_wall,
       setting("name", &name, "Name in outputs; by default the kind and the number of the wall. Patches have their own names."),
       length("point", &point, "plane: a point of the plane."),
@@ -40,7 +41,10 @@ std::vector<Parameter> WallSettings::parameters() {
                 .meaning = "Time in which the speed of rotation grows linearly from zero."},
       Parameter{.key = "velocity", .target = &velocity, .unit = "m/s", .meaning = "Velocity of translation."},
   };
+  return {"wall", "What particles cannot pass: planes, boxes, patches of the mesh, surfaces from STL; at rest, turning or translating.",
+          std::move(parameters), true};
 }
+const bool wall_table = add_case_table<WallSettings>(210);
 
 namespace {
 
@@ -160,7 +164,7 @@ WallSet read_walls(const CaseFile& file, const Mesh* mesh, const WallMotion* rot
   int number = 0;
   for (const Table& table : file.root().tables("wall")) {
     WallSettings wall;
-    table.read(wall.parameters());
+    table.read(wall.section().parameters);
     const auto demand = [&](const char* key, const char* kind) {
       if (wall.kind == kind && !table.has(key))
         throw Error(ExitCode::usage, table.where() + ": no " + key + ", a wall of kind \"" + kind + "\" needs it; give " + key);

@@ -34,7 +34,7 @@ struct WallSettings {
   Vec3 velocity;     // m/s
   bool stationary = false;
 
-  std::vector<Parameter> parameters();
+  Section section();
 };
 
 /// An oriented plane in the frame of its wall; `normal` is a unit vector into the fluid: the signed distance (x - point).normal is positive

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 
@@ -59,6 +60,7 @@ Section PassageSettings::section() {
           false,
           "passage"};
 }
+const bool passage_table = add_case_table<PassageSettings>(110);
 
 PassageGeometry::PassageGeometry(const PassageSettings& s, const Vec3& origin, const Vec3& axis, double speed, const std::string& where)
     : origin_(origin), tongue_(s.tongue), tongue_reach_(s.tongue_reach), impeller_radius_(s.impeller_radius) {

@@ -1,5 +1,6 @@
 #include "simulation/setup/observe_settings.hpp"
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 
 namespace snag {
@@ -23,6 +24,7 @@ Section ObserveSettings::section() {
       false,
       "observe"};
 }
+const bool virtual_camera_table = add_case_table<ObserveSettings>(260);
 
 bool ObserveSettings::in_window(const Vec3& p) const {
   for (int i = 0; i < 3; ++i)

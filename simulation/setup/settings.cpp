@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "mesh/import/mesh_reader.hpp"
@@ -14,6 +15,7 @@ Section CaseSettings::section() {
           "What this case is.",
           {setting("name", &name, "Short name, used in reports."), setting("description", &description, "One sentence.")}};
 }
+const bool case_table = add_case_table<CaseSettings>(10);
 
 Section MeshSettings::section() {
   return {"mesh",
@@ -25,6 +27,7 @@ Section MeshSettings::section() {
            file_setting("parameters", &parameters,
                         "Parameter file of the geometry, relative to the case file; by default the parameters have their defaults.")}};
 }
+const bool mesh_table = add_case_table<MeshSettings>(20);
 
 Section PeriodicSettings::section() {
   return {"periodic",
@@ -34,6 +37,7 @@ Section PeriodicSettings::section() {
            {"translation", &pair.translation, "m", -1e6, 1e6, Basis::assumed, "Shift from the first patch to the second."}},
           true};
 }
+const bool periodic_table = add_case_table<PeriodicSettings>(30);
 
 Section TimeSettings::section() {
   return {
@@ -51,6 +55,7 @@ Section TimeSettings::section() {
        {"run_on", &run_on, "s", 0, 1e9, Basis::assumed,
         "With end_when_rags_left: simulated time after the last rag has left; one revolution or more gives the head after the passage."}}};
 }
+const bool time_table = add_case_table<TimeSettings>(40);
 
 std::int64_t TimeSettings::n_steps() const {
   if (run_on > 0 && !end_when_rags_left)
@@ -74,6 +79,7 @@ Section OutputSettings::section() {
            setting("report", &report, "Write report.html at the end."),
            setting("single_precision", &single_precision, "Fields as 32-bit numbers; false: 64-bit.")}};
 }
+const bool output_table = add_case_table<OutputSettings>(240);
 
 Section CheckpointSettings::section() {
   return {"checkpoint",
@@ -83,5 +89,6 @@ Section CheckpointSettings::section() {
             "Simulated time between checkpoints; by default they follow the wall clock only."},
            {"wall_interval", &wall_interval, "s", 0, 1e9, Basis::assumed, "Wall-clock time between checkpoints."}}};
 }
+const bool checkpoint_table = add_case_table<CheckpointSettings>(250);
 
 }  // namespace snag

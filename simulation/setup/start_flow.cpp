@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "mesh/point_tree.hpp"
@@ -119,6 +120,7 @@ Section StartSettings::section() {
                           "another rate, if the Reynolds number has little influence."}},
           .former_name = "start"};
 }
+const bool start_table = add_case_table<StartSettings>(90);
 
 void scale_flow(Flow& flow, const Flow& as_started, double factor) {
   const auto scale = [](auto& values, const auto& from, double by) {

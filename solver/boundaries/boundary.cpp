@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "parallel/sum.hpp"
@@ -105,6 +106,7 @@ std::vector<Section> boundary_sections() {
   }
   return sections;
 }
+const bool boundary_tables = add_case_table(60, boundary_sections);
 
 BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions) : mesh_(mesh), conditions_(mesh.patches.size()) {
   const auto names = patch_names(mesh);

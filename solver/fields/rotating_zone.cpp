@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/case_file.hpp"
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 
@@ -33,6 +34,7 @@ Section RotatingZoneSettings::section() {
               {"start_angle", &start_angle, "rad", -infinity, infinity, Basis::assumed,
                "Angle of the rotor at the start relative to its position in the mesh file; \"90 deg\" is understood."}}};
 }
+const bool rotating_zone_table = add_case_table<RotatingZoneSettings>(70);
 
 namespace {
 

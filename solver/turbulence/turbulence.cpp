@@ -1,5 +1,6 @@
 #include "solver/turbulence/turbulence.hpp"
 
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 
@@ -65,5 +66,6 @@ std::vector<Section> turbulence_sections() {
   }
   return sections;
 }
+const bool turbulence_tables = add_case_table(80, turbulence_sections);
 
 }  // namespace snag

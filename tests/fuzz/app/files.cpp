@@ -1,7 +1,7 @@
 // Case and study files, read with every section of the manual.
 #include "base/case_file.hpp"
+#include "base/case_tables.hpp"
 #include "base/error.hpp"
-#include "simulation/setup/sections.hpp"
 #include "simulation/study.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -18,9 +18,9 @@ void read_all(const std::vector<Table>& tables, const Section& section) {
 }
 
 void read_case(const std::filesystem::path& file) {
-  AllSections settings;
+  const CaseTables tables;
   const CaseFile read = CaseFile::read(file, {});
-  for (const Section& section : settings.list()) {
+  for (const Section& section : tables.sections()) {
     read_all(section.repeated ? read.root().tables(section.name) : std::vector<Table>{read.root().table(section.name)}, section);
   }
   read.resolved(), read.sha256(), read.resume_sha256();
