@@ -8,27 +8,6 @@
 
 namespace snag {
 
-/// Arrays in which fields keep the fluid at the particles: the first component of each.
-namespace sampled {
-enum Array {
-  velocity = 0,
-  gradient = 3,
-  pressure_gradient = 12,
-  acceleration = 15,
-  k = 18,
-  epsilon = 19,
-  k_gradient = 20,
-  solid = 23,
-  width = 24,
-  change = 25,
-  response = 28,
-  coverage = 29,
-  start = 30,
-  n_fields = 33
-};
-inline constexpr double undisturbed = 1e9;  // disturbance width where the particle's own force is not in the fluid, m
-}  // namespace sampled
-
 class FluidField {
  public:
   virtual ~FluidField() = default;

@@ -74,19 +74,17 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   UniformFields fields(tile.field_size);
   const auto& G = state.velocity_gradient;
   const VectorSum velocity = fields.sum(state.fluid_velocity);
-  const FluidSamples fluid{.density = state.fluid_density,
-                           .dynamic_viscosity = state.dynamic_viscosity,
-                           .velocity = {velocity.x, velocity.y, velocity.z},
-                           .velocity_gradient = {fields.vector(G[0]), fields.vector(G[1]), fields.vector(G[2])},
-                           .pressure_gradient = fields.vector(state.pressure_gradient),
-                           .material_acceleration = fields.vector(state.material_acceleration),
-                           .turbulent_kinetic_energy = fields.field(state.turbulent_kinetic_energy),
-                           .dissipation_rate = fields.field(state.dissipation_rate),
-                           .turbulent_kinetic_energy_gradient = fields.vector(state.turbulent_kinetic_energy_gradient),
-                           .solid_fraction = fields.field(state.solid_fraction),
-                           .disturbance_width = fields.field(state.disturbance_width),
-                           .wall_distance = fields.field(state.wall_distance),
-                           .wall_normal = fields.vector(state.wall_normal)};
+  FluidSamples fluid{.density = state.fluid_density,
+                     .dynamic_viscosity = state.dynamic_viscosity,
+                     .velocity = {velocity.x, velocity.y, velocity.z},
+                     .velocity_gradient = {fields.vector(G[0]), fields.vector(G[1]), fields.vector(G[2])}};
+  for (const SampleRow& row : sample_rows()) {
+    if (!row.of_sphere) continue;
+    const Vec3 value = row.of_sphere(state);
+    const double* arrays[3] = {};
+    for (int i = 0; i < row.components(); ++i) arrays[i] = fields.field(value[i]);
+    row.point(fluid, arrays);
+  }
   const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity};
   const ForceDescription description = force.description();
   std::vector<double> memory(static_cast<std::size_t>(description.memory) * tile.field_size);

@@ -12,60 +12,16 @@
 #include "base/prior.hpp"
 #include "base/registry.hpp"
 #include "base/vec3.hpp"
+#include "coupling/samples.hpp"
 #include "dem/particles/rag.hpp"
 #include "dem/particles/tile.hpp"
 
 namespace snag {
 
-/// Vectors stored component by component, read as array[k].
-struct VectorArray {
-  const double *x = nullptr, *y = nullptr, *z = nullptr;
-  Vec3 operator[](int k) const { return {x[k], y[k], z[k]}; }
-};
-
-/// The same to add to.
+/// Vectors stored component by component, to add to.
 struct VectorSum {
   double *x = nullptr, *y = nullptr, *z = nullptr;
   void add(int k, const Vec3& v) const { x[k] += v.x, y[k] += v.y, z[k] += v.z; }
-};
-
-/// Fields that a force needs at the particles in addition to the velocity; what nobody needs is not averaged.
-struct SampleSet {
-  bool velocity_gradient = false, pressure_gradient = false, material_acceleration = false;
-  bool turbulence = false, solid_fraction = false, wall = false, disturbance = false, coverage = false;
-  SampleSet operator|(const SampleSet& b) const {
-    return {velocity_gradient || b.velocity_gradient,
-            pressure_gradient || b.pressure_gradient,
-            material_acceleration || b.material_acceleration,
-            turbulence || b.turbulence,
-            solid_fraction || b.solid_fraction,
-            wall || b.wall,
-            disturbance || b.disturbance,
-            coverage || b.coverage};
-  }
-};
-
-/// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Of the fields only the velocity
-/// and what the force's description asks for may be read.
-struct FluidSamples {
-  double density = 0;                                  // rho, kg/m3
-  double dynamic_viscosity = 0;                        // mu, Pa s
-  VectorArray velocity = {};                           // u, m/s
-  VectorArray velocity_rate = {};                      // of u in this step but for the answer to the rags' forces, m/s2; null: zero
-  VectorArray start = {};                              // place of the particle for which the samples are, m; null: where it is
-  const double* response = nullptr;                    // velocity that u loses per impulse of the particle, 1/kg; null: zero
-  std::array<VectorArray, 3> velocity_gradient = {};   // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
-  VectorArray pressure_gradient = {};                  // Pa/m
-  VectorArray material_acceleration = {};              // Du/Dt, m/s2
-  const double* turbulent_kinetic_energy = nullptr;    // k, m2/s2
-  const double* dissipation_rate = nullptr;            // epsilon, m2/s3
-  VectorArray turbulent_kinetic_energy_gradient = {};  // m/s2
-  const double* solid_fraction = nullptr;              // volume of particles over volume, 1
-  const double* disturbance_width =
-      nullptr;                       // over which the particle's own force is smeared in these samples, m; 1e9 where it is not in them
-  const double* coverage = nullptr;  // share of the kernel that the cloth around the particle fills: 1 inside a flat sheet, 1/2 at an edge
-  const double* wall_distance = nullptr;  // of the particle's centre from the nearest wall, m; far away a large number
-  VectorArray wall_normal = {};           // unit, from that wall to the particle
 };
 
 /// The particles of a tile. All particles of a rag have the same size and mass; neighbours of k in the sheet are k +- 1 and k +-
@@ -115,22 +71,6 @@ struct ForceDescription {
   Role role = Role::force;
   int memory = 0;                   // numbers stored for each particle
   std::optional<Prior> prior = {};  // of a candidate of the diagnosis
-};
-
-/// State of one sphere in a fluid, for reference cases and tests.
-struct SphereState {
-  double fluid_density = 998.2, dynamic_viscosity = 1.003e-3;                     // kg/m3, Pa s
-  Vec3 fluid_velocity, pressure_gradient, material_acceleration;                  // m/s, Pa/m, m/s2
-  Mat3 velocity_gradient{};                                                       // 1/s
-  double diameter = 2e-3, particle_density = 1020;                                // m, kg/m3
-  Vec3 position, velocity, angular_velocity;                                      // m, m/s, rad/s
-  double turbulent_kinetic_energy = 0, dissipation_rate = 0, solid_fraction = 0;  // m2/s2, m2/s3, 1
-  Vec3 turbulent_kinetic_energy_gradient;                                         // m/s2
-  double disturbance_width = 1e9;                                                 // m
-  double wall_distance = 1e9;                                                     // m
-  Vec3 wall_normal{0, 0, 1};
-  Vec3 next_in_row, next_row;  // to the bonded neighbours on both sides, that move with the sphere; zero: none; m
-  double step = 1e-3;          // s
 };
 
 /// A force known from outside this code: an exact limit or a published number.

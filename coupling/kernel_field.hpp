@@ -1,8 +1,6 @@
 #pragma once
 // The water of the flow solver at the particles: kernel averages, frozen over the sub-steps of one fluid step but for what the prediction
-// says (coupling/water_prediction.hpp).
-//
-//   solid fraction: volumes of the particles spread by the kernel and averaged back; grad k by Gauss over the faces of the cells
+// says (coupling/water_prediction.hpp). What is averaged beside velocity and gradient is in the table of samples.cpp.
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"
@@ -24,21 +22,13 @@ class KernelField final : public FluidField {
   double response(std::size_t b) const { return arrays_.field(particles_.tile(b), sampled::response)[particles_.place(b)]; }
 
  private:
-  void set_turbulence_gradient();
-  void set_width();
-  void set_solid_fraction(std::span<const Tile> tiles);
-  void set_coverage(std::span<const Tile> tiles);
-
   const Flow& flow_;
   Kernel& kernel_;
   const std::vector<Rag>& rags_;
   const WaterPrediction& prediction_;
   bool two_way_;
   ParticleList particles_;
-  std::vector<Vec3> k_gradient_;  // of the owned cells, m/s2
-  std::vector<double> width_;     // of kernel and cell, of the owned cells, m
-  std::vector<double> solid_;     // of the owned cells
-  std::vector<double> covered_;   // area of cloth per volume over that within a flat sheet, of the owned cells
+  std::vector<std::vector<double>> made_;  // what the cells have for each row of samples, where it is computed
   TileArrays arrays_;
 };
 

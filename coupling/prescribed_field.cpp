@@ -48,12 +48,10 @@ double PrescribedFlow::viscosity() const {
 
 void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   needed_ = needed;
-  arrays_.fit(tiles, n_fields);
+  arrays_.fit(tiles, n_arrays());
   // What is the same everywhere and always.
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     const auto fill = [&](int field, double value) { std::fill_n(arrays_.field(t, field), tiles[t].exists.size(), value); };
-    if (needed.disturbance) fill(width, undisturbed);
-    if (needed.turbulence) fill(epsilon, flow_.dissipation_rate);
     for (int i = 0; i < 9 && needed.velocity_gradient; ++i) fill(gradient + i, flow_.gradient[i / 3][i % 3]);
   }
 }
@@ -69,7 +67,7 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
     rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(angle);
   }
   const auto vector = [&](int f) { return VectorSum{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
-  const VectorSum u_at = vector(velocity), p_at = vector(pressure_gradient), a_at = vector(acceleration), slope_at = vector(k_gradient);
+  const VectorSum u_at = vector(velocity);
   const std::array G_at{vector(gradient), vector(gradient + 3), vector(gradient + 6)};
   const double *x = tile.field(Tile::x), *y = tile.field(Tile::y), *z = tile.field(Tile::z);
   const Mat3 G = flow_.gradient;
@@ -79,38 +77,19 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
     const Vec3 u = uniform + G * Vec3{x[p], y[p], z[p]};
     u_at.x[p] = u.x, u_at.y[p] = u.y, u_at.z[p] = u.z;
   }
-  if (needed_.material_acceleration || needed_.pressure_gradient) {
-    const double density = flow_.density;
-#pragma omp simd
-    for (int p = begin; p < end; ++p) {
-      const Vec3 a = rate + G * Vec3{u_at.x[p], u_at.y[p], u_at.z[p]};
-      a_at.x[p] = a.x, a_at.y[p] = a.y, a_at.z[p] = a.z;
-      p_at.x[p] = -density * a.x, p_at.y[p] = -density * a.y, p_at.z[p] = -density * a.z;
-    }
-  }
-  if (needed_.turbulence) {
-    const Vec3 slope = flow_.turbulent_kinetic_energy_gradient;
-    double* k_at = arrays_.field(index, k);
-    const double at_origin = flow_.turbulent_kinetic_energy;
-#pragma omp simd
-    for (int p = begin; p < end; ++p) {
-      const double here = at_origin + slope.x * x[p] + slope.y * y[p] + slope.z * z[p];
-      k_at[p] = std::max(here, 0.0);
-      slope_at.x[p] = here > 0 ? slope.x : 0, slope_at.y[p] = here > 0 ? slope.y : 0, slope_at.z[p] = here > 0 ? slope.z : 0;
-    }
-  }
   const auto array = [](const VectorSum& v) { return VectorArray{v.x, v.y, v.z}; };
-  return {.density = flow_.density,
-          .dynamic_viscosity = viscosity_,
-          .velocity = array(u_at),
-          .velocity_gradient = {array(G_at[0]), array(G_at[1]), array(G_at[2])},
-          .pressure_gradient = array(p_at),
-          .material_acceleration = array(a_at),
-          .turbulent_kinetic_energy = arrays_.field(index, k),
-          .dissipation_rate = arrays_.field(index, epsilon),
-          .turbulent_kinetic_energy_gradient = array(slope_at),
-          .solid_fraction = arrays_.field(index, solid),
-          .disturbance_width = arrays_.field(index, width)};
+  FluidSamples fluid{.density = flow_.density,
+                     .dynamic_viscosity = viscosity_,
+                     .velocity = array(u_at),
+                     .velocity_gradient = {array(G_at[0]), array(G_at[1]), array(G_at[2])}};
+  const FormulaSource source{flow_, rate, {x, y, z}, fluid.velocity, begin, end};
+  for_each_row([&](const SampleRow& row, int first) {
+    double* arrays[3] = {};
+    for (int i = 0; i < row.components(); ++i) arrays[i] = arrays_.field(index, first + i);
+    if (row.of_formula && needed_.*row.needed) row.of_formula(source, arrays);
+    row.point(fluid, arrays);
+  });
+  return fluid;
 }
 
 }  // namespace snag

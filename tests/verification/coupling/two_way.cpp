@@ -223,7 +223,7 @@ struct AnsweringWater final : FluidField {
   Vec3 rate;            // r, m/s2
   TileArrays arrays;
   void sample(std::span<const Tile> tiles, const SampleSet&) override {
-    arrays.reset(tiles, sampled::n_fields);
+    arrays.reset(tiles, sampled::n_core);
     for (std::size_t t = 0; t < tiles.size(); ++t)
       for (std::size_t k = 0; k < tiles[t].exists.size(); ++k) {
         for (int i = 0; i < 3; ++i) arrays.field(t, sampled::change + i)[k] = rate[i];
