@@ -28,8 +28,9 @@ std::vector<std::string> files_of(const Experiment& experiment) {
 }
 
 std::string why_none(const Verdict& verdict) {
-  if (verdict.verdict == "none" || verdict.verdict == "blind") return "The verdict names no cause, so the case stays as it is.";
-  if (verdict.verdict == "tie") return "The data do not decide between the causes, so no case with one of them is written.";
+  if (verdict.verdict == VerdictKind::none || verdict.verdict == VerdictKind::blind)
+    return "The verdict names no cause, so the case stays as it is.";
+  if (verdict.verdict == VerdictKind::tie) return "The data do not decide between the causes, so no case with one of them is written.";
   return "No effect of the library explains the gap, so there is no improved case.";
 }
 
@@ -50,7 +51,7 @@ std::string with_sign(double value) { return (value > 0 ? "+" : "") + words(valu
 
 std::string heading(const CaseSimulator& simulator, const OperatingPoint& point, const Verdict& verdict, const RunRequest& run,
                     const std::vector<std::string>& of_case) {
-  std::string text = "# Point " + point.id + " of the diagnosis \"" + verdict.name + "\" (" + verdict.wording +
+  std::string text = "# Point " + point.id + " of the diagnosis \"" + verdict.name + "\" (" + word(verdict.wording) +
                      "): " + point.case_file.filename().string() + " with what the verdict adds.\n";
   for (const std::string& name : of_case) {
     const auto fitted = verdict.parameters.find(name);

@@ -138,7 +138,7 @@ Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisO
   note_outliers(given, outliers, verdict);
   verdict.notes.insert(verdict.notes.end(), model.notes().begin(), model.notes().end());
   verdict.identifiability = attribution.identifiability;
-  verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == "outside");
+  verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == VerdictKind::outside);
   verdict.where = gap_cells(model, fitter);
   verdict.curves = gap_curves(model, fitter, chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr, verdict.where);
   if (options.progress) options.progress("withheld points", 0.9);
@@ -147,9 +147,9 @@ Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisO
   if (chosen > 0) {
     const Fit& fit = attribution.fits[static_cast<std::size_t>(chosen)];
     verdict.posterior = posterior_draws(model, fit, attribution.names[static_cast<std::size_t>(chosen)], experiment.seed);
-    if (verdict.verdict == "effects") verdict.improved = improved_model(model, fit);
+    if (verdict.verdict == VerdictKind::effects) verdict.improved = improved_model(model, fit);
   }
-  if (verdict.verdict == "tie") verdict.identifiability.new_conditions = new_conditions(model, attribution);
+  if (verdict.verdict == VerdictKind::tie) verdict.identifiability.new_conditions = new_conditions(model, attribution);
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
   if (const int taken = simulator.n_imported(); taken > 0)

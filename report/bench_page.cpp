@@ -68,7 +68,8 @@ std::string detection(std::vector<ScoreRow> rows) {
   for (std::size_t first = 0; first + size <= rows.size(); first += size) {
     double x = 0, y = 0;
     for (std::size_t i = first; i < first + size; ++i)
-      x += std::log10(std::max(rows[i].gap_over_floor, 1e-3)), y += rows[i].named == rows[i].truth && rows[i].verdict == "effects";
+      x += std::log10(std::max(rows[i].gap_over_floor, 1e-3)),
+          y += rows[i].named == rows[i].truth && rows[i].verdict == VerdictKind::effects;
     line.x.push_back(x / static_cast<double>(size)), line.y.push_back(y / static_cast<double>(size));
   }
   if (line.x.empty()) return "";

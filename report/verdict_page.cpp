@@ -97,7 +97,7 @@ std::string pairs_of_strengths(const Verdict& v) {
   }
   return plots.empty() ? ""
                        : "<p>Draws from the posterior under " + escaped(v.posterior.hypothesis) +
-                             ": strengths against each other, and against the input that the data tell them from least. posterior.json has "
+                             ": strengths against each other and against the most correlated input. posterior.json has "
                              "all of them; arviz.from_json reads it.</p>\n<div class=\"plots\">" +
                              plots + "</div>\n";
 }
@@ -156,7 +156,7 @@ std::string map_of_gap(const Verdict& v) {
     char z[32];
     std::snprintf(z, sizeof z, std::abs(c.z) < 9.95 ? "%.1f" : "%.0f", c.z);
     cells += "<rect x=\"" + words(x) + "\" y=\"" + words(y) + "\" width=\"" + words(width - 2) + "\" height=\"" + words(height - 2) +
-             "\" fill=\"" + heat(c.z) + "\"" + (c.origin == "born" ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" +
+             "\" fill=\"" + heat(c.z) + "\"" + (c.origin == GapOrigin::born ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" +
              words(x + width / 2 - 1) + "\" y=\"" + words(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
              (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
   }
@@ -238,8 +238,9 @@ std::string map_of_ways(const Verdict& v) {
 std::string remark_on(const GapCell& cell) {
   std::string remark;
   if (cell.onset) remark += "begins here ";
-  if (!cell.origin.empty())
-    remark += (cell.origin == "born" ? "born here" : cell.origin) + std::string(" (restarted: ") + html::number(cell.restart_z) + ") ";
+  if (cell.origin != GapOrigin::not_judged)
+    remark += std::string(cell.origin == GapOrigin::born ? "born here" : word(cell.origin)) +
+              " (restarted: " + html::number(cell.restart_z) + ") ";
   if (cell.blind && !cell.significant) remark += "blind ";
   return remark + (cell.withheld ? "withheld" : "");
 }
@@ -248,7 +249,7 @@ std::string remark_on(const GapCell& cell) {
 std::string curves(const Verdict& v) {
   std::string plots, effects;
   for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
-  const std::string with = (v.verdict == "outside" ? "in part: with " : "with ") + effects + ", inputs fitted";
+  const std::string with = (v.verdict == VerdictKind::outside ? "in part: with " : "with ") + effects + ", inputs fitted";
   for (const GapCurve& c : v.curves) {
     const auto less_measured = [&](std::vector<double> values) {
       for (std::size_t i = 0; i < values.size(); ++i) values[i] -= c.measured[i];
@@ -324,15 +325,15 @@ std::string next(const Verdict& v) {
   for (const auto& tie : v.identifiability.ties)
     text += "<p>These effects have the same signature in this experiment: " + escaped(joined(tie)) + ".</p>\n";
   // A cause that is attributed needs no more repeats.
-  if (!v.identifiability.next_experiment.empty() && v.wording != "attributed")
+  if (!v.identifiability.next_experiment.empty() && v.wording != Wording::attributed)
     text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
   std::vector<std::vector<std::string>> conditions;
   for (const NewCondition& c : v.identifiability.new_conditions)
     conditions.push_back({escaped(condition_in_words(c)), escaped(c.observable), html::number(c.nats), html::number(c.nats_of_repeat)});
   if (!conditions.empty())
     text +=
-        "<p>Conditions that were not measured, and by how much one test there is expected to tell the two likeliest hypotheses "
-        "apart:</p>\n" +
+        "<p>Conditions that were not measured, and the evidence (nats) that one test there is expected to give between the two most "
+        "probable hypotheses:</p>\n" +
         html::table({"Condition", "observable", "nats", "of one more repeat, nats"}, conditions);
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});

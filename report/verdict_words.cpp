@@ -56,30 +56,31 @@ std::string condition_in_words(const NewCondition& condition) {
 }
 
 std::string verdict_sentence(const Verdict& v) {
-  if (v.verdict == "none") return "No gap beyond the uncertainty: no effect is missing that these data could show.";
-  if (v.verdict == "outside")
+  if (v.verdict == VerdictKind::none) return "No gap beyond the uncertainty: no effect is missing that these data could show.";
+  if (v.verdict == VerdictKind::outside)
     return "There is a gap, and no effect of the library explains it." +
            (v.effects.empty() ? "" : " In part, " + joined(v.effects) + " would.");
-  if (v.verdict == "blind") return "These data are blind: no effect of the library would show in them.";
-  if (v.verdict == "tie") return "A tie: the data do not decide between " + joined(v.tie) + ".";
+  if (v.verdict == VerdictKind::blind) return "These data are blind: no effect of the library would show in them.";
+  if (v.verdict == VerdictKind::tie) return "A tie: the data do not decide between " + joined(v.tie) + ".";
   // The page states shares only where there are at least two: of several effects, or of one effect and the unexplained rest.
   std::string causes;
   const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
   for (std::size_t i = 0; i < v.effects.size(); ++i) {
     causes += (i > 0 ? ", " : "") + v.effects[i];
-    constexpr double told = 0.005;
-    if (has_shares && i < v.causes.size() && v.causes[i].share >= told) causes += " (" + share_in_words(v.causes[i].share) + " of it)";
+    constexpr double least_share = 0.005;
+    if (has_shares && i < v.causes.size() && v.causes[i].share >= least_share)
+      causes += " (" + share_in_words(v.causes[i].share) + " of it)";
   }
   const std::string rest = v.unexplained > 0 ? "; " + share_in_words(v.unexplained) + " of it stays unexplained" : "";
-  const bool doubted = v.wording == "suspected" && v.p_effects >= 0.9;
-  return "The gap comes from " + causes + rest + ": " + v.wording +
+  const bool doubted = v.wording == Wording::suspected && v.p_effects >= 0.9;
+  return "The gap comes from " + causes + rest + ": " + word(v.wording) +
          (doubted ? ", for a check of the verdict failed (see The evidence)." : ", probability " + probability_in_words(v.p_effects) + ".");
 }
 
 std::string verdict_advice(const Verdict& v) {
-  if (v.verdict == "none") return "Leave the case as it is.";
-  if (v.verdict == "blind") return "Change nothing by these data: measure where the effects show (What to measure next).";
-  if (v.verdict == "tie") {
+  if (v.verdict == VerdictKind::none) return "Leave the case as it is.";
+  if (v.verdict == VerdictKind::blind) return "Change nothing by these data: measure where the effects show (What to measure next).";
+  if (v.verdict == VerdictKind::tie) {
     const auto& conditions = v.identifiability.new_conditions;
     if (conditions.empty()) return "Change nothing yet. " + v.identifiability.next_experiment;
     return "Change nothing yet. Measure " + conditions.front().observable + " at " + condition_in_words(conditions.front()) +
@@ -88,7 +89,7 @@ std::string verdict_advice(const Verdict& v) {
   const GapCell* largest = nullptr;
   for (const GapCell& cell : v.where)
     if (!cell.withheld && (largest == nullptr || std::abs(cell.z) > std::abs(largest->z))) largest = &cell;
-  if (v.verdict == "outside")
+  if (v.verdict == VerdictKind::outside)
     return std::string("Do not tune the case to these data: no strength of an effect is right.") +
            (largest == nullptr ? ""
                                : " Look for the cause where the gap is largest: " + largest->observable + " at " + largest->point + ", " +
@@ -103,15 +104,17 @@ std::string verdict_advice(const Verdict& v) {
       text += (text.empty() ? "" : " ") + one;
   }
   if (v.improved.files.empty()) return text;
-  constexpr double told = 1;  // standard uncertainties
-  const bool is_fit = v.improved.off_by_forms <= told;
-  const std::string go_on = v.wording != "attributed" ? "Check the cause first; then go on with " : is_fit ? "Go on with " : "Begin with ";
+  constexpr double negligible = 1;  // standard uncertainties
+  const bool is_fit = v.improved.off_by_forms <= negligible;
+  const std::string go_on = v.wording != Wording::attributed ? "Check the cause first; then go on with "
+                            : is_fit                         ? "Go on with "
+                                                             : "Begin with ";
   text += (text.empty() ? "" : " ") + go_on + v.improved.files.front() +
-          (v.improved.files.size() > 1 ? " and its like for the other points" : "") +
-          (held.empty() ? ", where it is as fitted." : ", which holds " + joined(held) + ".");
+          (v.improved.files.size() > 1 ? " (and the files of the other points)" : "") +
+          (held.empty() ? ", where it is as fitted." : "; it contains " + joined(held) + ".");
   if (!is_fit)
-    text += " The fit mixes forms of a law and a case has one: its run is off the fit by up to " + rounded(v.improved.off_by_forms) +
-            " standard uncertainties, so adjust the strength there.";
+    text += " The fit combines several forms of a law, and a case can use one only: its run differs from the fit by up to " +
+            rounded(v.improved.off_by_forms) + " standard uncertainties, so adjust the strength there.";
   return text;
 }
 

@@ -169,7 +169,8 @@ class OriginJudge {
     for (GapCell& cell : cells)
       if (cell.significant && !std::isnan(cell.window[0])) restart(cell);
     const auto born = benjamini_hochberg(p_values_);
-    for (std::size_t i = 0; i < judged_.size(); ++i) judged_[i]->origin = born[i] ? "born" : gone_[i] ? "inherited" : "undecided";
+    for (std::size_t i = 0; i < judged_.size(); ++i)
+      judged_[i]->origin = born[i] ? GapOrigin::born : gone_[i] ? GapOrigin::inherited : GapOrigin::undecided;
   }
 
  private:

@@ -28,7 +28,7 @@ Json cell(const GapCell& c) {
   json["onset"] = c.onset;
   json["blind"] = c.blind;
   json["p"] = number(c.p);
-  json["test"] = c.test;
+  json["test"] = word(c.test);
   json["withheld"] = c.withheld;
   json["measured"] = number(c.measured);
   json["simulated"] = number(c.simulated);
@@ -38,7 +38,7 @@ Json cell(const GapCell& c) {
   json["u_D"] = number(c.u_D);
   json["u_S"] = number(c.u_S);
   json["restart_z"] = number(c.restart_z);
-  json["origin"] = c.origin;
+  json["origin"] = word(c.origin);
   return json;
 }
 
@@ -85,7 +85,7 @@ Json how_far(const Verdict& v) {
 }  // namespace
 
 std::string verdict_json(const Verdict& v) {
-  Json json{{"name", v.name}, {"verdict", v.verdict}, {"effects", v.effects}, {"wording", v.wording}, {"tie", v.tie}};
+  Json json{{"name", v.name}, {"verdict", word(v.verdict)}, {"effects", v.effects}, {"wording", word(v.wording)}, {"tie", v.tie}};
   json["probability"] = numbers(v.probability);
   json["acts"] = numbers(v.acts);
   json["causes"] = Json::array();

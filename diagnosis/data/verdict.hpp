@@ -9,6 +9,7 @@
 
 #include "diagnosis/data/posterior_draws.hpp"
 #include "diagnosis/data/simulator.hpp"
+#include "diagnosis/data/verdict_kinds.hpp"
 
 namespace snag {
 
@@ -22,11 +23,11 @@ struct GapCell {
   double u_val = 0;                        // of the difference
   double z = 0;                            // (simulated - measured)/u_val; of exact tests the normal score of their p
   double p = 1;                            // two-sided
-  std::string test = "z";                  // z | binomial | negative_binomial | log_rank | energy_distance
+  CellTest test = CellTest::z;
   bool withheld = false, significant = false, onset = false, blind = false;
   double restart_z =
       std::numeric_limits<double>::quiet_NaN();  // z of a run that goes on from the measured state at the begin of the window
-  std::string origin{};                          // born | inherited | undecided: by restart_z; empty: not judged
+  GapOrigin origin = GapOrigin::not_judged;
 };
 
 /// Simulation and data of one observable at one operating point over time, in the unit of the data, each value a mean over a bin of time
@@ -118,12 +119,12 @@ struct ImprovedModel {
 };
 
 struct Verdict {
-  std::string name;                    // of the experiment
-  std::string verdict;                 // effects | none | outside | tie | blind
+  std::string name;  // of the experiment
+  VerdictKind verdict = VerdictKind::none;
   std::vector<std::string> effects{};  // of the first hypothesis that names effects; for outside: the best effect, partial and no cause
   double p_effects = 0;                // that all of them act, alone or with others
-  std::string wording;                 // attributed | suspected | undecided | outside | blind | no gap beyond u_val
-  std::vector<std::string> tie{};      // hypotheses that share the verdict of a tie
+  Wording wording = Wording::no_gap;
+  std::vector<std::string> tie{};                 // hypotheses that share the verdict of a tie
   std::map<std::string, double> probability{};    // of each hypothesis
   std::map<std::string, double> acts{};           // of each effect: that it acts, alone or with another
   std::map<std::string, double> log_evidence{};   // re-simulated hypotheses, with the choice of a remainder, nats, relative to none

@@ -124,7 +124,7 @@ class Judge {
     for (const auto& [name, p] : v_.probability)
       for (const std::string& effect : split(name, '+'))
         if (effect != "none" && effect != "outside") v_.acts[effect] += p;
-    const int reported = v_.verdict == "none" || v_.verdict == "blind" ? 0 : a_.best_with_effect();
+    const int reported = v_.verdict == VerdictKind::none || v_.verdict == VerdictKind::blind ? 0 : a_.best_with_effect();
     for (const int i : std::set<int>{reported, a_.best_with_effect()}) note_parameters(i);
     note_inputs(a_.fits[first]);
     note_checks(first);
@@ -144,7 +144,7 @@ class Judge {
   }
 
   void discrepancy() {
-    v_.verdict = v_.wording = "outside";
+    v_.verdict = VerdictKind::outside, v_.wording = Wording::outside;
     const int best = a_.best_with_effect();
     if (best == 0) return;
     v_.effects = effect_names(model_, a_.fits[best]);
@@ -175,12 +175,12 @@ class Judge {
       tie(shared_verdict(a_));
       return;
     }
-    v_.verdict = all_blind(model_, a_) ? "blind" : "none";
-    v_.wording = v_.verdict == "blind" ? "blind" : "no gap beyond u_val";
+    v_.verdict = all_blind(model_, a_) ? VerdictKind::blind : VerdictKind::none;
+    v_.wording = v_.verdict == VerdictKind::blind ? Wording::blind : Wording::no_gap;
   }
 
   void tie(const std::vector<std::string>& shared) {
-    v_.verdict = "tie", v_.wording = "undecided", v_.tie = shared;
+    v_.verdict = VerdictKind::tie, v_.wording = Wording::undecided, v_.tie = shared;
     const int best = a_.best_with_effect();
     if (best > 0) v_.effects = effect_names(model_, a_.fits[best]);
   }
@@ -202,8 +202,8 @@ class Judge {
       v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
                          " predicts operating points that were left out better.");
     } else {
-      v_.verdict = "effects";
-      v_.wording = p >= attributed && guards_hold(first) ? "attributed" : "suspected";
+      v_.verdict = VerdictKind::effects;
+      v_.wording = p >= attributed && guards_hold(first) ? Wording::attributed : Wording::suspected;
       note_causes(first);
       note_weak_second(first);
     }
@@ -295,10 +295,10 @@ class Judge {
 int judge(const Responses& model, Attribution& attribution, Verdict& verdict) { return Judge(model, attribution, verdict).judge(); }
 
 void withdraw_what_shrinks_nothing(Verdict& verdict) {
-  if (verdict.verdict != "effects" || verdict.shrinkage.empty()) return;
+  if (verdict.verdict != VerdictKind::effects || verdict.shrinkage.empty()) return;
   const auto& [name, shrunk] = *verdict.shrinkage.begin();
   if (!(shrunk.mean <= 0)) return;
-  verdict.verdict = "tie", verdict.wording = "undecided", verdict.tie = {name, "outside"};
+  verdict.verdict = VerdictKind::tie, verdict.wording = Wording::undecided, verdict.tie = {name, "outside"};
   verdict.causes.clear(), verdict.unexplained = std::numeric_limits<double>::quiet_NaN();
   verdict.notes.push_back("The evidence is for " + name + ", but the gap at the withheld points does not shrink by it: it is not named.");
 }

@@ -121,7 +121,7 @@ class PointCells {
     cell.z = cell.u_val > 0 ? E / cell.u_val : 0;
     cell.p = two_sided_p(cell.z);
     const int n = row.n_replicates, N = base_.responses[p_].n_runs;
-    const auto from_p = [&](double p, const char* test) {
+    const auto from_p = [&](double p, CellTest test) {
       // Inputs that are known badly weaken an exact test as they weaken z.
       const double share =
           std::sqrt(1 - std::min(1.0, (cell.u_input * cell.u_input + cell.u_num * cell.u_num) / (cell.u_val * cell.u_val)));
@@ -129,9 +129,9 @@ class PointCells {
     };
     if (row.kind == Row::Kind::event)
       from_p(fisher_exact(static_cast<int>(std::lround(row.value * n)), n, static_cast<int>(std::lround(cell.simulated * N)), N),
-             "binomial");
+             CellTest::binomial);
     else if (row.kind == Row::Kind::count)
-      from_p(equal_rates(row.value * n, n, cell.simulated * N, N, row.sigma), "negative_binomial");
+      from_p(equal_rates(row.value * n, n, cell.simulated * N, N, row.sigma), CellTest::negative_binomial);
     else if (row.kind == Row::Kind::time && std::count(row.censored.begin(), row.censored.end(), true) > 0)
       censored_times(cell, row, from_p);
     else if (row.kind == Row::Kind::scalar && std::min(n, N) >= least_of_distribution)
@@ -151,7 +151,7 @@ class PointCells {
     const double mean = std::accumulate(simulated.begin(), simulated.end(), 0.0) / static_cast<double>(simulated.size());
     for (double& value : simulated) value -= mean;
     const double shape = energy_test(measured, simulated, model_.experiment().seed), p = std::min(1.0, 2 * std::min(shape, cell.p));
-    if (shape < cell.p) cell.test = "energy_distance";
+    if (shape < cell.p) cell.test = CellTest::energy_distance;
     cell.z = (cell.z >= 0 ? 1 : -1) * score_of_p(p), cell.p = p;
   }
 
@@ -167,7 +167,7 @@ class PointCells {
     for (int s = 0; s < N; ++s)
       simulated.push_back({response.value[i] + std::sqrt(response.scatter[i]) * (N > 1 ? normal_quantile((s + 0.5) / N) : 0), later});
     if (N > 1)
-      from_p(log_rank(measured, simulated).p, "log_rank");
+      from_p(log_rank(measured, simulated).p, CellTest::log_rank);
     else
       cell.z = -deviance_residual(row, response.value[i], 1, row.sigma * row.sigma), cell.p = two_sided_p(cell.z);
   }

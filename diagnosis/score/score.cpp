@@ -27,12 +27,12 @@ std::string named_effects(const Verdict& verdict) {
 }
 
 /// What the verdict comes to: the effects it names, or its own word.
-std::string said(const ScoreRow& row) { return row.verdict == "effects" ? row.named : row.verdict; }
+std::string said(const ScoreRow& row) { return row.verdict == VerdictKind::effects ? row.named : word(row.verdict); }
 
 bool hit(const ScoreRow& row) { return said(row) == row.truth; }
 
 bool names_one_of(const ScoreRow& row) {
-  if (row.verdict != "effects") return false;
+  if (row.verdict != VerdictKind::effects) return false;
   const auto named = split(row.named, '+'), truth = split(row.truth, '+');
   return std::any_of(named.begin(), named.end(), [&](const auto& n) { return std::find(truth.begin(), truth.end(), n) != truth.end(); });
 }
@@ -152,11 +152,18 @@ std::string score_line(const ScoreRow& r) {
 ScoreRow score_row(const std::string& line) {
   const std::vector<std::string> t = split(line, ',');
   if (t.size() != 22) throw Error(ExitCode::io, "\"" + line + "\" has " + std::to_string(t.size()) + " fields, a row of scores has 22");
+  const auto verdict = verdict_named(t[8]);
+  const auto wording = wording_named(t[10]);
+  if (!verdict || !wording)
+    throw Error(ExitCode::io, "\"" + line + "\": \"" + (verdict ? t[10] : t[8]) + "\" is not a " + (verdict ? "wording" : "verdict") +
+                                  "; known: " +
+                                  (verdict ? joined({wording_words.begin(), wording_words.end()})
+                                           : joined({verdict_kind_words.begin(), verdict_kind_words.end()})));
   const auto number = [&](std::size_t i) { return std::strtod(t[i].c_str(), nullptr); };
   const auto whole = [&](std::size_t i) { return static_cast<int>(std::strtol(t[i].c_str(), nullptr, 10)); };
   ScoreRow r;
   r.number = whole(0), r.kind = t[1], r.truth = t[2], r.strength = number(3), r.subset = t[4], r.replicates = whole(5);
-  r.detectability = number(6), r.gap_over_floor = number(7), r.verdict = t[8], r.named = t[9], r.wording = t[10], r.first = t[11];
+  r.detectability = number(6), r.gap_over_floor = number(7), r.verdict = *verdict, r.named = t[9], r.wording = *wording, r.first = t[11];
   r.p_first = number(12), r.p_truth = number(13), r.brier = number(14), r.in_first_three = whole(15) != 0;
   r.shrinkage = number(16), r.shrinkage_low = number(17), r.shrinkage_high = number(18), r.runs = whole(19), r.seconds = number(20);
   r.truth_sha256 = t[21];
@@ -170,8 +177,8 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   const auto clear_single = [](const ScoreRow& row) { return row.kind == "single" && row.strength >= 0.5 && row.detectability >= 3; };
   const auto is_null = [](const ScoreRow& row) { return row.kind.starts_with("null"); };
   const auto in_library = [](const ScoreRow& row) { return row.kind == "single" || row.kind == "pair"; };
-  const auto says_outside = [](const ScoreRow& row) { return row.verdict == "outside"; };
-  const auto attributes = [](const ScoreRow& row) { return row.verdict == "effects" && row.wording == "attributed"; };
+  const auto says_outside = [](const ScoreRow& row) { return row.verdict == VerdictKind::outside; };
+  const auto attributes = [](const ScoreRow& row) { return row.verdict == VerdictKind::effects && row.wording == Wording::attributed; };
   const auto clear_pair = [](const ScoreRow& row) { return row.kind == "pair" && row.detectability >= 3; };
   constexpr double ideal = 1, rounding = 1e-9;  // shrinkage
   ScoreCard card;
@@ -179,7 +186,8 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
       score(rows, "single effect at strength >= 1/2, detectable: named first", true, sphere ? 0.85 : 0.80, clear_single, hit),
       score(rows, "the same: among the first three", true, 0.97, clear_single, [](const ScoreRow& row) { return row.in_first_three; }),
       score(rows, "null: an effect is attributed", false, 0.05, is_null, attributes),
-      score(rows, "null: an effect is named at all", false, 0.10, is_null, [](const ScoreRow& row) { return row.verdict == "effects"; }),
+      score(rows, "null: an effect is named at all", false, 0.10, is_null,
+            [](const ScoreRow& row) { return row.verdict == VerdictKind::effects; }),
       score(
           rows, "outside, gap over 3 u: says outside", true, 0.90,
           [](const ScoreRow& row) { return row.kind == "outside" && row.detectability > 3; }, says_outside),
@@ -202,7 +210,7 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
     card.brier += row.brier / static_cast<double>(rows.size());
     ++card.confusion[row.truth][said(row)];
     // What is said of a gap that no effect causes is no shrinkage by a cause.
-    if (row.verdict == "effects" && hit(row) && std::isfinite(row.shrinkage) && row.detectability >= 3)
+    if (row.verdict == VerdictKind::effects && hit(row) && std::isfinite(row.shrinkage) && row.detectability >= 3)
       shrunk.push_back(row.shrinkage), covered += row.shrinkage_low <= ideal && row.shrinkage_high >= ideal - rounding;
   }
   std::sort(shrunk.begin(), shrunk.end());

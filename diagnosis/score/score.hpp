@@ -14,7 +14,9 @@ namespace snag {
 /// Verdict on one set and its truth.
 struct ScoreRow {
   int number = 0, replicates = 1, runs = 0;
-  std::string kind, truth, subset, verdict, named, wording;  // named: the effects of the verdict, "a+b"
+  std::string kind, truth, subset, named;  // named: the effects of the verdict, "a+b"
+  VerdictKind verdict = VerdictKind::none;
+  Wording wording = Wording::no_gap;
   double strength = 0, detectability = 0, gap_over_floor = 0;
   std::string first;  // most probable hypothesis
   double p_first = 0, p_truth = 0, brier = 0;

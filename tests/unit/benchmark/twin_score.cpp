@@ -21,10 +21,10 @@ Truth single(const std::string& effect, double detectability = 10) {
   return truth;
 }
 
-Verdict says(const std::string& word, std::vector<std::string> named, std::map<std::string, double> probability,
-             const std::string& wording = "attributed") {
+Verdict says(VerdictKind kind, std::vector<std::string> named, std::map<std::string, double> probability,
+             Wording wording = Wording::attributed) {
   Verdict verdict;
-  verdict.verdict = word, verdict.effects = std::move(named), verdict.probability = std::move(probability), verdict.wording = wording;
+  verdict.verdict = kind, verdict.effects = std::move(named), verdict.probability = std::move(probability), verdict.wording = wording;
   return verdict;
 }
 
@@ -66,7 +66,8 @@ TEST(TwinPlan, SealHolds) {
 /// Requirement: a row says what was named, with which probability, and is the same after it was written and read.
 TEST(TwinScore, RowOfASet) {
   const ScoreRow row =
-      scored(single("lift"), says("effects", {"lift"}, {{"lift", 0.7}, {"none", 0.2}, {"outside", 0.1}}, "suspected"), 2.5, "abc");
+      scored(single("lift"), says(VerdictKind::effects, {"lift"}, {{"lift", 0.7}, {"none", 0.2}, {"outside", 0.1}}, Wording::suspected),
+             2.5, "abc");
   EXPECT_EQ(row.first, "lift");
   EXPECT_TRUE(row.in_first_three);
   EXPECT_NEAR(row.brier, 0.09 + 0.04 + 0.01, 1e-12);
@@ -82,14 +83,15 @@ TEST(TwinScore, Card) {
   null.kind = "null", other.kind = "outside", other.unmodelled = "periodic", other.detectability = 9;
   pair.kind = "pair", pair.theta["added_mass"] = 0.4;
   const std::vector<ScoreRow> rows{
-      scored(single("lift"), says("effects", {"lift"}, {{"lift", 0.95}, {"none", 0.05}}), 1, ""),
-      scored(single("lift"), says("effects", {"added_mass"}, {{"added_mass", 0.92}, {"lift", 0.08}}), 1, ""),
-      scored(single("lift", 1), says("none", {}, {{"none", 0.9}, {"lift", 0.1}}, ""), 1, ""),  // could not be seen: does not count
-      scored(null, says("none", {}, {{"none", 1.0}}, ""), 1, ""),
-      scored(null, says("effects", {"lift"}, {{"lift", 0.6}, {"none", 0.4}}, "suspected"), 1, ""),
-      scored(other, says("outside", {"lift"}, {{"outside", 0.99}, {"lift", 0.01}}, "outside"), 1, ""),
-      scored(pair, says("effects", {"lift", "added_mass"}, {{"added_mass+lift", 1.0}}), 1, ""),
-      scored(pair, says("effects", {"lift"}, {{"lift", 1.0}}), 1, "")};
+      scored(single("lift"), says(VerdictKind::effects, {"lift"}, {{"lift", 0.95}, {"none", 0.05}}), 1, ""),
+      scored(single("lift"), says(VerdictKind::effects, {"added_mass"}, {{"added_mass", 0.92}, {"lift", 0.08}}), 1, ""),
+      scored(single("lift", 1), says(VerdictKind::none, {}, {{"none", 0.9}, {"lift", 0.1}}, Wording::no_gap), 1,
+             ""),  // could not be seen: does not count
+      scored(null, says(VerdictKind::none, {}, {{"none", 1.0}}, Wording::no_gap), 1, ""),
+      scored(null, says(VerdictKind::effects, {"lift"}, {{"lift", 0.6}, {"none", 0.4}}, Wording::suspected), 1, ""),
+      scored(other, says(VerdictKind::outside, {"lift"}, {{"outside", 0.99}, {"lift", 0.01}}, Wording::outside), 1, ""),
+      scored(pair, says(VerdictKind::effects, {"lift", "added_mass"}, {{"added_mass+lift", 1.0}}), 1, ""),
+      scored(pair, says(VerdictKind::effects, {"lift"}, {{"lift", 1.0}}), 1, "")};
   const ScoreCard card = score_card(rows, true);
   const auto found = [&](std::size_t i) { return std::pair{card.scores[i].hits, card.scores[i].n}; };
   EXPECT_EQ(found(0), (std::pair{1, 2}));  // named first

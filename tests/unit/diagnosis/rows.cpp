@@ -82,7 +82,7 @@ TEST(Rows, ScatterOfRepeatsIsCompared) {
   const GapCell alike = cell_of(1), other = cell_of(12);
   EXPECT_GT(alike.p, 0.1);
   EXPECT_FALSE(alike.significant);
-  EXPECT_EQ(other.test, "energy_distance");
+  EXPECT_EQ(other.test, CellTest::energy_distance);
   EXPECT_LT(other.p, 0.01);
   EXPECT_TRUE(other.significant);
 }

@@ -11,7 +11,7 @@
 namespace snag {
 namespace {
 
-Verdict of(const std::string& verdict, const std::string& wording, const std::vector<std::string>& effects, double p) {
+Verdict of(VerdictKind verdict, Wording wording, const std::vector<std::string>& effects, double p) {
   Verdict v;
   v.name = "falling spheres", v.verdict = verdict, v.wording = wording, v.effects = effects, v.p_effects = p;
   v.probability = {{"none", 1e-5}, {"outside", 1e-4}};
@@ -28,10 +28,10 @@ Verdict of(const std::string& verdict, const std::string& wording, const std::ve
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(VerdictPage, AttributedCauseIsOnHand) {
-  Verdict v = of("effects", "attributed", {"added_mass"}, 0.9999999);
+  Verdict v = of(VerdictKind::effects, Wording::attributed, {"added_mass"}, 0.9999999);
   v.improved.files = {"case_with_effects.toml"};
   EXPECT_EQ(verdict_sentence(v), "The gap comes from added_mass: attributed, probability over 99 %.");
-  EXPECT_EQ(verdict_advice(v), "Go on with case_with_effects.toml, which holds added_mass = 0.48 ± 0.02.");
+  EXPECT_EQ(verdict_advice(v), "Go on with case_with_effects.toml; it contains added_mass = 0.48 ± 0.02.");
   const std::string page = verdict_page(v);
   EXPECT_TRUE(holds(page, verdict_advice(v)));
   EXPECT_FALSE(holds(page, "100 %</text>"));
@@ -39,20 +39,21 @@ TEST(VerdictPage, AttributedCauseIsOnHand) {
 }
 
 TEST(VerdictPage, SuspectedCauseIsCheckedFirst) {
-  Verdict v = of("effects", "suspected", {"lift"}, 0.999);
+  Verdict v = of(VerdictKind::effects, Wording::suspected, {"lift"}, 0.999);
   v.improved.files = {"case_with_effects_A.toml", "case_with_effects_B.toml"};
   EXPECT_FALSE(holds(verdict_sentence(v), "%"));
-  EXPECT_EQ(
-      verdict_advice(v),
-      "Check the cause first; then go on with case_with_effects_A.toml and its like for the other points, which holds lift = 0.48 ± 0.02.");
+  EXPECT_EQ(verdict_advice(v),
+            "Check the cause first; then go on with case_with_effects_A.toml (and the files of the other points); it contains lift = 0.48 "
+            "± 0.02.");
   EXPECT_TRUE(holds(verdict_page(v), "more repeats"));
 }
 
 TEST(VerdictPage, MistakesAreCorrectedWhereTheyWereMade) {
-  EXPECT_EQ(verdict_advice(of("effects", "attributed", {"unit:mm"}, 0.99)), "Correct the unit of the data that are stated in mm.");
-  EXPECT_EQ(verdict_advice(of("effects", "attributed", {"scale:high"}, 0.99)),
+  EXPECT_EQ(verdict_advice(of(VerdictKind::effects, Wording::attributed, {"unit:mm"}, 0.99)),
+            "Correct the unit of the data that are stated in mm.");
+  EXPECT_EQ(verdict_advice(of(VerdictKind::effects, Wording::attributed, {"scale:high"}, 0.99)),
             "Calibrate the points high again: relative error = 0.48 ± 0.02.");
-  Verdict v = of("effects", "attributed", {"input:particle.density_kg_m3"}, 0.99);
+  Verdict v = of(VerdictKind::effects, Wording::attributed, {"input:particle.density_kg_m3"}, 0.99);
   v.improved.files = {"case_with_effects.toml"};
   EXPECT_EQ(verdict_advice(v),
             "Look up or measure particle.density_kg_m3 again: relative error of the case's value = 0.48 ± 0.02. Go on with "
@@ -60,14 +61,14 @@ TEST(VerdictPage, MistakesAreCorrectedWhereTheyWereMade) {
 }
 
 TEST(VerdictPage, NothingIsChangedWithoutACause) {
-  Verdict none = of("none", "no gap beyond u_val", {}, 0);
+  Verdict none = of(VerdictKind::none, Wording::no_gap, {}, 0);
   none.improved.why_none = "The verdict names no cause, so the case stays as it is.";
   EXPECT_TRUE(holds(verdict_page(none), "No case_with_effects.toml: The verdict names no cause"));
   EXPECT_TRUE(holds(verdict_advice(none), "Leave the case as it is"));
-  EXPECT_EQ(verdict_advice(of("outside", "outside", {"lift"}, 0)),
+  EXPECT_EQ(verdict_advice(of(VerdictKind::outside, Wording::outside, {"lift"}, 0)),
             "Do not tune the case to these data: no strength of an effect is right. Look for the cause where the gap is largest: z at A, "
             "0.1 to 0.2 s.");
-  Verdict tie = of("tie", "undecided", {"lift"}, 0.5);
+  Verdict tie = of(VerdictKind::tie, Wording::undecided, {"lift"}, 0.5);
   tie.tie = {"lift", "none"};
   EXPECT_EQ(verdict_advice(tie), "Change nothing yet. 327 more repeats are enough.");
   tie.identifiability.new_conditions = {{"B", "flow.amplitude", 2, "z", 3.2, 0.4}};
@@ -78,7 +79,7 @@ TEST(VerdictPage, NothingIsChangedWithoutACause) {
 }
 
 TEST(VerdictPage, PairsOfStrengths) {
-  Verdict v = of("effects", "attributed", {"added_mass", "lift"}, 0.95);
+  Verdict v = of(VerdictKind::effects, Wording::attributed, {"added_mass", "lift"}, 0.95);
   v.posterior.hypothesis = "added_mass+lift";
   v.posterior.variables = {
       {.name = "added_mass", .unit = "1"}, {.name = "lift", .unit = "1"}, {.name = "flow.viscosity", .unit = "u", .is_strength = false}};

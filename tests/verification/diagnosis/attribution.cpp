@@ -36,8 +36,8 @@ TEST(Attribution, NullsAreNotBlamedOnEffects) {
     formula::Truth truth;
     if (i % 3 == 0) truth.nuisances = {{"drag_law_uncertainty", i % 2 ? 0.125 : -0.125}, {"flow.viscosity", 0.05}};
     const Verdict verdict = judged(truth, 1000 + i, false, 0);
-    blamed += verdict.verdict == "effects" && verdict.wording == "attributed";
-    none += verdict.verdict == "none";
+    blamed += verdict.verdict == VerdictKind::effects && verdict.wording == Wording::attributed;
+    none += verdict.verdict == VerdictKind::none;
     EXPECT_FALSE(verdict.gap.computable);
   }
   std::printf("nulls: %d of 60 none, %d blamed on an effect\n", none, blamed);
@@ -58,10 +58,10 @@ TEST(Attribution, SingleEffects) {
                                                                  {"pressure_gradient", 1}}) {
     for (int i = 0; i < 6; ++i, ++n) {
       const Verdict verdict = judged({.effects = {{name, theta}}, .form = i % 2 ? 0.1 : 0.0}, 2000 + i);
-      const bool hit = verdict.verdict == "effects" && joined_effects(verdict) == name;
+      const bool hit = verdict.verdict == VerdictKind::effects && joined_effects(verdict) == name;
       right += hit;
-      abstained += verdict.verdict == "outside";
-      if (!hit) std::printf("%s: %s %s\n", name.c_str(), verdict.verdict.c_str(), joined_effects(verdict).c_str());
+      abstained += verdict.verdict == VerdictKind::outside;
+      if (!hit) std::printf("%s: %s %s\n", name.c_str(), word(verdict.verdict), joined_effects(verdict).c_str());
       EXPECT_TRUE(verdict.gap.computable);
       if (!hit) continue;
       const EffectEstimate& estimate = verdict.parameters.at(name);
@@ -86,7 +86,7 @@ TEST(Attribution, Pairs) {
   int both = 0, one = 0;
   for (int i = 0; i < 8; ++i) {
     const Verdict verdict = judged({.effects = {{"added_mass", 0.5}, {"pressure_gradient", 1}}, .form = 0.05}, 3000 + i);
-    both += joined_effects(verdict) == "added_mass+pressure_gradient" && verdict.verdict == "effects";
+    both += joined_effects(verdict) == "added_mass+pressure_gradient" && verdict.verdict == VerdictKind::effects;
     one += joined_effects(verdict).find("pressure_gradient") != std::string::npos;
   }
   std::printf("pairs: both right in %d of 8, one in %d\n", both, one);
@@ -100,11 +100,11 @@ TEST(Attribution, ThreeEffectsInRounds) {
   for (int i = 0; i < 6; ++i) {
     const Verdict verdict =
         judged({.effects = {{"added_mass", 0.5}, {"lift", 1.8}, {"pressure_gradient", 1}}, .form = i % 2 ? 0.05 : 0.0}, 3200 + i);
-    const bool hit = verdict.verdict == "effects" && joined_effects(verdict) == "added_mass+lift+pressure_gradient";
-    if (!hit) std::printf("three effects: %s %s\n", verdict.verdict.c_str(), joined_effects(verdict).c_str());
+    const bool hit = verdict.verdict == VerdictKind::effects && joined_effects(verdict) == "added_mass+lift+pressure_gradient";
+    if (!hit) std::printf("three effects: %s %s\n", word(verdict.verdict), joined_effects(verdict).c_str());
     right += hit;
-    outside += verdict.verdict == "outside";
-    if (verdict.verdict != "effects") continue;
+    outside += verdict.verdict == VerdictKind::outside;
+    if (verdict.verdict != VerdictKind::effects) continue;
     double sum = verdict.unexplained;
     ASSERT_EQ(verdict.causes.size(), verdict.effects.size());
     for (const Cause& cause : verdict.causes) sum += cause.share;
@@ -120,9 +120,9 @@ TEST(Attribution, EffectAndRemainder) {
   int named = 0;
   for (int i = 0; i < 6; ++i) {
     const Verdict verdict = judged({.effects = {{"pressure_gradient", 1}}, .form = 0.3}, 3300 + i);
-    const bool hit = verdict.verdict == "effects" && joined_effects(verdict) == "pressure_gradient";
+    const bool hit = verdict.verdict == VerdictKind::effects && joined_effects(verdict) == "pressure_gradient";
     named += hit;
-    if (!hit) std::printf("effect and remainder: %s %s\n", verdict.verdict.c_str(), joined_effects(verdict).c_str());
+    if (!hit) std::printf("effect and remainder: %s %s\n", word(verdict.verdict), joined_effects(verdict).c_str());
     if (!hit) continue;
     EXPECT_GT(verdict.unexplained, 0);
     EXPECT_LT(verdict.unexplained, 0.2);
@@ -136,7 +136,7 @@ TEST(Attribution, WeakSecondEffectIsTold) {
   int told = 0;
   for (int i = 0; i < 8; ++i) {
     const Verdict verdict = judged({.effects = {{"added_mass", 0.5}, {"measurement", 0.002 + 0.001 * i}}}, 3100 + i, false, 0);
-    if (verdict.verdict != "effects" || joined_effects(verdict) != "added_mass") continue;
+    if (verdict.verdict != VerdictKind::effects || joined_effects(verdict) != "added_mass") continue;
     const double alone = verdict.probability.at("added_mass"), both = verdict.probability.at("added_mass+measurement");
     const bool has_note = std::any_of(verdict.notes.begin(), verdict.notes.end(), [](const std::string& note) {
       return note.starts_with("Likelier than added_mass alone") && note.find("is added_mass+measurement") != std::string::npos;
@@ -153,9 +153,9 @@ TEST(Attribution, OutsideOfTheLibrary) {
   int abstained = 0, attributed = 0;
   for (int i = 0; i < 12; ++i) {
     const Verdict verdict = judged(i % 2 ? formula::Truth{.body = 0.3} : formula::Truth{.stratification = 3}, 4000 + i);
-    abstained += verdict.verdict == "outside";
-    attributed += verdict.verdict == "effects" && verdict.wording == "attributed";
-    EXPECT_EQ(verdict.verdict == "outside", verdict.wording == "outside");
+    abstained += verdict.verdict == VerdictKind::outside;
+    attributed += verdict.verdict == VerdictKind::effects && verdict.wording == Wording::attributed;
+    EXPECT_EQ(verdict.verdict == VerdictKind::outside, verdict.wording == Wording::outside);
   }
   std::printf("outside: %d of 12 abstained, %d attributed\n", abstained, attributed);
   EXPECT_GE(abstained, 9);
@@ -167,7 +167,7 @@ TEST(Attribution, IndistinguishableEffectsTie) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 4, 0, 3, noise, 11);
   formula::Sphere sphere(experiment, false, true);
   const Verdict verdict = diagnose(experiment, sphere);
-  EXPECT_EQ(verdict.verdict, "tie");
+  EXPECT_EQ(verdict.verdict, VerdictKind::tie);
   EXPECT_EQ(verdict.tie, (std::vector<std::string>{"added_mass", "entrained_water"}));
   EXPECT_FALSE(verdict.curves.empty());
   for (const GapCurve& curve : verdict.curves) {

@@ -208,7 +208,7 @@ inline Verdict judged(const Experiment& experiment) {
 inline std::string said(const Verdict& verdict) {
   std::string name;
   for (const std::string& effect : verdict.effects) name += (name.empty() ? "" : "+") + effect;
-  return verdict.verdict == "effects" ? name : verdict.verdict;
+  return verdict.verdict == VerdictKind::effects ? name : word(verdict.verdict);
 }
 
 }  // namespace snag::formula

@@ -22,7 +22,7 @@ TEST(Mistakes, InputFarOff) {
   for (int i = 0; i < 6; ++i) {
     const Verdict verdict = judged(formula::experiment({.nuisances = {{"flow.viscosity", i % 2 ? 0.3 : -0.2}}}, 6, 3, 3, noise, 7300 + i));
     right += said(verdict) == "input:flow.viscosity";
-    blamed += verdict.verdict == "effects" && said(verdict) != "input:flow.viscosity" && verdict.wording == "attributed";
+    blamed += verdict.verdict == VerdictKind::effects && said(verdict) != "input:flow.viscosity" && verdict.wording == Wording::attributed;
     std::printf("viscosity off: %s\n", said(verdict).c_str());
   }
   EXPECT_GE(right, 4);

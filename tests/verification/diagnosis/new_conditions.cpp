@@ -17,7 +17,7 @@ TEST(NewConditions, TellMoreThanRepeats) {
     const std::pair<const std::string, double> weak[] = {
         {"added_mass", 0.3}, {"pressure_gradient", 0.4}, {"lift", 0.5}, {"operating_point", 0.1}};
     const Verdict verdict = judged(formula::experiment({.effects = {weak[i / 3 % 4]}}, 2, 0, 1, coarse, 8700 + i));
-    if (verdict.verdict != "tie") {
+    if (verdict.verdict != VerdictKind::tie) {
       EXPECT_TRUE(verdict.identifiability.new_conditions.empty());
       continue;
     }
@@ -45,6 +45,6 @@ TEST(NewConditions, NoneForTwins) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 6, 0, 3, 5e-4, 8800);
   formula::Sphere sphere(experiment, false, true);
   const Verdict verdict = diagnose(experiment, sphere);
-  EXPECT_EQ(verdict.verdict, "tie");
+  EXPECT_EQ(verdict.verdict, VerdictKind::tie);
   EXPECT_TRUE(verdict.identifiability.new_conditions.empty());
 }

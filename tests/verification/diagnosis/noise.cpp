@@ -23,7 +23,7 @@ TEST(Noise, NullsWithAnotherNoise) {
     Experiment experiment = formula::experiment({}, 6, 0, 4, factor * noise, 7000 + i);
     for (Observable& observable : experiment.observables) observable.noise_u = noise;
     const Verdict verdict = judged(experiment);
-    none += verdict.verdict == "none";
+    none += verdict.verdict == VerdictKind::none;
     ASSERT_TRUE(verdict.noise.contains("x"));
     EXPECT_NEAR(verdict.noise.at("x").factor, factor, 0.2 * factor);
   }
@@ -37,7 +37,7 @@ TEST(Noise, NullsWithAnotherNoise) {
     }
     for (Observable& observable : experiment.observables) observable.noise_u = noise;
     const Verdict verdict = judged(experiment);
-    none += verdict.verdict == "none";
+    none += verdict.verdict == VerdictKind::none;
     EXPECT_GT(verdict.noise.at("z").correlation_time, 0.05);
   }
   std::printf("nulls with another noise: %d of %d none\n", none, n);

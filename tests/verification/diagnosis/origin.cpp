@@ -32,7 +32,7 @@ std::array<Count, 4> counted(const formula::Truth& truth, int n_sets) {
   for (int i = 0; i < n_sets; ++i) {
     for (const GapCell& cell : cells_of(truth, 300 + i)) {
       Count& count = counts[static_cast<std::size_t>(cell.window[0] / 0.2)];
-      count.born += cell.origin == "born", count.inherited += cell.origin == "inherited";
+      count.born += cell.origin == GapOrigin::born, count.inherited += cell.origin == GapOrigin::inherited;
     }
   }
   for (const Count& count : counts) std::printf("born %d, inherited %d; ", count.born, count.inherited);
@@ -59,7 +59,8 @@ TEST(Origin, OfAFlowThatIsWrongAllTheTime) {
   int with_new_gap = 0, n = 0;
   for (int i = 0; i < 5; ++i) {
     std::map<std::string, int> born;  // by point
-    for (const GapCell& cell : cells_of({.effects = {{"operating_point", 0.67}}}, 300 + i)) born[cell.point] += cell.origin == "born";
+    for (const GapCell& cell : cells_of({.effects = {{"operating_point", 0.67}}}, 300 + i))
+      born[cell.point] += cell.origin == GapOrigin::born;
     for (const auto& [point, cells] : born) with_new_gap += cells > 0, ++n;
   }
   std::printf("%d of %d points with a gap born after the start\n", with_new_gap, n);

@@ -100,8 +100,8 @@ TEST(Outliers, AreNotBlamedOnEffects) {
     const std::size_t there = spoil(null, share, 8100 + i).size();
     const Verdict verdict = judged(null);
     if (said(verdict) != "none")
-      std::printf("null, %.0f %%, %d repeats: %s %s\n", 100 * share, n_replicates, said(verdict).c_str(), verdict.wording.c_str());
-    none += said(verdict) == "none", outside += verdict.verdict == "outside";
+      std::printf("null, %.0f %%, %d repeats: %s %s\n", 100 * share, n_replicates, said(verdict).c_str(), word(verdict.wording));
+    none += said(verdict) == "none", outside += verdict.verdict == VerdictKind::outside;
     std::size_t rows = 0;
     for (const auto& [observable, found] : verdict.outliers) rows += found.rows.size();
     EXPECT_GE(static_cast<double>(rows), 0.7 * static_cast<double>(there));
@@ -112,7 +112,7 @@ TEST(Outliers, AreNotBlamedOnEffects) {
     named_without += said(judged(experiment)) == effect;
     spoil(experiment, share, 8300 + i);
     const Verdict of_spoilt = judged(experiment);
-    named += said(of_spoilt) == effect, outside += of_spoilt.verdict == "outside";
+    named += said(of_spoilt) == effect, outside += of_spoilt.verdict == VerdictKind::outside;
   }
   std::printf("with outliers: %d of %d nulls none (%d without), %d of %d effects named (%d without), %d outside\n", none, n, none_without,
               named, n, named_without, outside);

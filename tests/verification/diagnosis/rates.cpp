@@ -87,11 +87,11 @@ TEST(Rates, NamesTheEffectOfARandomModel) {
       Pump pump;
       return diagnose(e, pump);
     };
-    none += judged(0, 0).verdict == "none";
+    none += judged(0, 0).verdict == VerdictKind::none;
     const Verdict s = judged(1, 0), l = judged(0, 1.5);
-    sticking += s.verdict == "effects" && s.effects == std::vector<std::string>{"sticking"};
-    slip += l.verdict == "effects" && l.effects == std::vector<std::string>{"slip"};
-    for (const GapCell& cell : s.where) EXPECT_NE(cell.test, "z");
+    sticking += s.verdict == VerdictKind::effects && s.effects == std::vector<std::string>{"sticking"};
+    slip += l.verdict == VerdictKind::effects && l.effects == std::vector<std::string>{"slip"};
+    for (const GapCell& cell : s.where) EXPECT_NE(cell.test, CellTest::z);
     const EffectEstimate a = s.parameters.at("sticking"), b = l.parameters.at("slip");
     covered += (std::abs(a.mean - 1) < 1.96 * a.sd) + (std::abs(b.mean - 1.5) < 1.96 * b.sd);
   }
