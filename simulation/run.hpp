@@ -1,16 +1,13 @@
 #pragma once
 // A run from the case file to its results. It writes no page: whoever starts it says how the report is made.
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "simulation/output/report_writer.hpp"
 
 namespace snag {
-
-/// Makes report.html of a folder with results. On one rank; throws Error(io).
-using ReportWriter = std::function<void(const std::filesystem::path& folder)>;
 
 struct RunOptions {
   std::filesystem::path case_file;

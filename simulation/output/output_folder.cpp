@@ -3,7 +3,10 @@
 #include <mpi.h>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "parallel/session.hpp"
+#include "simulation/setup/heading.hpp"
+#include "simulation/setup/settings.hpp"
 
 namespace snag {
 
@@ -25,7 +28,21 @@ void refuse_results(const fs::path& folder, bool resume, bool overwrite) {
   }
 }
 
+/// results/NAME.
+fs::path named_by(const CaseFile& file) {
+  CaseSettings settings;
+  file.root().table("case").read(settings.section().parameters);
+  if (const fs::path name = settings.name; name.empty() || name == "." || name == ".." || name.has_parent_path())
+    throw Error(ExitCode::usage,
+                "[case] name = \"" + settings.name + "\" cannot name the output folder; give --out, or a name without \"/\"");
+  return fs::path("results") / settings.name;
+}
+
 }  // namespace
+
+OutputFolder OutputFolder::of(const CaseFile& file, const fs::path& out, bool resume, bool overwrite) {
+  return {out.empty() ? named_by(file) : out, resume, overwrite};
+}
 
 OutputFolder::OutputFolder(fs::path folder, bool resume, bool overwrite) : path_(std::move(folder)) {
   on_all_ranks(MPI_COMM_WORLD, [&] {
@@ -35,6 +52,17 @@ OutputFolder::OutputFolder(fs::path folder, bool resume, bool overwrite) : path_
   });
 }
 
+void OutputFolder::open(const Simulation& simulation, const CaseFile& file, bool resume) const {
+  on_all_ranks(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
+    prepare(!resume);
+    if (simulation.poses) simulation.poses->write(path_ / "rags");
+  });
+  log::open(path_ / "log.txt", resume);
+  log_heading(simulation, file);
+}
+
+/// Rank 0 only.
 void OutputFolder::prepare(bool fresh) const {
   try {
     if (fresh) {

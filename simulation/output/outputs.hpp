@@ -8,11 +8,13 @@
 #include "base/case_file.hpp"
 #include "base/monitor.hpp"
 #include "simulation/output/balance_output.hpp"
+#include "simulation/output/checkpoints.hpp"
 #include "simulation/output/field_output.hpp"
 #include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/rag_monitors.hpp"
 #include "simulation/output/rag_output.hpp"
+#include "simulation/output/report_writer.hpp"
 #include "simulation/output/summary.hpp"
 #include "simulation/output/wall_contact_output.hpp"
 #include "simulation/setup/simulation.hpp"
@@ -63,17 +65,17 @@ class Outputs {
   /// Opens monitors and collections; after a resume what lies behind the simulation's time is cut. `begun`: MPI_Wtime() at the beginning
   /// of this process. Collective; throws Error(io).
   Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun);
-  /// Monitors of the step just done, and fields where they are due. Collective; throws Error(io).
+  /// Monitors of the step just done, and fields and a checkpoint where they are due; after the last step whoever ends the run writes it.
+  /// Collective; throws Error(io).
   void after_step();
   /// State before the first step. Collective.
   void initial();
-  /// summary.json, with what ended the run early; returns the code of the run: that of a check that fails where all else went well.
-  /// Collective.
-  ExitCode finish(ExitCode exit, const std::string& error = "");
-  /// The disk has all monitors. Collective; throws Error(io).
-  void sync() const;
-  /// What a resume needs of the past of this run. Collective.
-  void save(CheckpointWriter& writer) const;
+  /// With all monitors on the disk: a checkpoint is never ahead of them. Collective; throws Error(io).
+  void write_checkpoint() const;
+  /// summary.json, with what ended the run early, and the report where there is a writer; returns the code of the run: that of a check that
+  /// fails where all else went well. Collective.
+  ExitCode finish(ExitCode exit, const ReportWriter& write_report, const std::string& error = "");
+  /// The past of this run. Collective.
   void load(CheckpointReader& reader);
 
  private:
@@ -91,10 +93,14 @@ class Outputs {
   void summarise_passages(Summary& summary) const;
   void summarise_checks(Summary& summary) const;
   bool due(double interval) const;
+  void sync() const;
+  /// What a resume needs of the past of this run. Collective.
+  void save(CheckpointWriter& writer) const;
 
   std::filesystem::path folder_;
   const CaseFile& file_;
   Simulation& simulation_;
+  Checkpoints checkpoints_;
   // open on rank 0
   Monitor<WaterRecord> residuals_;
   Monitor<PatchRecord> patches_;

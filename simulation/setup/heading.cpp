@@ -1,11 +1,20 @@
+// Heading of a log. It names what a case takes over from the default cloth although it changes a part of it: bonds, mass and liquid belong
+// together.
+//
 // Mass of the default cloth, soaked with a liquid of density rho:   m = m_f + (h - m_f/rho_f) rho
 //   m_f = 0.060 kg/m2 of fibres, rho_f = 1380 kg/m3 (polyester), h = 0.77 mm the thickness;   0.785 kg/m2 with water of 998.2 kg/m3
-#include "simulation/setup/rag_assumptions.hpp"
+#include "simulation/setup/heading.hpp"
 
 #include <cmath>
+#include <sstream>
 
+#include "base/log.hpp"
+#include "base/version.hpp"
 #include "base/words.hpp"
 #include "dem/templates/rag_settings.hpp"
+#include "parallel/session.hpp"
+#include "simulation/setup/forecast.hpp"
+#include "simulation/setup/gap_lines.hpp"
 
 namespace snag {
 
@@ -41,17 +50,16 @@ std::string mass_of_another_liquid(const RagSettings& rag, const RagSettings& st
          words(soaked_mass(rag.thickness, liquid)) + " kg/m2. Give mass_per_area";
 }
 
-}  // namespace
-
-std::vector<std::string> rag_assumptions(const CaseFile& resolved) {
+/// A line for each assumption; none for the cloth as it stands, soaked with water. `root`: of a case that has been read.
+std::vector<std::string> rag_assumptions(const Table& root) {
   double liquid = water_density;
-  const Table flow = resolved.root().table("flow");
+  const Table flow = root.table("flow");
   if (flow.present()) flow.read({{"density", &liquid, "kg/m3", 0, infinity, Basis::assumed, "Of the liquid."}});
   std::vector<std::string> lines;
   for (const auto& [shape, table_name] : {std::pair{RagSettings::Shape::rag, "rag"}, {RagSettings::Shape::disc, "disc"}}) {
     const RagSettings standard(shape);
     int number = 0;
-    for (const Table& table : resolved.root().tables(table_name)) {
+    for (const Table& table : root.tables(table_name)) {
       RagSettings rag(shape);
       table.read(rag.section().parameters);
       const std::string name = "[[" + std::string(table_name) + "]] " + std::to_string(++number);
@@ -60,6 +68,46 @@ std::vector<std::string> rag_assumptions(const CaseFile& resolved) {
     }
   }
   return lines;
+}
+
+/// The sub-step of the rags and what limits it.
+std::string sub_step_words(const RagSystem& rags) {
+  const double step = rags.stable_step(), limit = rags.step_limit().step;
+  return (std::isfinite(step) ? "sub-step " + words(step) + " s" : "no sub-steps") +
+         (std::isfinite(limit) ? " (limit " + words(limit) + " s by " + rags.step_limit().reason + ")"
+                               : " (neither bonds nor contacts limit the step)");
+}
+
+}  // namespace
+
+void log_heading(const Simulation& simulation, const CaseFile& file) {
+  std::ostringstream text;
+  text << "snag " << version_number << " (" << version_git << "), " << version_build << "\n"
+       << "case " << simulation.case_settings.name << ", sha256 " << file.sha256() << ", " << counted(size_of(MPI_COMM_WORLD), "rank")
+       << "\n";
+  if (simulation.mesh)
+    text << "mesh: " << simulation.mesh->n_cells_global << " cells, " << simulation.mesh->n_interior_global << " interior faces\n";
+  if (simulation.rags) {
+    text << "rags: " << counted(static_cast<std::int64_t>(simulation.rags->rags().size()), "piece") << " with "
+         << counted(simulation.rags->n_particles(), "particle") << ", " << sub_step_words(*simulation.rags) << "\n";
+  }
+  log::info(text.str());
+  for (const std::string& line : rag_assumptions(file.root())) log::info("assumed: " + line);
+  if (simulation.coupled)
+    for (const std::string& line : left_out_added_mass(simulation.coupled->coupling(), simulation.rags->rags()))
+      log::info("left out: " + line);
+  if (simulation.poses)
+    for (const std::string& line : simulation.poses->lines()) log::info(line);
+  if (simulation.holds)
+    for (const std::string& line : simulation.holds->lines()) log::info(line);
+  if (simulation.rags && rank_of(MPI_COMM_WORLD) == 0)
+    for (const std::string& line : gap_lines(simulation.walls, simulation.rags->rags(), simulation.contacts, simulation.time()))
+      log::info(line);
+  if (simulation.coupled && simulation.mesh) {
+    for (const std::string& warning :
+         kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))
+      log::warning(warning);
+  }
 }
 
 }  // namespace snag
