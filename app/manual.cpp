@@ -4,6 +4,7 @@
 
 #include "base/case_tables.hpp"
 #include "base/section_text.hpp"
+#include "base/split_keys.hpp"
 #include "diagnosis/data/experiment.hpp"
 #include "observe/camera.hpp"
 #include "simulation/setup/mesh_generator.hpp"
@@ -78,6 +79,9 @@ std::string case_file_manual() {
       "These names of earlier versions are read until 1.0, each with a warning that names the line. `case.resolved.toml` has the present "
       "names.\nThe hash of a case is the same with either name.\n\n"
       "| former name | name |\n|---|---|\n";
+  for (const SplitKey& key : split_keys())
+    former_names.push_back("| `[" + std::string(key.table) + "] " + key.former + "` | `[" + key.table + "]` `" + key.present_names() +
+                           "`: both |\n");
   for (const std::string& row : former_names) text += row;
   return text;
 }

@@ -12,6 +12,7 @@
 #include "base/parameter_text.hpp"
 #include "base/quotation.hpp"
 #include "base/sha256.hpp"
+#include "base/split_keys.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
 
@@ -248,6 +249,7 @@ CaseFile CaseFile::parse(const std::string& text, const std::string& name, const
     toml::table table = toml::parse(text, name);
     for (const std::string& override_text : overrides) apply_override(table, override_text);
     fill(*made.root_, table);
+    adopt_split_keys(*made.root_);
     made.root_->line = 0;
   } catch (const toml::parse_error& failure) {
     throw Error(ExitCode::usage,

@@ -156,6 +156,18 @@ class FormerNames(harness.CaseTest):
         self.assertEqual(len(self.renamed(run)), len(re.findall(r"{(\w+)}", FORMULA)))
         self.assertEqual(run.summary["case_sha256"], HASHES[FORMULA])
 
+    def test_one_key_that_is_two_now(self):
+        former = FORMULA.format(**PRESENT) + "[contact]\nbetween_particles = false\n"
+        present = FORMULA.format(**PRESENT) + "[contact]\nself_contact = false\nmutual_contact = false\n"
+        by_former, by_present = self.check(former), self.check(present)
+        self.assertEqual(len(self.renamed(by_former)), 1, by_former.stdout)
+        self.assertRegex(self.renamed(by_former)[0], r"case\.toml:\d+: \[contact\] between_particles is now called self_contact and mutual_contact; ")
+        self.assertEqual(self.renamed(by_present), [])
+        hashes = [re.search("sha256 [0-9a-f]+", run.stdout).group() for run in (by_former, by_present)]
+        self.assertEqual(*hashes)
+        override = self.check(present, "--set", "contact.between_particles=true")
+        self.assertEqual(len(self.renamed(override)), 1, override.stdout)
+
     def test_both_names_are_an_error(self):
         both = WATER.replace("{n_outer_correctors} = 2", "n_outer_correctors = 2\nouter_correctors = 2").format(**PRESENT)
         self.assertIn("given twice, as n_outer_correctors and outer_correctors", self.check(both, code=2).stderr)
