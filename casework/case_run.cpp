@@ -25,8 +25,12 @@ namespace {
 
 const ObservableRecord& record_of(const std::string& name) {
   const ObservableRecord* record = find_observable(name);
-  if (!record)
-    throw Error(ExitCode::usage, "observable \"" + name + "\": is not available without a mesh; available are " + joined(observable_ids()));
+  if (!record) {
+    std::vector<std::string> available;
+    for (const ObservableRecord& known : observables())
+      if (known.needs != Needs::pump) available.emplace_back(known.id);
+    throw Error(ExitCode::usage, "observable \"" + name + "\": is not available without a mesh; available are " + joined(available));
+  }
   if (record->needs == Needs::pump)
     throw Error(ExitCode::usage, "observable \"" + name +
                                      "\": is defined by [rag_passage], the flanges and the tongue of a pump, which a run "

@@ -61,9 +61,13 @@ double picture_size_of(const Experiment& experiment) {
 /// Throws Error(usage) for what no run of the case tells. Of a whole run, other names are columns of its monitors.
 void check_observable(const PointCase& base, const std::filesystem::path& file, const std::string& id) {
   const ObservableRecord* record = find_observable(id);
-  if (!record && !base.is_whole_run())
+  if (!record && !base.is_whole_run()) {
+    std::vector<std::string> available;
+    for (const ObservableRecord& known : observables())
+      if (base.reason_against(known).empty()) available.emplace_back(known.id);
     throw Error(ExitCode::usage,
-                file.string() + ": observable \"" + id + "\" is not available without a mesh; available are " + joined(observable_ids()));
+                file.string() + ": observable \"" + id + "\" is not available without a mesh; available are " + joined(available));
+  }
   const std::string reason = record ? base.reason_against(*record) : "";
   if (!reason.empty())
     throw Error(ExitCode::usage, file.string() + ": observable \"" + id + "\": " + reason + "; add it, or leave the observable out");

@@ -57,7 +57,7 @@ CaseFeatures facts_of(const toml::table& root, const Simulation& run) {
                     });
   facts.varies = !run.frozen() && (facts.gradient || !is_zero(value("flow.amplitude_m_s")));
   facts.flows = facts.uniform || (facts.varies && !run.mesh);
-  facts.turbulence = run.mesh || !is_zero(value("flow.turbulent_kinetic_energy_m2_s2"));
+  facts.turbulence = run.water ? !run.water->flow.turbulent_kinetic_energy.empty() : !is_zero(value("flow.turbulent_kinetic_energy_m2_s2"));
   std::int64_t n = 0;
   for (const Rag& rag : run.rags->rags()) {
     n += rag.n_particles;

@@ -33,7 +33,7 @@ effect = "inlet"
 meaning = "a mesh that is not there"
 set = ["mesh.file=absent.msh"]
 [model]
-candidates = ["operating_point", "drag_magnitude", "geometry", "inlet"]
+candidates = ["operating_point", "drag_magnitude", "turbulent_dispersion", "geometry", "inlet"]
 pairs = false
 [budget]
 max_runs = 200
@@ -78,6 +78,7 @@ class MeshedDiagnosis(harness.CaseTest):
         print(f"  operating point {found['mean']:.3f} +- {found['sd']:.3f}, true {TRUE_FACTOR - 1}, {verdict['runs']} runs")
         self.assertAlmostEqual(found["mean"], TRUE_FACTOR - 1, delta=3 * found["sd"])
         self.assertIn("fail", verdict["identifiability"]["blind"]["inlet"])
+        self.assertIn("no turbulence", verdict["identifiability"]["blind"]["turbulent_dispersion"], "the mesh is laminar")
 
         runs = sorted((self.work / "out" / "runs").glob("run*/summary.json"))
         self.assertGreater(len(runs), 10, "whole runs are kept")
