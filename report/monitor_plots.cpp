@@ -33,8 +33,10 @@ const std::vector<KnownPlot>& known_plots() {
        "Numerical dissipation by its cause",
        {"numerical_convection", "numerical_time", "numerical_pressure", "numerical_friction"}},
       {"balance", "Balance of power: residual", {"residual_power"}},
-      {"balance", "Angular momentum that the scheme takes from each zone", {"*_lost"}},
-      {"balance", "The same by terms of the equation", {"*_lost_convection", "*_lost_pressure", "*_lost_friction"}},
+      {"balance", "Numerical loss of angular momentum in each zone", {"*_lost"}},
+      {"balance",
+       "Numerical loss of angular momentum, by term of the equation",
+       {"*_lost_convection", "*_lost_pressure", "*_lost_friction"}},
       {"balance", "Balance of angular momentum: residual", {"*_residual"}},
       {"balance", "Balance of angular momentum", {"shaft_torque", "*_stored", "*_openings", "*_interface", "*_given"}},
       {"balance", "Torque of the water on walls by pressure", {"*_pressure"}},
@@ -88,8 +90,8 @@ std::string spaced(std::string name) {
   return name;
 }
 
-/// What a reader calls a column; without an entry: its name with spaces.
-std::string title_of(const std::string& column) {
+/// What a reader calls a column of a monitor; without an entry: its name with spaces. The plots of patches say which quantity they show.
+std::string title_of(const std::string& monitor, const std::string& column) {
   static const std::map<std::string, std::string> titles = {
       {"head", "static head"},
       {"head_total", "total head"},
@@ -139,7 +141,7 @@ std::string title_of(const std::string& column) {
        {std::pair<const char*, const char*>{"_y_plus_mean", "mean"}, {"_y_plus_min", "lowest"}, {"_y_plus_max", "highest"}})
     if (column.ends_with(end)) return column.substr(0, column.size() - std::string(end).size()) + ", " + of;
   for (const char* end : {"_flow", "_pressure"})
-    if (column.ends_with(end)) return column.substr(0, column.size() - std::string(end).size());
+    if (monitor == "patches" && column.ends_with(end)) return spaced(column.substr(0, column.size() - std::string(end).size()));
   return spaced(column);
 }
 
@@ -179,7 +181,7 @@ class Monitor {
     if (shown.empty()) return result;
     const Column& first = columns_[shown[0]];
     const bool is_one = shown.size() == 1, is_vector = stem(first.name) != first.name;
-    result.y_label = axis_label({is_one ? title_of(first.name) : is_vector ? spaced(stem(first.name)) : "", first.unit});
+    result.y_label = axis_label({is_one ? title_of(name_, first.name) : is_vector ? spaced(stem(first.name)) : "", first.unit});
     bool is_error_plot = true;
     for (const auto c : shown) {
       left_.erase(table_.columns[c]);
@@ -229,7 +231,7 @@ class Monitor {
   }
   PlotLine line(std::size_t c, long rag, const std::vector<std::size_t>& records, bool named) const {
     PlotLine result;
-    if (named) result.label = title_of(columns_[c].name);
+    if (named) result.label = title_of(name_, columns_[c].name);
     if (records_.size() > 1) result.label += (named ? ", rag " : "rag ") + std::to_string(rag);
     for (const auto i : records) {
       result.x.push_back(table_.values[0][i]);

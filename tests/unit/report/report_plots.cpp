@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "report/html.hpp"
 #include "report/line_plot.hpp"
@@ -148,6 +149,17 @@ TEST(MonitorPlots, LeaveTheStartUpOutOfTheScale) {
   EXPECT_EQ(found.plots[0].scale_from, 1.5);
   EXPECT_EQ(found.plots[0].lines[0].label, "static head");
   EXPECT_EQ(found.plots[0].lines[1].label, "total head");
+}
+
+// A column of the balance keeps its whole name in the legend: the pressure part of a loss is not the loss.
+TEST(MonitorPlots, NameThePartsOfTheBalance) {
+  const Monitors monitors;
+  monitors.write("balance.csv",
+                 "time [s],rotor_lost [N m],rotor_lost_pressure [N m],numerical [W],numerical_pressure [W]\n0,1,2,3,4\n1,2,3,4,5\n");
+  std::set<std::string> titles;
+  for (const auto& plot : monitor_plots(monitors.folder).plots)
+    for (const auto& line : plot.lines) titles.insert(line.label.empty() ? plot.y_label : line.label);
+  EXPECT_EQ(titles, (std::set<std::string>{"rotor lost [N m]", "rotor lost pressure [N m]", "numerical [W]", "numerical pressure [W]"}));
 }
 
 // What never changes is a number, not a plot; columns of different units never share an axis.
