@@ -1,0 +1,105 @@
+#pragma once
+// The steps of an attribution. For .cpp files of this folder only: attribution.cpp has their order, single_effects.cpp those up to the fits
+// of single effects, further_effects.cpp pairs, rounds and rivals of the leader.
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/attribution/attribution.hpp"
+#include "diagnosis/attribution/emulated_fit.hpp"
+
+namespace snag {
+
+/// Shares of the prior: how many effects of the library a model lacks is a Poisson number of mean one, each effect as likely as the others;
+/// a tenth is for what nobody listed, another for the mistakes that inputs and data may hold. To be named, an effect beyond the first has
+/// to bring 6 nats (a surplus effect takes up what the others leave): a rule of the verdict, of which the probabilities know nothing.
+inline constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes = 0.1;
+/// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
+/// A linear model of a gap of hundreds of nats is off by a share of them.
+inline constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
+inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
+                     n_screened_again = 3, most_effects = 5, most_a_round = 2;
+inline constexpr double blind_detectability = 3;
+/// Nats that an effect beyond the first has to promise in a screening to be fitted: the linear model may be off by some. And standard
+/// uncertainties that it is expected to show beside the others.
+inline constexpr double gain_wanted = nats_of_rule - 3, least_of_further = 1;
+
+class Attributor {
+ public:
+  Attributor(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress)
+      : model_(model), fitter_(fitter), progress_(progress) {}
+  Attribution attribute();
+
+ private:
+  void report(const std::string& stage, double done) const;
+  /// Whether this many runs a training point are still in the budget.
+  bool affordable(int runs_per_point);
+  int runs_of_emulator(int effect) const;
+  /// Differences of runs that chance has a part in are no derivatives.
+  bool by_emulator(const Hypothesis& hypothesis) const;
+  int runs_of(const Screened& screened) const;
+  Fit fit_of(const Screened& screened);
+  Fit emulated(int effect, const Refinement& refinement = {});
+  /// Few strengths first: what is far behind there need not be known better.
+  void fit_random_effects();
+  double prior_of(int k) const;
+  /// Each effect is there or not whatever the others are.
+  double log_prior(const Hypothesis& hypothesis) const;
+  /// Effects beyond the first, and mistakes, have to bring the nats of the rule.
+  double log_prior_of_verdict(const Hypothesis& hypothesis) const;
+  void add(Fit fit);
+  /// An input that does the same as an effect (the flow of all points as operating_point, the drag law as drag_magnitude) is that effect.
+  bool is_effect_by_another_name(const Screening& screening, int k) const;
+  void forget(const std::string& name);
+  void identify(const Screening& screening);
+  std::vector<Screened> screened_singles(const Screening& screening);
+  /// What the paths keep, and what their accelerations speak for most: an offset or a drift may hide it from the paths.
+  std::vector<Screened> kept(const std::vector<Screened>& singles) const;
+  void fit_singles(const std::vector<Screened>& screened);
+  /// A strength at the edge of its range says little of where to begin: a tenth of the probe strength inside.
+  Eigen::VectorXd start(const Screened& screened) const;
+  /// The hypothesis that holds effect k too.
+  Hypothesis with(Hypothesis hypothesis, int k) const;
+  Hypothesis pair_of(int a, int b) const;
+  /// The fits of single effects that are not random, the best first.
+  std::vector<int> best_singles() const;
+  /// Pairs: the best single effects with every other one, screened again around their fits. Where two effects act, the first screening is
+  /// far from linear, and either of them, or a third that stands for both, may lead among the single ones.
+  void fit_pairs(const Screening& first_screening);
+  /// Further effects, one a round: around the leading fit, which holds what was found, the others are screened again, and what promises
+  /// most is fitted with all that was found; then each effect that was there before is left out in its turn: it may have stood for what was
+  /// missing. The rounds end where none brings a better hypothesis.
+  void fit_in_rounds();
+  /// A fit without each of the effects that were there before, where there is none yet.
+  void fit_without_each(int larger, const Hypothesis& before);
+  /// An effect that was screened only is behind the best fit by what it was behind in the screening; a random one, until it is fitted,
+  /// brings nothing.
+  void credit_other_singles(const std::vector<int>& live);
+  /// Pairs that nobody looked at bring what the better of their effects brings, less what the other costs alone.
+  void credit_other_pairs(const std::vector<int>& live);
+  /// What looks like an effect of the leading hypothesis in this experiment may stand in its place: it is fitted, too, or the leader would
+  /// seem surer than it can be.
+  void fit_rivals_of_leader();
+  /// The runs of an emulator do not fill in a distribution; the likeliest hypothesis must not be refused for what they lack.
+  void refine_random_leader();
+  bool look_alike(int a, int b) const;
+  /// A hypothesis with effect k at place e, as strong by its own measure as what was there.
+  Screened with_instead(const Hypothesis& hypothesis, const Eigen::VectorXd& theta, std::size_t e, int k) const;
+  /// What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model
+  /// reaches: its screened evidence is too low.
+  double price_of_inputs(const Fit& fit) const;
+  static std::vector<Screened> best_first(std::map<std::string, Screened>&& by_name);
+  /// Pairs that look better than every single effect from the base model already.
+  std::vector<Screened> pairs_around_base(const Screening& screening) const;
+
+  Responses& model_;
+  Fitter& fitter_;
+  const std::function<void(const std::string&, double)>& progress_;
+  Attribution result_;
+  std::vector<int> candidates_, random_;
+  int n_singles_ = 1, n_mistakes_ = 0;  // live effects, mistakes
+  double none_screened_ = 0;            // log evidence of the base model in the screening
+};
+
+}  // namespace snag

@@ -1,0 +1,225 @@
+// Attribution: pairs, further effects in rounds, and rivals of the leader.
+#include <algorithm>
+#include <cmath>
+
+#include "base/words.hpp"
+#include "diagnosis/attribution/attributor.hpp"
+#include "diagnosis/statistics/statistics.hpp"
+
+namespace snag {
+
+Hypothesis Attributor::with(Hypothesis hypothesis, int k) const {
+  const auto before = [&](int a, int b) { return model_.effects()[a].name < model_.effects()[b].name; };
+  hypothesis.effects.insert(std::upper_bound(hypothesis.effects.begin(), hypothesis.effects.end(), k, before), k);
+  return hypothesis;
+}
+
+Hypothesis Attributor::pair_of(int a, int b) const { return with({{a}}, b); }
+
+std::vector<int> Attributor::best_singles() const {
+  std::vector<int> order;
+  for (int i = 1; i < static_cast<int>(result_.fits.size()); ++i)
+    if (!model_.effects()[result_.fits[i].hypothesis.effects[0]].random) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return result_.weight[a] > result_.weight[b]; });
+  return order;
+}
+
+void Attributor::fit_pairs(const Screening& first_screening) {
+  if (candidates_.size() < 2) return;
+  std::map<std::string, Screened> pairs;  // by name, each where it looks best
+  const std::vector<int> singles = best_singles();
+  for (std::size_t i = 0; i < singles.size() && i < n_screened_again; ++i) {
+    const Fit& single = result_.fits[singles[i]];
+    const int own = single.hypothesis.effects[0];
+    // What brings less than half of what the best one does is half of a pair whose other half is better.
+    const double none = result_.fits.front().log_evidence, best = result_.fits[singles.front()].log_evidence;
+    if (i > 0 && single.log_evidence - none < 0.5 * (best - none)) continue;
+    if (!affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(2))) break;
+    report("second effects beside " + result_.names[singles[i]], 0.6);
+    const Screening second(model_, fitter_, candidates_, single.at);
+    for (const int k : candidates_) {
+      if (k == own || second.detectability(k) < least_of_further) continue;
+      Screened screened = second.screen(pair_of(own, k));
+      const std::string name = name_of(screened.hypothesis, model_.effects());
+      if (screened.log_evidence + price_of_inputs(single) < result_.fits[singles.front()].log_evidence + gain_wanted) {
+        const NotFitted as_screened{screened.log_evidence, log_prior(screened.hypothesis)};
+        NotFitted& kept = result_.not_fitted.emplace(name, as_screened).first->second;
+        kept.log_evidence = std::max(kept.log_evidence, screened.log_evidence);
+        continue;
+      }
+      const auto found = pairs.find(name);
+      if (found == pairs.end() || found->second.log_evidence < screened.log_evidence) pairs.insert_or_assign(name, std::move(screened));
+    }
+  }
+  std::vector<Screened> order = best_first(std::move(pairs)), of_base = pairs_around_base(first_screening);
+  std::erase_if(of_base, [&](const Screened& s) {
+    return std::any_of(order.begin(), order.end(), [&](const Screened& other) { return other.hypothesis.effects == s.hypothesis.effects; });
+  });
+  order.resize(std::min<std::size_t>(order.size(), most_pairs));
+  order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
+  for (std::size_t i = 0; i < order.size() && affordable(fitter_.runs_of_fit(2)); ++i) {
+    // This set is far behind the fitted ones. The margin grows with the gap, because the error of a linear model does.
+    const double best = result_.fits[static_cast<std::size_t>(result_.first())].log_evidence, none = result_.fits.front().log_evidence;
+    if (order[i].log_evidence < best - std::max(screening_width, share_not_linear * (best - none))) continue;
+    report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
+    add(fit_of(order[i]));
+  }
+}
+
+void Attributor::fit_in_rounds() {
+  for (int leader = -1; leader != result_.first();) {
+    leader = result_.first();
+    const Hypothesis found = result_.fits[static_cast<std::size_t>(leader)].hypothesis;
+    const auto n = static_cast<int>(found.effects.size());
+    if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
+    report("a further effect beside " + result_.names[static_cast<std::size_t>(leader)], 0.86);
+    const Fit around = result_.fits[static_cast<std::size_t>(leader)];
+    const Screening further(model_, fitter_, candidates_, around.at);
+    std::map<std::string, Screened> larger;
+    for (const int k : candidates_) {
+      if (std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further) continue;
+      Screened screened = further.screen(with(found, k));
+      if (screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted)
+        larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
+    }
+    const std::vector<Screened> order = best_first(std::move(larger));
+    for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));
+    if (result_.first() != leader) fit_without_each(result_.first(), found);
+  }
+}
+
+void Attributor::fit_without_each(int larger, const Hypothesis& before) {
+  const Fit all = result_.fits[static_cast<std::size_t>(larger)];
+  for (const int k : before.effects) {
+    Screened rest{.hypothesis = {}, .theta = Eigen::VectorXd(all.theta.size() - 1)};
+    for (std::size_t e = 0; e < all.hypothesis.effects.size(); ++e) {
+      if (all.hypothesis.effects[e] == k) continue;
+      rest.theta[static_cast<Eigen::Index>(rest.hypothesis.effects.size())] = all.theta[static_cast<Eigen::Index>(e)];
+      rest.hypothesis.effects.push_back(all.hypothesis.effects[e]), rest.forms.push_back(all.at.state.form(e));
+    }
+    const std::string name = name_of(rest.hypothesis, model_.effects());
+    if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+    if (!affordable(runs_of(rest))) return;
+    add(fit_of(rest));
+  }
+}
+
+void Attributor::credit_other_singles(const std::vector<int>& live) {
+  const double none = result_.fits.front().log_evidence;
+  double best_fit = none, best_screened = 0;
+  for (std::size_t i = 0; i < result_.fits.size(); ++i) best_fit = std::max(best_fit, result_.fits[i].log_evidence);
+  for (const auto& [name, gain] : result_.screening) best_screened = std::max(best_screened, gain);
+  for (const int k : live) {
+    const std::string& name = model_.effects()[k].name;
+    if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+    const auto screened = result_.screening.find(name);
+    const double gain = screened == result_.screening.end() ? 0 : screened->second;
+    result_.not_fitted[name] = {std::min(none + gain, best_fit - (best_screened - gain)), log_prior({{k}})};
+  }
+}
+
+void Attributor::credit_other_pairs(const std::vector<int>& live) {
+  const double none = result_.fits.front().log_evidence;
+  std::map<int, double> alone;
+  for (const int k : live) {
+    const auto other = result_.not_fitted.find(model_.effects()[k].name);
+    if (other != result_.not_fitted.end()) alone[k] = other->second.log_evidence;
+  }
+  for (const Fit& fit : result_.fits)
+    if (fit.hypothesis.effects.size() == 1) alone[fit.hypothesis.effects[0]] = fit.log_evidence;
+  for (auto a = alone.begin(); a != alone.end(); ++a) {
+    for (auto b = std::next(a); b != alone.end(); ++b) {
+      const Hypothesis pair = pair_of(a->first, b->first);
+      const std::string name = name_of(pair, model_.effects());
+      const auto [other, better] = std::minmax(a->second, b->second);
+      if (std::count(result_.names.begin(), result_.names.end(), name) == 0)
+        result_.not_fitted.emplace(name, NotFitted{better + std::min(0.0, other - none), log_prior(pair)});
+    }
+  }
+}
+
+void Attributor::fit_rivals_of_leader() {
+  const Fit& first = result_.fits[static_cast<std::size_t>(result_.first())];
+  const Hypothesis leader = first.hypothesis;
+  const Eigen::VectorXd theta = first.theta;
+  for (std::size_t e = 0; e < leader.effects.size(); ++e) {
+    for (const int k : candidates_) {
+      if (!look_alike(leader.effects[e], k) || std::count(leader.effects.begin(), leader.effects.end(), k) > 0) continue;
+      const Screened rival = with_instead(leader, theta, e, k);
+      const std::string name = name_of(rival.hypothesis, model_.effects());
+      if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+      if (!affordable(runs_of(rival))) return;
+      report("fit of " + name, 0.85);
+      add(fit_of(rival));
+    }
+  }
+}
+
+void Attributor::refine_random_leader() {
+  const auto i = static_cast<std::size_t>(result_.first());
+  Fit& leader = result_.fits[i];
+  if (leader.hypothesis.effects.size() != 1 || !model_.effects()[leader.hypothesis.effects[0]].random) return;
+  const Refinement refinement{leader.theta[0], model_.n_seeds_of_distribution(leader.at.state)};
+  if (model_.base_is_random() || !affordable(refinement.n_seeds)) return;
+  report("more runs of " + result_.names[i], 0.87);
+  result_.weight[i] -= leader.log_evidence + result_.remainder[i].gain;
+  leader = emulated(leader.hypothesis.effects[0], refinement);
+  result_.remainder[i] = fit_remainder(model_, result_.fits.front(), leader);
+  result_.weight[i] += leader.log_evidence + result_.remainder[i].gain;
+}
+
+bool Attributor::look_alike(int a, int b) const {
+  const auto& ties = result_.identifiability.ties;
+  return std::any_of(ties.begin(), ties.end(), [&](const std::vector<std::string>& group) {
+    return std::count(group.begin(), group.end(), model_.effects()[a].name) > 0 &&
+           std::count(group.begin(), group.end(), model_.effects()[b].name) > 0;
+  });
+}
+
+Screened Attributor::with_instead(const Hypothesis& hypothesis, const Eigen::VectorXd& theta, std::size_t e, int k) const {
+  std::vector<std::pair<int, double>> effects;
+  for (std::size_t i = 0; i < hypothesis.effects.size(); ++i)
+    effects.emplace_back(hypothesis.effects[i], theta[static_cast<Eigen::Index>(i)]);
+  const Effect &own = model_.effects()[effects[e].first], &other = model_.effects()[k];
+  effects[e] = {k, effects[e].second / probe_strength(own) * probe_strength(other)};
+  std::sort(effects.begin(), effects.end(),
+            [&](const auto& a, const auto& b) { return model_.effects()[a.first].name < model_.effects()[b.first].name; });
+  Screened swapped{.hypothesis = {}, .theta = Eigen::VectorXd(static_cast<Eigen::Index>(effects.size()))};
+  for (const auto& [index, strength] : effects) {
+    swapped.theta[static_cast<Eigen::Index>(swapped.hypothesis.effects.size())] = strength;
+    swapped.hypothesis.effects.push_back(index);
+  }
+  return swapped;
+}
+
+double Attributor::price_of_inputs(const Fit& fit) const {
+  const auto m = static_cast<Eigen::Index>(model_.nuisances().size());
+  constexpr double by_chance = 2;  // standard uncertainties
+  double furthest = 0;
+  for (const double deviation : (fit.solution.d - fit.linear.prior).segment(fit.linear.lower.size(), m).eval())
+    furthest = std::max(furthest, std::abs(deviation));
+  return 0.5 * std::max(0.0, furthest * furthest - by_chance * by_chance);
+}
+
+std::vector<Screened> Attributor::best_first(std::map<std::string, Screened>&& by_name) {
+  std::vector<Screened> order;
+  for (auto& [name, screened] : by_name) order.push_back(std::move(screened));
+  std::stable_sort(order.begin(), order.end(), [](const Screened& a, const Screened& b) { return a.log_evidence > b.log_evidence; });
+  return order;
+}
+
+std::vector<Screened> Attributor::pairs_around_base(const Screening& screening) const {
+  double best_single = -std::numeric_limits<double>::infinity();
+  for (const int k : candidates_) best_single = std::max(best_single, screening.screen({{k}}).log_evidence);
+  std::map<std::string, Screened> pairs;
+  for (std::size_t a = 0; a < candidates_.size(); ++a) {
+    for (std::size_t b = a + 1; b < candidates_.size(); ++b) {
+      Screened screened = screening.screen(pair_of(candidates_[a], candidates_[b]));
+      if (screened.log_evidence > best_single + nats_of_rule)
+        pairs.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
+    }
+  }
+  return best_first(std::move(pairs));
+}
+
+}  // namespace snag
