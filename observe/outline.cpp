@@ -47,12 +47,6 @@ double Outline::mean_wave_size() const {
   return sum / static_cast<double>(waves.size());
 }
 
-double Outline::largest_wave() const {
-  double largest = 0;
-  for (const Wave& wave : waves) largest = std::max(largest, wave.radius);
-  return largest;
-}
-
 double Outline::smallest_wave() const {
   double smallest = waves.empty() ? 0 : infinity;
   for (const Wave& wave : waves) smallest = std::min(smallest, wave.radius);

@@ -23,8 +23,7 @@ struct Outline {
   std::vector<Wave> waves;     // counter-clockwise
 
   double mean_wave_size() const;  // m; the mean radius where there is no wave
-  double largest_wave() const;    // m; 0 without waves
-  double smallest_wave() const;
+  double smallest_wave() const;   // m; 0 without waves
 };
 
 struct OutlineSettings {

@@ -152,20 +152,6 @@ double energy_test(std::span<const double> first, std::span<const double> second
   return static_cast<double>(as_large) / (permutations + 1);
 }
 
-double area_metric(std::span<const double> a, std::span<const double> b) {
-  std::vector<double> x(a.begin(), a.end()), y(b.begin(), b.end()), both;
-  std::sort(x.begin(), x.end()), std::sort(y.begin(), y.end());
-  std::merge(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both));
-  double area = 0;
-  std::size_t i = 0, j = 0;
-  for (std::size_t k = 0; k + 1 < both.size(); ++k) {
-    while (i < x.size() && x[i] <= both[k]) ++i;
-    while (j < y.size() && y[j] <= both[k]) ++j;
-    area += std::abs(static_cast<double>(i) / x.size() - static_cast<double>(j) / y.size()) * (both[k + 1] - both[k]);
-  }
-  return area;
-}
-
 std::vector<bool> benjamini_hochberg(std::span<const double> p, double rate) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), 0);

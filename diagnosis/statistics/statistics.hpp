@@ -55,8 +55,6 @@ double energy_distance(std::span<const double> a, std::span<const double> b);
 /// p of the energy distance by permutations, deterministic for a seed. Of more than 500 values 500 quantiles stand for them: with few
 /// values on the other side p is the same, with as many the test is weaker.
 double energy_test(std::span<const double> first, std::span<const double> second, std::uint64_t seed, int permutations = 2000);
-/// Area between the two empirical distribution functions, in the unit of the values.
-double area_metric(std::span<const double> a, std::span<const double> b);
 
 /// Which hypotheses are rejected at this false discovery rate.
 std::vector<bool> benjamini_hochberg(std::span<const double> p, double rate = 0.05);

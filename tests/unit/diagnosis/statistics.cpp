@@ -62,7 +62,6 @@ TEST(Statistics, DistancesOfDistributions) {
   const std::vector<double> a{0, 1}, b{2, 3}, c{0, 1};
   EXPECT_DOUBLE_EQ(energy_distance(a, b), 2 * 2 - 0.5 - 0.5);
   EXPECT_DOUBLE_EQ(energy_distance(a, c), 0);
-  EXPECT_DOUBLE_EQ(area_metric(a, b), 2);
   NormalNumbers random(3);
   std::vector<double> x, near, far;
   for (int i = 0; i < 60; ++i) x.push_back(random()), near.push_back(random()), far.push_back(random() * 3);
