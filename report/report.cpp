@@ -163,7 +163,7 @@ void write_report(const std::filesystem::path& dir) {
   const bool is_passage = !passages.section.empty();
   page += heading(summary, title, passages.verdict);
   page += section("Run summary", run_table(summary));
-  if (is_passage) page += section("The rag's way through the pump", drawn.instants + passages.section);
+  if (is_passage) page += section("Passage of the rag through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
   page += section("Balances", balance_tables(summary));
   page += section("Walls", wall_table(summary));

@@ -204,11 +204,11 @@ std::string balance_tables(const json& summary) {
   const double lost = real(balance, "torque_lost_rel"), numerical = real(balance, "power_numerical_W");
   if (std::isfinite(lost))
     errors.push_back(
-        {"Torque that the scheme takes or gives, in rotor and stator", html::number(100 * lost) + " %",
+        {"Numerical loss of angular momentum, in rotor and stator", html::number(100 * lost) + " %",
          "Of the angular momentum that the shaft gives to the water, this share is lost or made in the computation: torque and head "
          "can disagree by as much. It falls with the square of the cell size."});
   if (power != 0)
-    errors.push_back({"Power that the scheme takes", share(numerical, power),
+    errors.push_back({"Numerical dissipation of power", share(numerical, power),
                       "Of the power of the shaft, this share is dissipated by the discretisation and not by a physical cause: it counts as "
                       "a loss of the "
                       "pump, which finer cells and shorter steps reduce."});

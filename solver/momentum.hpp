@@ -81,7 +81,7 @@ class Momentum {
   std::vector<double> flux_;                 // F, relative to the mesh, [n_faces], m3/s
   std::vector<Mat3> gradient_;
   std::vector<Vec3> psi_;                // limiter
-  std::vector<double> rate_;             // of convection and of diffusion, [2 n_all_cells], 1/s
+  std::vector<double> rate_;             // of convection and of diffusion, [2 n_all_cells], m3/s
   std::vector<std::uint8_t> in_corner_;  // [n_all_cells] 1 for cells in a corner
 };
 

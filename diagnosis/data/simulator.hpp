@@ -1,6 +1,6 @@
 #pragma once
 // What the diagnosis sees of the physics: named effects, each one number, and runs that answer with the observables. The solver behind it
-// is not seen (app/ implements it; tests use formulas).
+// is not seen (casework/ implements it; tests use formulas).
 #include <array>
 #include <cstdint>
 #include <limits>

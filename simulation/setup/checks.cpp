@@ -19,15 +19,15 @@ const std::vector<Check>& all_checks() {
   static const std::vector<Check> checks = {
       {"water.max_speed_over_scale", "Fastest water, over the speed of the case", DivergenceBounds::speed, water,
        "the water diverges: see the error for the cell, and what to do there"},
-      {"water.unsolved_steps", "Consecutive time steps whose equations were not solved (momentum: the most; k, epsilon: the last)",
+      {"water.unsolved_steps", "Longest sequence of time steps with an unconverged equation (of k and epsilon: the last sequence)",
        DivergenceBounds::unsolved_steps, water, "use a shorter [time] step, or look for thin cells (snag mesh --info)"},
       {"water.molecular_over_eddy_viscosity",
        "Viscosity of the water, over the largest eddy viscosity away from walls (at a Reynolds number above 4000)", 1, water,
        "there is no turbulence at the end, it died out or had no time to grow: use a shorter [time] step, a longer run or a larger "
        "[turbulence] initial_k; give model = \"laminar\" where that is meant"},
       {"conservation.mass_imbalance_rel",
-       "Mass imbalance of the cells (root of the sum of squares), over the flow through the domain, at least 1 % of what the speed of the "
-       "case would drive through its openings (a closed domain: through a cut)",
+       "Mass imbalance (root sum of squares over the cells) over the flow rate through the domain; that flow rate counts at least 1 % of "
+       "the speed of the case times the area of its openings (a closed domain: of a cut)",
        1e-4, water, "give [flow] pressure_tolerance a smaller value"},
       {"conservation.momentum_exchange_rel", "Momentum lost between water and rags, over what was exchanged", 1e-10, rags,
        "report this as an error of the program"},

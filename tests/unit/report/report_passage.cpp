@@ -177,7 +177,7 @@ TEST_F(PassageReport, ShowsThePassageOnce) {
   write_summary(summary());
   write_report(dir);
   const auto html = page();
-  EXPECT_TRUE(holds(html, "<h2>The rag's way through the pump</h2>"));
+  EXPECT_TRUE(holds(html, "<h2>Passage of the rag through the pump</h2>"));
   EXPECT_TRUE(holds(html, "The rag left the pump 0.25 s after"));
   EXPECT_TRUE(holds(html, ">edge of the impeller</text>") && holds(html, ">tongue</text>"));
   EXPECT_TRUE(holds(html, "mean of 20 degrees"));
