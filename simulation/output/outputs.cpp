@@ -7,7 +7,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
-#include "simulation/setup/case_reynolds.hpp"
+#include "simulation/output/wall_cells.hpp"
 #include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
@@ -95,17 +95,6 @@ std::vector<Column<WallRecord>> wall_columns(const Mesh& mesh, const std::vector
   return all;
 }
 
-std::vector<int> cells_at_walls(const FlowSolver& water) {
-  const Mesh& mesh = water.flow.mesh;
-  std::vector<int> cells;
-  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
-    if (water.boundary().is_wall(p))
-      for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) cells.push_back(mesh.owner[f]);
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 RotorState rotor_state(const RotatingZone& zone, double time) {
   return {{zone.origin(), zone.axis(), zone.speed(time)}, zone.angle(time), zone.slides()};
 }
@@ -117,24 +106,6 @@ double cross_section(const FlowSolver& water) {
     if (!water.boundary().is_wall(p)) openings += patch_area(water.flow, p);
   if (openings > 0) return openings;
   return std::pow(sum(MPI_COMM_WORLD, std::span(water.flow.mesh.cell_volume).first(water.flow.mesh.n_cells)), 2. / 3);
-}
-
-/// nu over the largest nu_t of the cells that no wall function sets: where it is above 1 in a flow that is turbulent, the turbulence has
-/// died out in the computation. Collective.
-std::optional<double> molecular_over_eddy_viscosity(const Simulation& simulation) {
-  const Flow& flow = simulation.water->flow;
-  const std::optional<CaseReynolds> Re = case_reynolds(simulation);
-  if (!Re || Re->number < transition_of_a_pipe || sum(MPI_COMM_WORLD, static_cast<std::int64_t>(flow.eddy_viscosity.size())) == 0)
-    return {};
-  std::vector<char> at_wall(static_cast<std::size_t>(flow.mesh.n_cells), 0);
-  for (const int c : cells_at_walls(*simulation.water)) at_wall[static_cast<std::size_t>(c)] = 1;
-  double largest = -1;  // no cell yet
-  for (int c = 0; c < flow.mesh.n_cells; ++c)
-    if (!at_wall[static_cast<std::size_t>(c)]) largest = std::max(largest, flow.eddy_viscosity[c]);
-  largest = maximum(MPI_COMM_WORLD, largest);
-  if (largest < 0) return {};
-  const double molecular = flow.dynamic_viscosity / flow.density;
-  return molecular / std::max(largest, 1e-12 * molecular);  // so that it is a number
 }
 
 }  // namespace
@@ -375,30 +346,6 @@ void Outputs::write_phase() const {
   on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) pump_->write_phase();
   });
-}
-
-void Outputs::summarise_checks(Summary& s) const {
-  if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
-    s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps(),
-               molecular_over_eddy_viscosity(simulation_)};
-    constexpr double least_share = 0.01;  // at shut-off nothing passes but round-off
-    const double scale = std::max(largest_through_, least_share * water->watch().speed() * cross_section_);
-    if (scale > 0) s.conservation.mass_imbalance = largest_imbalance_ / scale;
-    if (const RotatingZone* zone = water->flow.rotating_zone) {
-      s.mesh.facets = zone->mesh().n_facets_global();
-      s.conservation.interface_closure = largest_closure_;
-    }
-  }
-  if (simulation_.coupled && simulation_.water && simulation_.coupled->coupling().settings.two_way())
-    s.conservation.momentum_exchange = largest_exchange_;
-  if (simulation_.coupled && simulation_.water) {
-    const Coupling& coupling = simulation_.coupled->coupling();
-    const double width = coupling.kernel_width(simulation_.rags->rags());
-    const bool has_width = coupling.shape->support_radius(width) > 0;  // not the kernel of one cell
-    s.coupling = {has_width ? width : 0, coupled_.width_least, coupled_.width_largest, coupled_.solid_fraction, {}};
-    if (coupled_.force > 0) s.coupling->force_share_at_walls = coupled_.force_at_walls / coupled_.force;
-  }
-  if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
 }
 
 }  // namespace snag

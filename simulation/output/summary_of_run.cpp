@@ -1,15 +1,38 @@
 // The end of a run: summary.json from the state of the simulation and the sums of the outputs, and the report.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/log.hpp"
 #include "parallel/session.hpp"
+#include "parallel/sum.hpp"
 #include "simulation/output/outputs.hpp"
+#include "simulation/output/wall_cells.hpp"
+#include "simulation/setup/case_reynolds.hpp"
 #include "simulation/setup/checks.hpp"
+#include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
 
 namespace {
+
+/// nu over the largest nu_t of the cells that no wall function sets: where it is above 1 in a flow that is turbulent, the turbulence has
+/// died out in the computation. Collective.
+std::optional<double> molecular_over_eddy_viscosity(const Simulation& simulation) {
+  const Flow& flow = simulation.water->flow;
+  const std::optional<CaseReynolds> Re = case_reynolds(simulation);
+  if (!Re || Re->number < transition_of_a_pipe || sum(MPI_COMM_WORLD, static_cast<std::int64_t>(flow.eddy_viscosity.size())) == 0)
+    return {};
+  std::vector<char> at_wall(static_cast<std::size_t>(flow.mesh.n_cells), 0);
+  for (const int c : cells_at_walls(*simulation.water)) at_wall[static_cast<std::size_t>(c)] = 1;
+  double largest = -1;  // no cell yet
+  for (int c = 0; c < flow.mesh.n_cells; ++c)
+    if (!at_wall[static_cast<std::size_t>(c)]) largest = std::max(largest, flow.eddy_viscosity[c]);
+  largest = maximum(MPI_COMM_WORLD, largest);
+  if (largest < 0) return {};
+  const double molecular = flow.dynamic_viscosity / flow.density;
+  return molecular / std::max(largest, 1e-12 * molecular);  // so that it is a number
+}
 
 /// The code of a run: that of the first check that fails where all else went well. Says which.
 ExitCode judged(const Summary& summary, ExitCode exit) {
@@ -59,6 +82,30 @@ void Outputs::summarise_passages(Summary& summary) const {
     const PumpRecord pump(folder_ / "monitors");
     for (RagSummary& rag : summary.rags) rag.pump = pump.passage(rag.verdict.entered.value_or(NAN), rag.verdict.exited.value_or(NAN));
   });
+}
+
+void Outputs::summarise_checks(Summary& s) const {
+  if (const FlowSolver* water = simulation_.frozen() ? nullptr : simulation_.water.get()) {
+    s.water = {water->watch().speed(), water->watch().largest_speed_ratio(), water->watch().unsolved_steps(),
+               molecular_over_eddy_viscosity(simulation_)};
+    constexpr double least_share = 0.01;  // at shut-off nothing passes but round-off
+    const double scale = std::max(largest_through_, least_share * water->watch().speed() * cross_section_);
+    if (scale > 0) s.conservation.mass_imbalance = largest_imbalance_ / scale;
+    if (const RotatingZone* zone = water->flow.rotating_zone) {
+      s.mesh.facets = zone->mesh().n_facets_global();
+      s.conservation.interface_closure = largest_closure_;
+    }
+  }
+  if (simulation_.coupled && simulation_.water && simulation_.coupled->coupling().settings.two_way())
+    s.conservation.momentum_exchange = largest_exchange_;
+  if (simulation_.coupled && simulation_.water) {
+    const Coupling& coupling = simulation_.coupled->coupling();
+    const double width = coupling.kernel_width(simulation_.rags->rags());
+    const bool has_width = coupling.shape->support_radius(width) > 0;  // not the kernel of one cell
+    s.coupling = {has_width ? width : 0, coupled_.width_least, coupled_.width_largest, coupled_.solid_fraction, {}};
+    if (coupled_.force > 0) s.coupling->force_share_at_walls = coupled_.force_at_walls / coupled_.force;
+  }
+  if (rag_monitors_) s.conservation.particles_beyond_walls = rag_monitors_->most_beyond_walls();
 }
 
 ExitCode Outputs::finish(ExitCode exit, const ReportWriter& write_report, const std::string& error) {
