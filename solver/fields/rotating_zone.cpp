@@ -4,10 +4,16 @@
 
 #include "base/case_file.hpp"
 #include "base/case_tables.hpp"
+#include "base/choice.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 
 namespace snag {
+
+namespace {
+enum class Motion { sliding, frame };
+constexpr std::array motion_words{"sliding", "frame"};
+}  // namespace
 
 Section RotatingZoneSettings::section() {
   Parameter name = setting("zone", &zone, "Physical volume of the rotor.");
@@ -21,7 +27,7 @@ Section RotatingZoneSettings::section() {
               setting("motion", &motion,
                       "sliding: the mesh turns in every step. frame: multiple reference frame, the mesh stays at start_angle and the flow "
                       "is that of this rotor position.",
-                      {"sliding", "frame"}),
+                      {motion_words.begin(), motion_words.end()}),
               setting("rotor_patch", &rotor_patch, "Sliding interface on the side of the rotor."),
               setting("stator_patch", &stator_patch, "Sliding interface on the side of the stator."),
               {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis."},
@@ -60,7 +66,7 @@ RotatingZone::RotatingZone(Mesh& mesh, const RotatingZoneSettings& settings)
       speed_(settings.speed),
       ramp_(settings.ramp),
       start_angle_(settings.start_angle),
-      slides_(settings.motion == "sliding") {}
+      slides_(chosen<Motion>(settings.motion, motion_words) == Motion::sliding) {}
 
 double RotatingZone::speed(double time) const { return time < ramp_ ? speed_ * time / ramp_ : speed_; }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/choice.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
@@ -31,9 +32,17 @@ const char* const boomeramg_options =
 const char* const gamg_options =
     "-snag_pressure_pc_type gamg -snag_pressure_pc_gamg_threshold 0.02 -snag_pressure_pc_gamg_aggressive_coarsening 2";
 
+enum class Multigrid { boomeramg, gamg };
+constexpr std::array multigrid_words{"boomeramg", "gamg"};
+
 /// A singular matrix must not be factorised on the coarsest level.
 std::string options(const std::string& multigrid, bool singular) {
-  if (multigrid == "gamg") return gamg_options;
+  switch (chosen<Multigrid>(multigrid, multigrid_words)) {
+    case Multigrid::gamg:
+      return gamg_options;
+    case Multigrid::boomeramg:
+      break;
+  }
   return std::string(boomeramg_options) + (singular ? "symmetric-SOR/Jacobi" : "Gaussian-elimination");
 }
 
