@@ -102,7 +102,8 @@ std::string confusion(const ScoreCard& card) {
 constexpr const char* meaning =
     "<p>Each set is a synthetic experiment whose truth was stored before the diagnosis read its data. Null: no effect is missing. Outside: "
     "the cause is not in the library of effects. Detectable: the effect differs from the base model (each effect of a pair from the other "
-    "alone) by 3 standard uncertainties or more, for any values of the uncertain inputs. Sets that can be told: null and detectable "
+    "alone) by 3 standard uncertainties or more, for any values of the uncertain inputs. Sets that can be distinguished: null and "
+    "detectable "
     "ones.</p>\n";
 
 constexpr const char* of_intervals =

@@ -84,7 +84,8 @@ std::string verdict_advice(const Verdict& v) {
     const auto& conditions = v.identifiability.new_conditions;
     if (conditions.empty()) return "Change nothing yet. " + v.identifiability.next_experiment;
     return "Change nothing yet. Measure " + conditions.front().observable + " at " + condition_in_words(conditions.front()) +
-           ": one test there tells the two likeliest causes apart by " + rounded(conditions.front().nats) + " nats; 6 are wanted.";
+           ": one test there is expected to distinguish the two most probable causes by " + rounded(conditions.front().nats) +
+           " nats; 6 are wanted.";
   }
   const GapCell* largest = nullptr;
   for (const GapCell& cell : v.where)

@@ -7,6 +7,6 @@ namespace snag {
 // no matter of over-confidence, and were left out. The mean was -0.70 at 1, -0.67 from 1.2 to 1.5, -0.70 at 2: the minimum is flat. On 104
 // such sets of seeds 101 and 102, with the prior left as it is and second effects as likely as first ones, it is flatter still, and the
 // number was kept: -0.34 at 1 and 1.2, -0.35 at 1.4, -0.37 at 2.
-Calibration calibration() { return {1.4, "72 sphere sets of level L2 in which something can be told, seeds 11 and 12, log score"}; }
+Calibration calibration() { return {1.4, "72 sphere sets of level L2 that can be distinguished, seeds 11 and 12, log score"}; }
 
 }  // namespace snag

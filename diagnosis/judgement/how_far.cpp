@@ -150,7 +150,7 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
   const std::uint64_t seed = model.experiment().seed;
   if (const double noise = excess_of_noise(before, seed); chosen > 0 && verdict.gap.before <= noise)
     verdict.notes.push_back("The withheld points show no gap (excess " + words(verdict.gap.before) + ", noise alone makes up to " +
-                            words(noise) + "): how far it shrinks cannot be told from them. Withhold points where the effect is larger.");
+                            words(noise) + "): the shrinkage cannot be estimated from them. Withhold points where the effect is larger.");
   // The chosen one first: without it there is no gap after.
   std::vector<int> order;
   if (chosen > 0) order.push_back(chosen);

@@ -266,7 +266,7 @@ class Judge {
     constexpr double working_false_rate = 0.2;
     if (a_.placebo_rate > working_false_rate)
       v_.notes.push_back("Placebo effects would be chosen in " + words(100 * a_.placebo_rate) +
-                         " % of the cases: the screening cannot tell an effect from chance here."),
+                         " % of the cases: the screening cannot distinguish an effect from chance here."),
           hold = false;
     return hold;
   }

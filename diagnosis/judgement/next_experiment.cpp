@@ -68,7 +68,7 @@ std::string what_remains(const Responses& model, const Fit& fit) {
   }
   const auto most = std::max_element(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return "What no effect explains shows most in " + most->first.first + " at point " + most->first.second +
-         ": measured at further operating points around it, it would tell what the missing cause depends on.";
+         ": measured at further operating points around it, it would show what the missing cause depends on.";
 }
 
 /// More digits are not known of a prediction.

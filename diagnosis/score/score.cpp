@@ -224,8 +224,8 @@ ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
                    {"shrinkage over ideal, median of right verdicts", ">= 0.9", card.shrinkage_median, 0.9, 1e9, n_shrunk},
                    {"95 % intervals of the shrinkage that hold the ideal", "0.9 to 0.98", card.interval_coverage, 0.9, 0.98, n_shrunk},
                    {"detection limit, gap over floor", "<= 2", card.detection_limit, 0, 2, static_cast<int>(singles)},
-                   {"calibration error of sets that can be told", "<= 0.08", calibration_error(telling), 0, 0.08, n_telling},
-                   {"Brier score of sets that can be told", "<= 0.25", brier_of_telling, 0, 0.25, n_telling}};
+                   {"calibration error of sets that can be distinguished", "<= 0.08", calibration_error(telling), 0, 0.08, n_telling},
+                   {"Brier score of sets that can be distinguished", "<= 0.25", brier_of_telling, 0, 0.25, n_telling}};
   return card;
 }
 

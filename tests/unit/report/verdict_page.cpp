@@ -73,8 +73,8 @@ TEST(VerdictPage, NothingIsChangedWithoutACause) {
   EXPECT_EQ(verdict_advice(tie), "Change nothing yet. 327 more repeats are enough.");
   tie.identifiability.new_conditions = {{"B", "flow.amplitude", 2, "z", 3.2, 0.4}};
   EXPECT_EQ(verdict_advice(tie),
-            "Change nothing yet. Measure z at point B with flow.amplitude doubled: one test there tells the two likeliest "
-            "causes apart by 3.2 nats; 6 are wanted.");
+            "Change nothing yet. Measure z at point B with flow.amplitude doubled: one test there is expected to distinguish the "
+            "two most probable causes by 3.2 nats; 6 are wanted.");
   EXPECT_TRUE(holds(verdict_page(tie), "point B with flow.amplitude doubled"));
 }
 
