@@ -27,7 +27,7 @@ void apply_override(toml::table& root, const std::string& text) {
     try {
       parsed = toml::parse("v = \"" + quoted + "\"");
     } catch (const toml::parse_error&) {
-      throw fail("has a value that is no TOML");
+      throw fail("its value is not valid TOML");
     }
   }
   const std::vector<std::string> steps = split(path, '.');

@@ -144,7 +144,7 @@ class Reader {
 std::vector<std::int64_t> whole(const std::vector<double>& values, const std::filesystem::path& file) {
   constexpr double largest = 9007199254740992;  // 2^53, up to which a double counts
   for (const double value : values)
-    if (!(std::abs(value) <= largest)) fail(file, "a polygon has the number " + words(value) + ", which is none of a point");
+    if (!(std::abs(value) <= largest)) fail(file, "a polygon refers to point " + words(value) + ", which is not the number of a point");
   return {values.begin(), values.end()};
 }
 
@@ -153,7 +153,8 @@ void require_offsets(const VtkPiece& piece, const std::filesystem::path& file) {
   std::int64_t before = 0;
   for (const std::int64_t offset : piece.offsets) {
     if (offset < before || offset > static_cast<std::int64_t>(piece.connectivity.size()))
-      fail(file, "a polygon ends at " + std::to_string(offset) + " of " + std::to_string(piece.connectivity.size()) + " corners");
+      fail(file, "polygon offset " + std::to_string(offset) + " is not between the one before and the number of corners, " +
+                     std::to_string(piece.connectivity.size()));
     before = offset;
   }
 }

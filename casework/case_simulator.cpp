@@ -320,7 +320,7 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
     const RunResult& kept = cached_.at(job.key);
     if (const std::size_t n = slots(job.request->point).size(); kept.values.size() != n)
       throw Error(ExitCode::io, "table of runs: \"" + shortened(job.key) + "\" has " + std::to_string(kept.values.size()) +
-                                    " values, its point has " + std::to_string(n) + "; remove the line: that run is then done again");
+                                    " values, its point has " + std::to_string(n) + "; remove the line; the run is then repeated");
     results.push_back(as_observed(*job.request, job.change, kept));
   }
   return results;

@@ -133,7 +133,7 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
                    .maximum = p.maximum,
                    .random = p.random,
                    .acts_on_water = p.acts_on_water,
-                   .blind = held ? "the base case holds it" : reason_against(p, facts),
+                   .blind = held ? "the base case already contains it" : reason_against(p, facts),
                    // The mean of random runs is no mixture of their forms.
                    .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size()))});
   }

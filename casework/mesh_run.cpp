@@ -99,7 +99,7 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
   if (code == ExitCode::stopped)
     throw Error(code, folder.string() + ": the run was stopped; start the same diagnosis again, it continues from the checkpoint");
   if (code != ExitCode::ok)
-    throw Error(code, "exit code " + std::to_string(static_cast<int>(code)) + "; why is in " + (folder / "log.txt").string());
+    throw Error(code, "exit code " + std::to_string(static_cast<int>(code)) + "; the reason is in " + (folder / "log.txt").string());
 }
 
 std::vector<double> read_observables(const std::filesystem::path& folder, const std::vector<ObservableRequest>& asked) {

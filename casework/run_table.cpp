@@ -38,7 +38,7 @@ std::vector<StoredRun> run_table(std::string_view text, const std::filesystem::p
     if (!values)
       throw Error(ExitCode::io, file.string() + ":" + std::to_string(runs.size() + 1) + ": \"" + shortened(std::string(line)) +
                                     "\" is not a run (program, key, numbers each with a comma behind it, failure; tabs between them); "
-                                    "remove the line: that run is then done again");
+                                    "remove the line; the run is then repeated");
     runs.push_back({parts[0], parts[1], {.values = std::move(*values), .failure = parts[3]}});
   }
   return runs;

@@ -210,8 +210,8 @@ void FlowSolver::correct_turbulence(int outer, const TimeScheme& time, StepRepor
       log::warning("equation of " + symbol + ": change of " + scientific(sweeps.final) + " after " + std::to_string(sweeps.sweeps) +
                    " sweeps; take smaller steps");
   if (did.raised_cells > 0)
-    log::warning("turbulence: what the model transports was too small to compute with in " + std::to_string(did.raised_cells) +
-                 " cells and was raised; look at the turbulence of inlets and of the start");
+    log::warning("turbulence: a variable fell below its smallest usable value in " + std::to_string(did.raised_cells) +
+                 " cells and was raised to it; check the turbulence at inlets and at the start");
   report.seconds_turbulence += seconds() - begun;
 }
 

@@ -141,7 +141,7 @@ void check_written(const std::filesystem::path& file) {
   while (std::getline(in, line)) last = line;
   if (last.starts_with("$End")) return sync_to_disk(file);
   OpenFile(file, O_WRONLY | O_APPEND).write("\n");  // throws with the reason, such as a full disk
-  throw Error(ExitCode::io, file.string() + ": was cut off after " + std::to_string(bytes) + " bytes; is the disk full?");
+  throw Error(ExitCode::io, file.string() + ": was interrupted after " + std::to_string(bytes) + " bytes; is the disk full?");
 }
 
 /// Through a temporary name, so that a reader never sees half a mesh.

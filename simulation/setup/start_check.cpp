@@ -142,7 +142,8 @@ void check_waiting(const Simulation& simulation, int rag) {
   if (simulation.mesh->turning.zone < 0)
     throw refused(properties, found, "all must start in the water; correct its place or size, or [mesh] scale");
   log::warning("start of " + properties.name + ": " + found +
-               " at the angle of the rotor at the start; the run ends if that is still so at " + words(piece.insert_time) + " s");
+               " at the angle of the rotor at the start; the run stops with an error if this is still true at t = " +
+               words(piece.insert_time) + " s");
 }
 
 double overlap_of_particles(RagSystem& rags) {

@@ -79,8 +79,8 @@ std::vector<PatchBoundary> read_boundaries(const Table& root) {
       auto boundary = boundaries().make(heading.kind, table.where());
       table.read(boundary->section().parameters);
       if (heading.turbulence.given() && !boundary->is_open())
-        throw Error(ExitCode::usage, table.where() + ": turbulence of fluid that enters is given for kind \"" + heading.kind +
-                                         "\", where none enters; remove the keys turbulence_...");
+        throw Error(ExitCode::usage, table.where() + ": keys turbulence_... are allowed only where fluid enters; kind = \"" + heading.kind +
+                                         "\" has no inflow; remove them");
       conditions.push_back({patch, table.where(), std::move(boundary), heading.turbulence});
     }
   }

@@ -280,7 +280,7 @@ TEST_F(CaseSimulatorTest, ForcesOfTheBase) {
   const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
   const auto& effects = simulator.effects();
   const auto mass = std::find_if(effects.begin(), effects.end(), [](const Effect& effect) { return effect.name == "added_mass"; });
-  EXPECT_EQ(mass->blind, "the base case holds it");
+  EXPECT_EQ(mass->blind, "the base case already contains it");
   const PointCase base(folder_ / "other.toml");
   const auto overrides = base.change({}, {}, 7).overrides;
   EXPECT_EQ(overrides, (std::vector<std::string>{"coupling.turbulent_dispersion.seed=7"}));
