@@ -140,7 +140,7 @@ class Interrupted(harness.CaseTest):
         shutil.rmtree(self.work / "out" / "monitors")
         self.assertRegex(self.ended(run, 6), r"monitors/\w+.csv: was removed while the run was writing to it")
         self.begun("--resume")
-        self.assertRegex((self.work / "out" / "log.txt").read_text(), r"monitors/rags.csv: is not there, its records up to .* s are missing")
+        self.assertRegex((self.work / "out" / "log.txt").read_text(), r"monitors/rags.csv: does not exist, so records up to .* s are lost")
 
 
 if __name__ == "__main__":
