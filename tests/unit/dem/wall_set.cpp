@@ -329,7 +329,7 @@ TEST(WallSettings, Patches) {
 // [contact] reads through its records, defaults within their ranges.
 TEST(ContactSettings, CaseFile) {
   ContactSettings settings;
-  for (const Parameter& p : settings.parameters())
+  for (const Parameter& p : settings.section().parameters)
     if (const auto* number = std::get_if<double*>(&p.target)) {
       EXPECT_TRUE(**number >= p.minimum && **number <= p.maximum) << p.key;
     }
@@ -342,7 +342,7 @@ TEST(ContactSettings, CaseFile) {
   EXPECT_EQ(settings.wall_stiffness_factor, 10);
   EXPECT_FALSE(settings.self_contact);
   EXPECT_FALSE(settings.mutual_contact);
-  EXPECT_THROW(CaseFile::parse("[contact]\nrestitution = 1.2\n").root().table("contact").read(settings.parameters()), Error);
+  EXPECT_THROW(CaseFile::parse("[contact]\nrestitution = 1.2\n").root().table("contact").read(settings.section().parameters), Error);
 }
 
 }  // namespace
