@@ -83,30 +83,24 @@ void check_same_case(const CaseFile& file, const std::filesystem::path& folder, 
                                      "); resume with the same case and --set values; only [time] end may be another");
 }
 
-/// The folder holds all that a run writes that has ended at the checkpoint. Collective.
-bool is_complete(const std::filesystem::path& folder, const CaseFile& file, bool with_report, std::int64_t time_step) {
-  int complete = rank_of(world) == 0 && is_of_ended_run(folder / "summary.json", file.sha256(), time_step) &&
+/// The folder holds all that a run writes that has ended at the checkpoint: says so. Collective.
+bool has_ended_before(const std::filesystem::path& folder, const CaseFile& file, bool with_report, const CheckpointReader& reader) {
+  int complete = rank_of(world) == 0 && is_of_ended_run(folder / "summary.json", file.sha256(), reader.stamp().time_step) &&
                  (!with_report || std::filesystem::exists(folder / "report.html"));
   MPI_Bcast(&complete, 1, MPI_INT, 0, world);
-  return complete != 0;
+  if (complete == 0) return false;
+  if (!reader.fallback().empty()) log::warning(reader.fallback());
+  log::info(folder.string() + ": the run ended at " + words(reader.stamp().time) +
+            " s; there is nothing to resume and nothing is changed; a later [time] end extends it, --overwrite starts it again");
+  return true;
 }
 
 void load(Simulation& simulation, CheckpointReader& checkpoint) {
+  if (!checkpoint.fallback().empty()) log::warning(checkpoint.fallback());
   simulation.load(checkpoint);
   if (simulation.time_step() > simulation.time_settings.n_steps())
     throw Error(ExitCode::usage, "[time] end_s = " + words(simulation.time_settings.end) + " lies before the checkpoint, at " +
                                      words(simulation.time()) + " s; give a later end");
-}
-
-/// Initial state, or that of the checkpoint (null: there is none), with the folder and its log open.
-void begin(Simulation& simulation, const CaseFile& file, const OutputFolder& folder, CheckpointReader* reader) {
-  const std::string start = reader ? "" : simulation.start();
-  if (!reader) simulation.insert_rags();
-  folder.open(simulation, file, reader != nullptr);
-  if (!start.empty()) log::info(start);
-  if (!reader) return;
-  if (!reader->fallback().empty()) log::warning(reader->fallback());
-  load(simulation, *reader);
 }
 
 /// What a run does before its first step, and what it refuses there. Collective; throws Error(usage).
@@ -149,13 +143,13 @@ ExitCode run_case(const RunOptions& options) {
   Simulation simulation(file, world, std::move(stored));
   if (reader) check_same_case(file, folder, *reader);
   const ReportWriter write_report = simulation.output_settings.report ? options.write_report : ReportWriter{};
-  if (reader && is_complete(folder, file, write_report != nullptr, reader->stamp().time_step)) {
-    if (!reader->fallback().empty()) log::warning(reader->fallback());
-    log::info(folder.string() + ": the run ended at " + words(reader->stamp().time) +
-              " s; there is nothing to resume and nothing is changed; a later [time] end extends it, --overwrite starts it again");
-    return ExitCode::ok;
-  }
-  begin(simulation, file, output, reader.get());
+  if (reader && has_ended_before(folder, file, write_report != nullptr, *reader)) return ExitCode::ok;
+
+  const std::string start = reader ? "" : simulation.start();
+  if (!reader) simulation.insert_rags();
+  output.open(simulation, file, options.resume);
+  if (!start.empty()) log::info(start);
+  if (reader) load(simulation, *reader);
   Outputs outputs(folder, file, simulation, options.resume, begun);
   if (reader) {
     outputs.load(*reader);
