@@ -196,7 +196,7 @@ void Outputs::after_step() {
 }
 
 void Outputs::write_checkpoint() const {
-  sync();
+  sync();  // a checkpoint is never ahead of the monitors
   checkpoints_.write([&](CheckpointWriter& writer) { save(writer); });
 }
 

@@ -1,6 +1,6 @@
 """Requirement: the diagnosis says of published experiments and exact solutions what is known to be missing in them (cases/diagnose-*/expected_verdict.toml), and nothing of those in which nothing is missing; data.csv and cases are what make_data.py writes."""
 # timeout: 900
-# cost: 48
+# cost: 22
 import json
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ import harness
 
 
 class Published(harness.CaseTest):
-    long, is_long = {"diagnose-jeffery"}, False  # diagnose_published_long.py has the verdict on the fibres
+    long, is_long = {"diagnose-jeffery", "diagnose-tank"}, False  # diagnose_published_long.py has the verdicts on the fibres and in the tank
 
     def folders(self):
         found = sorted(file.parent for file in (harness.SOURCE_DIR / "cases").glob("diagnose-*/expected_verdict.toml"))

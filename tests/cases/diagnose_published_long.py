@@ -1,6 +1,6 @@
 # labels: long
 # timeout: 900
-"""Requirement: diagnose_published.py for fibres in a shear flow, whose runs take a minute."""
+"""Requirement: diagnose_published.py for fibres in a shear flow and spheres in a tank, whose diagnosis takes a minute."""
 import diagnose_published
 import harness
 

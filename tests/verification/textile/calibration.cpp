@@ -124,20 +124,6 @@ TEST(CalibrationIndependence, ParticleSizeAndStepDoNotMatter) {
   expect_independence_of_size_and_step(independence_of_size_and_step(tests, calibration));
 }
 
-TEST(CalibrationIndependence, DashpotsDoNotMatter) {
-  // Requirement: half and twice the dashpots, and five times the rotation friction with the latter, change the drape's area by less than
-  // 5 %.
-  const TextileTests tests = aro();
-  const double r = 6e-3;
-  DrapeCloth cloth = drape_cloth(tests, r, bonds_at(tests, {.radius = r}, 4e3));
-  double area[2];
-  for (int i = 0; i < 2; ++i) {
-    cloth.bond_damping = i == 0 ? 0.25 : 1, cloth.rotation_friction = i == 0 ? 0.01 : 0.05;
-    area[i] = outline_from_above(moved_drape(drape_test(tests), cloth, 1, drape_duration, 3).sheet, r).area;
-  }
-  EXPECT_NEAR(area[1] / area[0], 1, 0.05);
-}
-
 TEST(CalibrationElongation, GrabTestTearsAtTheMeasuredForce) {
   // Requirement: the simulated grab test reaches its largest force within the measured range, at the measured strain (2 %), in both
   // directions; with the clamps counted twice it carries half of that.
