@@ -15,8 +15,8 @@ namespace snag {
 /// a tenth is for what nobody listed, another for the mistakes that inputs and data may hold. To be named, an effect beyond the first has
 /// to bring 6 nats (a surplus effect takes up what the others leave): a rule of the verdict, of which the probabilities know nothing.
 inline constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes = 0.1;
-/// Hypotheses within this many nats of the best in the screening are re-simulated, and at least so many.
-/// A linear model of a gap of hundreds of nats is off by a share of them.
+/// A hypothesis is simulated again if the screening puts it at most max(screening_width, share_not_linear G) nats below the best. G: nats
+/// of the best over those of the base model. The screening is linear, and its error grows with G. At least min_candidates are simulated.
 inline constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
