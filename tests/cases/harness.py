@@ -1,7 +1,7 @@
 """What every test of a whole case needs: run the program as a user does, read what it wrote, compare.
 
 A script states its requirement in one sentence in its docstring, holds one unittest.TestCase made from CaseTest, and ends with
-harness.main(). The program is that of the build folder SNAG_BINARY_DIR; a number of ranks always means `mpirun -n RANKS`.
+harness.main(). The program is that of the build folder SNAG_BINARY_DIR; several ranks mean `mpirun -n RANKS`.
 """
 import json
 import os
@@ -119,7 +119,8 @@ def undocumented_keys(resolved):
 
 
 def command(arguments, ranks=1):
-    return ["mpirun", "-n", str(ranks), str(BINARY_DIR / "snag"), *map(str, arguments)]
+    launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+    return [*launcher, str(BINARY_DIR / "snag"), *map(str, arguments)]
 
 
 def snag(arguments, ranks=1, folder=None, timeout=600, environment={}):
@@ -128,7 +129,7 @@ def snag(arguments, ranks=1, folder=None, timeout=600, environment={}):
     try:
         stdout, stderr = process.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)  # mpirun's own process group
+        os.killpg(process.pid, signal.SIGKILL)  # its own process group
         stdout, stderr = process.communicate()
         raise AssertionError(f"snag {' '.join(map(str, arguments))} on {ranks} ranks took more than {timeout} s\n{stdout}{stderr}") from None
     return Run(folder or ".", process.returncode, stdout, stderr)
@@ -145,10 +146,10 @@ def start(arguments, ranks=1, environment={}):
     )
 
 
-def program_processes(mpirun):
-    """Process ids of the program's ranks below an mpirun, lowest first."""
-    children = pathlib.Path(f"/proc/{mpirun.pid}/task/{mpirun.pid}/children")
-    ids = [int(word) for word in children.read_text().split()]
+def program_processes(process):
+    """Process ids of the program's ranks, lowest first: of those below mpirun, or of the one rank that was started alone."""
+    children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    ids = [process.pid, *(int(word) for word in children.read_text().split())]
     return sorted(i for i in ids if pathlib.Path(f"/proc/{i}/comm").read_text().strip() == "snag")
 
 
