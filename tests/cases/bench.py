@@ -1,5 +1,6 @@
 # timeout: 600
 # cost: 25
+# processors: 2
 """Requirement: a benchmark writes what it measured, with its limit, under stable keys; and refuses what it does not know."""
 import json
 import shutil

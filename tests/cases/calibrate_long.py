@@ -2,6 +2,7 @@
 # timeout: 1800
 # processors: 2
 """Requirement: calibrate.py; the dust cloth drapes as measured, and the independence of numerical parameters is written and does not change the passport."""
+import math
 import tomllib
 
 import calibrate
@@ -28,6 +29,17 @@ class LongCalibrate(calibrate.Calibrate):
         self.assertIn("Grab test lengthwise", (self.work / "one/calibration.html").read_text())
         self.assert_ranges(passport)
         self.assert_case_takes(self.work / "one/passport.toml")
+
+    def test_clamps_counted_twice(self):
+        """As published: half of the stiffness and strength."""
+        published = tomllib.loads(self.calibrate("5mm", 2, "published", "--as-published"))
+        self.assertEqual(published["textile"]["clamps"], "counted twice, as published")
+        area, columns = math.pi * 0.005**2, 2 * 0.1 / 0.01
+        for bond, force, strain in zip(published["bond"], (172, 70.1), (0.358, 0.264)):
+            self.assertAlmostEqual(bond["normal_strength_Pa"] / (force / columns / area), 1, delta=1e-5)
+            self.assertAlmostEqual(bond["normal_stiffness_N_m3"] / (force / columns / area / strain / 0.01), 1, delta=1e-5)
+        for check in published["check"]:
+            self.assertAlmostEqual(check["grab_force_deviation"], -0.5, delta=0.02)
 
 
 del calibrate.Calibrate

@@ -155,7 +155,7 @@ def write_set(folder, seed, strengths, other_force):
 
 
 class OtherProgram(harness.CaseTest):
-    sets = ("history", "pair", "stratified")  # diagnose_other_program_long.py has all of them
+    sets = ("pair", "stratified")  # diagnose_other_program_long.py has all of them
 
     def test_spheres(self):
         for seed, (name, expected, strengths, other_force) in enumerate(SETS):

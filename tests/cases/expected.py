@@ -34,6 +34,19 @@ def out_of_tolerance(entry, found):
     return ""
 
 
+def assert_entries(test, numbers, entries):
+    wrong = []
+    for entry in entries:
+        test.assertTrue(entry["why"], f"{entry['key']}: say why this value is expected")
+        test.assertTrue({"value", "minimum", "maximum"} & set(entry), f"{entry['key']}: give value, minimum or maximum")
+        found = looked_up(numbers, entry["key"])
+        problem = out_of_tolerance(entry, found)
+        print(f"  {entry['key']} = {found}" + (f"  WRONG: {problem}" if problem else ""))
+        if problem:
+            wrong.append(f"{entry['key']} = {found}: {problem} ({entry['why']})")
+    test.assertFalse(wrong, "\n".join(wrong))
+
+
 class Expected(harness.CaseTest):
     def ranks(self, expected):
         return expected.get("ranks", 2) if LONG else 1
@@ -44,16 +57,7 @@ class Expected(harness.CaseTest):
         entries = [e for e in expected["expect"] if LONG or not e.get("long", False)]
         self.assertTrue(entries, "nothing is expected: the test would show nothing")
         numbers = self.calibrated(folder, expected) if "calibrate" in expected else self.summary(folder, expected)
-        wrong = []
-        for entry in entries:
-            self.assertTrue(entry["why"], f"{entry['key']}: say why this value is expected")
-            self.assertTrue({"value", "minimum", "maximum"} & set(entry), f"{entry['key']}: give value, minimum or maximum")
-            found = looked_up(numbers, entry["key"])
-            problem = out_of_tolerance(entry, found)
-            print(f"  {entry['key']} = {found}" + (f"  WRONG: {problem}" if problem else ""))
-            if problem:
-                wrong.append(f"{entry['key']} = {found}: {problem} ({entry['why']})")
-        self.assertFalse(wrong, "\n".join(wrong))
+        assert_entries(self, numbers, entries)
 
     def summary(self, folder, expected):
         shortened = [] if LONG else [word for s in expected.get("short", {}).get("set", []) for word in ("--set", s)]

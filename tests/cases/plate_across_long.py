@@ -25,6 +25,9 @@ class PlateAcrossLong(plate_across.SheetInAStream):
         for delta in (0.006, 0.012):
             self.compare(f"K 1000, kernel {1e3 * delta:g} mm, cells of 6.25 mm, 0.5 to 2 s", self.mean(self.sheet_drag(1000, delta, 2, 0.004, 0.00625), 0.5, 2), rigid, 0.10)
 
+    def test_cloth_across_a_channel_by_a_narrow_kernel(self):
+        self.across_a_channel(0.008, 0.05)
+
     def test_narrowest_kernel(self):
         """One cell: any loss coefficient is stable."""
         for K in (1000, 1e5):

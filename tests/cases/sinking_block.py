@@ -1,4 +1,5 @@
 # cost: 14
+# processors: 2
 """Requirement: a block of particles that sinks in a closed box displaces its volume: the water within it goes with it and as much goes up around it, and it starts with the acceleration of a rigid
 cube with its added mass, in which no mass is counted twice."""
 import graded_box

@@ -1,5 +1,6 @@
 # timeout: 600
 # cost: 22
+# processors: 2
 """Requirement: a study runs a case with all values asked for, each as it would be by itself, runs nothing twice, and tells what came out."""
 import csv
 import json
