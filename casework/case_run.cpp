@@ -242,7 +242,6 @@ std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Observ
     throw Error(ExitCode::usage, file.root().where() + ": a run in memory must be a case without a mesh or with frozen flow");
   run.watches_rags = run.mesh != nullptr;
   run.start();
-  run.insert_rags();
   const double dt = run.time_settings.step, last = last_time(slots, run.time_settings.end);
   Observer observer(*run.rags, *run.passage, run.observe_settings, std::move(slots), dt);
   const std::int64_t restart_step = restart ? static_cast<std::int64_t>(restart->time / dt + 1e-9) : -1;

@@ -146,7 +146,6 @@ ExitCode run_case(const RunOptions& options) {
   if (reader && has_ended_before(folder, file, write_report != nullptr, *reader)) return ExitCode::ok;
 
   const std::string start = reader ? "" : simulation.start();
-  if (!reader) simulation.insert_rags();
   output.open(simulation, file, options.resume);
   if (!start.empty()) log::info(start);
   if (reader) load(simulation, *reader);
@@ -177,7 +176,6 @@ ExitCode check_case(const RunOptions& options) {
   const CaseFile file = CaseFile::read(options.case_file, options.overrides);
   Simulation simulation(file, world);
   const std::string start = simulation.start();
-  simulation.insert_rags();
   begin_as_a_run(simulation);
   log_heading(simulation, file);
   if (!start.empty()) log::info(start);

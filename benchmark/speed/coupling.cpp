@@ -73,7 +73,6 @@ struct Timed {
 Timed timed(const std::string& text, int n_steps) {
   Simulation run(CaseFile::parse(text, "bench"), world);
   run.start();
-  run.insert_rags();
   Timed found{.n_particles = static_cast<double>(run.rags->n_particles()),
               .n_cells = run.mesh ? static_cast<double>(run.mesh->n_cells_global) : 0};
   Simulation::Seconds before;

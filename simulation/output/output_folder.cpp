@@ -54,9 +54,7 @@ OutputFolder::OutputFolder(fs::path folder, bool resume, bool overwrite) : path_
 
 void OutputFolder::open(const Simulation& simulation, const CaseFile& file, bool resume) const {
   on_all_ranks(MPI_COMM_WORLD, [&] {
-    if (rank_of(MPI_COMM_WORLD) != 0) return;
-    prepare(!resume);
-    if (simulation.poses) simulation.poses->write(path_ / "rags");
+    if (rank_of(MPI_COMM_WORLD) == 0) prepare(!resume);
   });
   log::open(path_ / "log.txt", resume);
   log_heading(simulation, file);

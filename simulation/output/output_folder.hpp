@@ -19,8 +19,8 @@ class OutputFolder {
   /// without being asked to. Changes nothing.
   OutputFolder(std::filesystem::path folder, bool resume, bool overwrite);
   const std::filesystem::path& path() const { return path_; }
-  /// Makes the folder and its sub-folders, removing the results of an earlier run unless this one resumes; writes the poses of the rags and
-  /// opens the log with its heading. `file`: as the simulation has read it. Collective; throws Error(io).
+  /// Makes the folder and its sub-folders, removing the results of an earlier run unless this one resumes, and opens the log with its
+  /// heading. `file`: as the simulation has read it. Collective; throws Error(io).
   void open(const Simulation& simulation, const CaseFile& file, bool resume) const;
 
  private:

@@ -111,7 +111,7 @@ double cross_section(const FlowSolver& water) {
 }  // namespace
 
 Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun)
-    : folder_(std::move(folder)), file_(file), simulation_(simulation), checkpoints_(folder_, file, simulation), begun_(begun) {
+    : folder_(std::move(folder)), file_(file), simulation_(simulation), checkpoint_clock_(simulation), begun_(begun) {
   const double from = simulation.time(), end = simulation.time_settings.end;
   fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
   rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
@@ -124,6 +124,7 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
   on_all_ranks(MPI_COMM_WORLD, [&] {
     if (!root) return;
     write_atomically(folder_ / "case.resolved.toml", file.resolved());
+    if (simulation.poses) simulation.poses->write(folder_ / "rags");
     const auto open = [&]<class Record>(Monitor<Record>& monitor, const char* name, std::vector<Column<Record>> columns) {
       monitor = Monitor<Record>(folder_ / "monitors" / name, std::move(columns), resume, from);
     };
@@ -192,12 +193,19 @@ void Outputs::after_step() {
   }
   if (rag_output_ && (last || due(rags_interval_))) write_rags();
   seconds_ += MPI_Wtime() - begun;
-  if (!last && checkpoints_.due()) write_checkpoint();
+  if (!last && checkpoint_clock_.is_due()) write_checkpoint();
 }
 
 void Outputs::write_checkpoint() const {
   sync();  // a checkpoint is never ahead of the monitors
-  checkpoints_.write([&](CheckpointWriter& writer) { save(writer); });
+  CheckpointWriter writer(MPI_COMM_WORLD, folder_ / "checkpoint",
+                          {.case_sha256 = file_.resume_sha256(),
+                           .ranks = size_of(MPI_COMM_WORLD),
+                           .time_step = simulation_.time_step(),
+                           .time = simulation_.time()});
+  simulation_.save(writer);
+  save(writer);
+  writer.finish();
 }
 
 void Outputs::write_rags() {

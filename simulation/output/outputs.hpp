@@ -8,7 +8,7 @@
 #include "base/case_file.hpp"
 #include "base/monitor.hpp"
 #include "simulation/output/balance_output.hpp"
-#include "simulation/output/checkpoints.hpp"
+#include "simulation/output/checkpoint_clock.hpp"
 #include "simulation/output/field_output.hpp"
 #include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
@@ -62,7 +62,8 @@ struct EffortRecord {
 
 class Outputs {
  public:
-  /// Opens monitors and collections; after a resume what lies behind the simulation's time is cut. `begun`: MPI_Wtime() at the beginning
+  /// Writes the resolved case and the poses of the rags, opens monitors and collections; after a resume what lies behind the simulation's
+  /// time is cut. `begun`: MPI_Wtime() at the beginning
   /// of this process. Collective; throws Error(io).
   Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun);
   /// Monitors of the step just done, and fields and a checkpoint where they are due; after the last step whoever ends the run writes it.
@@ -100,7 +101,7 @@ class Outputs {
   std::filesystem::path folder_;
   const CaseFile& file_;
   Simulation& simulation_;
-  Checkpoints checkpoints_;
+  CheckpointClock checkpoint_clock_;
   // open on rank 0
   Monitor<WaterRecord> residuals_;
   Monitor<PatchRecord> patches_;

@@ -251,6 +251,7 @@ void Simulation::remove_rags() {
   }
 }
 
+/// Those whose time has come, checked.
 void Simulation::insert_rags() {
   if (!rags) return;
   std::vector<int> fresh;
@@ -299,6 +300,12 @@ void Simulation::check_inside() {
 }
 
 std::string Simulation::start() {
+  const std::string log_message = start_water();
+  insert_rags();
+  return log_message;
+}
+
+std::string Simulation::start_water() {
   const bool frozen = start_settings_.frozen;
   if (start_settings_.from.empty()) {
     if (frozen)

@@ -51,16 +51,13 @@ class Simulation {
   /// There is no step left to do.
   bool has_ended() const { return time_step_ >= time_settings.n_steps() || rags_have_left(); }
 
-  /// Initial fields of the water from another run, if [initial_flow] names one; returns a line for the log, empty without. Collective;
-  /// throws Error.
+  /// The state before the first step: the water of another run, if [initial_flow] names one, and the rags whose time has come, checked.
+  /// Returns a line for the log, empty without such water. Collective; throws Error.
   std::string start();
   /// The water stays as [initial_flow] gives it.
   bool frozen() const { return start_settings_.frozen; }
   /// The case says that the water is laminar; it is not only for want of a model.
   bool laminar_asked() const { return laminar_asked_; }
-  /// Puts in the rags whose time has come, and checks them; to be called once before the first step, later ones do it themselves.
-  /// Collective; throws Error(usage).
-  void insert_rags();
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
 
@@ -100,6 +97,8 @@ class Simulation {
   void read_pump(const Table& root);
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
+  std::string start_water();
+  void insert_rags();
   void move_water(double dt);
   void bound_speeds();
   void add_flow_velocity(int rag);
