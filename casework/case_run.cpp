@@ -11,8 +11,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
-#include "casework/exit_watch.hpp"
-#include "casework/outline_moments.hpp"
+#include "casework/observable_source.hpp"
 #include "dem/bonds/elastic_bond.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "observe/observables.hpp"
@@ -38,45 +37,23 @@ const ObservableRecord& record_of(const std::string& name) {
   return *record;
 }
 
-Motion motion_of(const RagSystem& rags) {
-  Motion sum;
-  double mass = 0;
-  for (const Tile& tile : rags.tiles()) {
-    const double m = rags.rags()[static_cast<std::size_t>(tile.rag)].mass;
-    for_particles(tile, [&](int k, int, int) {
-      sum.position += m * tile.vector(Tile::x, k), sum.velocity += m * tile.vector(Tile::vx, k);
-      mass += m;
-    });
-  }
-  return {sum.position / mass, sum.velocity / mass};
-}
+/// A number at the end of a step, and its rate of change where the observable has one.
+struct Number {
+  double value = std::numeric_limits<double>::quiet_NaN(), rate = 0;
+};
 
-double between(double a, double b, double s) { return a + s * (b - a); }
-
-/// The position is cubic in time through positions and velocities at both ends of a step, the velocity linear.
-Motion motion_between(const Motion& a, const Motion& b, double dt, double s) {
-  const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s), h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
-  return {h00 * a.position + (dt * h10) * a.velocity + h01 * b.position + (dt * h11) * b.velocity,
-          a.velocity + s * (b.velocity - a.velocity)};
-}
+Number number_of(const ObservableRecord& w, RunReader& now) { return {now(w.read), w.rate.is_there() ? now(w.rate) : 0}; }
 
 double turned_by(double from, double to, double period) { return std::remainder(to - from, period); }
 
-/// Where the pieces are at the end of a step.
-struct Instant {
-  double time = 0;
-  Motion motion;
-  std::optional<Silhouette> picture;  // where one is needed
-};
-
-/// `s`: share of the step from a to b that has passed.
-double seen_between(const ObservableRecord& w, const Instant& a, const Instant& b, double s) {
-  if (const auto* read = std::get_if<double (*)(const Motion&)>(&w.read))
-    return (*read)(motion_between(a.motion, b.motion, b.time - a.time, s));
-  const auto read = std::get<double (*)(const Silhouette&)>(w.read);
-  const double before = read(*a.picture), after = read(*b.picture);
-  if (w.period() == 0) return between(before, after, s);
-  return turned_by(0, before + s * turned_by(before, after, w.period()), w.period());
+/// `s`: share of the step from a to b that has passed. With rates cubic in time through values and rates at both ends, else linear.
+double between(const ObservableRecord& w, const Number& a, const Number& b, double dt, double s) {
+  if (w.rate.is_there()) {
+    const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s), h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
+    return h00 * a.value + (dt * h10) * a.rate + h01 * b.value + (dt * h11) * b.rate;
+  }
+  if (w.period() == 0) return a.value + s * (b.value - a.value);
+  return turned_by(0, a.value + s * turned_by(a.value, b.value, w.period()), w.period());
 }
 
 /// What is asked, in the order of time; numbers of the whole run last.
@@ -102,11 +79,11 @@ std::vector<Question> slots_of(const std::vector<ObservableRequest>& asked, bool
   return slots;
 }
 
-/// Means over the instants at which the centre is in the window.
+/// Means over the steps at whose ends the centre is in the window.
 class WindowMean {
  public:
-  void add(const ObservableRecord& w, const Instant& now) {
-    const double value = seen_between(w, now, now, 1);
+  void add(const ObservableRecord& w, const Number& now) {
+    const double value = between(w, now, now, 0, 1);
     Sums& sums = sums_[&w];
     // An axis has no head: angles are averaged on the circle of their period.
     const double turn = w.period() == 0 ? 0 : 2 * std::numbers::pi / w.period();
@@ -131,63 +108,59 @@ class WindowMean {
 /// Answers as the run goes by.
 class Observer {
  public:
-  Observer(const RagSystem& rags, const Passage& passage, const ObserveSettings& settings, std::vector<Question> slots, double dt)
-      : rags_(rags), settings_(settings), view_(settings.view()), exit_(settings, passage), slots_(std::move(slots)), dt_(dt) {
-    values_.resize(slots_.size(), std::numeric_limits<double>::quiet_NaN());
+  Observer(const Simulation& run, std::vector<Question> slots)
+      : run_(run),
+        settings_(run.observe_settings),
+        view_(settings_.view()),
+        exit_(settings_, *run.passage),
+        slots_(std::move(slots)),
+        before_(slots_.size()),
+        values_(slots_.size(), std::numeric_limits<double>::quiet_NaN()) {
     for (const Question& slot : slots_) {
-      if (slot.what->is_of_picture()) picture_times_.push_back(slot.time);
       if (slot.what->is_of_whole_run())
         whole_run_ = true;
       else if (std::isinf(slot.time))
-        in_window_.push_back(slot.what), window_pictures_ = window_pictures_ || slot.what->is_of_picture();
+        in_window_.push_back(slot.what);
     }
   }
 
-  void look(double time) {
-    Instant now{time, motion_of(rags_), {}};
-    const bool seen = !in_window_.empty() && settings_.in_window(now.motion.position);
-    if (needs_picture(time) || (seen && window_pictures_)) now.picture = outline_of(rags_, view_);
-    if (seen)
-      for (const ObservableRecord* w : in_window_) window_.add(*w, now);
-    const double tolerance = 1e-9 * dt_;
+  void look() {
+    const double time = run_.time(), dt = run_.time_settings.step, tolerance = 1e-9 * dt;
+    RunReader now({run_, view_, exit_});
+    if (!in_window_.empty() && settings_.in_window(now.get<Motion>().position))
+      for (const ObservableRecord* w : in_window_) window_.add(*w, number_of(*w, now));
     for (; next_ < slots_.size() && slots_[next_].time <= time + tolerance; ++next_) {
       const Question& slot = slots_[next_];
+      const Number number = number_of(*slot.what, now);
       const bool here = std::abs(slot.time - time) <= tolerance;
-      const double share = here ? 1 : (slot.time - before_.time) / (time - before_.time);
-      values_[slot.place] = seen_between(*slot.what, here ? now : before_, now, share);
+      const double share = here ? 1 : (slot.time - before_time_) / (time - before_time_);
+      values_[slot.place] = between(*slot.what, here ? number : before_[next_], number, time - before_time_, share);
     }
-    if (whole_run_) exit_.add(time, now.motion);
-    before_ = now;
+    for (std::size_t i = next_; i < slots_.size() && slots_[i].time < time + dt * (1 + 1e-9); ++i)
+      before_[i] = number_of(*slots_[i].what, now);
+    if (whole_run_) exit_.add(time, now.get<Motion>());
+    before_time_ = time;
   }
   std::vector<double> values() {
-    const PassageResult passage = exit_.verdict();
-    for (const Question& slot : slots_) {
-      if (!std::isinf(slot.time)) continue;
-      const auto* read = std::get_if<double (*)(const PassageResult&)>(&slot.what->read);
-      values_[slot.place] = read ? (*read)(passage) : window_.mean(*slot.what);
-    }
+    RunReader end({run_, view_, exit_});
+    for (const Question& slot : slots_)
+      if (std::isinf(slot.time)) values_[slot.place] = slot.what->is_of_whole_run() ? end(slot.what->read) : window_.mean(*slot.what);
     return values_;
   }
 
  private:
-  /// Pictures of both ends of a step in which one is asked for.
-  bool needs_picture(double time) const {
-    const auto next = std::upper_bound(picture_times_.begin(), picture_times_.end(), time - dt_ * (1 + 1e-9));
-    return next != picture_times_.end() && *next < time + dt_ * (1 + 1e-9);
-  }
-
-  const RagSystem& rags_;
+  const Simulation& run_;
   const ObserveSettings& settings_;
   View view_;
   ExitWatch exit_;
   WindowMean window_;
   std::vector<Question> slots_;
   std::vector<const ObservableRecord*> in_window_;  // asked as means over the window
-  std::vector<double> values_, picture_times_;
+  std::vector<Number> before_;                      // of the slots that lie in the step to come
+  std::vector<double> values_;
   std::size_t next_ = 0;
-  double dt_;
-  bool whole_run_ = false, window_pictures_ = false;
-  Instant before_;
+  bool whole_run_ = false;
+  double before_time_ = 0;  // s
 };
 
 double last_time(const std::vector<Question>& slots, double end) {
@@ -243,11 +216,11 @@ std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Observ
   run.watches_rags = run.mesh != nullptr;
   run.start();
   const double dt = run.time_settings.step, last = last_time(slots, run.time_settings.end);
-  Observer observer(*run.rags, *run.passage, run.observe_settings, std::move(slots), dt);
+  Observer observer(run, std::move(slots));
   const std::int64_t restart_step = restart ? static_cast<std::int64_t>(restart->time / dt + 1e-9) : -1;
   const auto restart_and_look = [&] {
     if (run.time_step() == restart_step) move(*run.rags, *restart, run.time());
-    observer.look(run.time());
+    observer.look();
     return run.time() < last * (1 - 1e-9);
   };
   if (!restart_and_look()) return observer.values();

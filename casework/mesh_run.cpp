@@ -12,9 +12,8 @@
 #include "base/error.hpp"
 #include "base/series.hpp"
 #include "base/words.hpp"
-#include "observe/observables.hpp"
+#include "casework/observable_source.hpp"
 #include "parallel/session.hpp"
-#include "simulation/output/summary.hpp"
 #include "simulation/run.hpp"
 
 namespace snag {
@@ -103,14 +102,17 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
 }
 
 std::vector<double> read_observables(const std::filesystem::path& folder, const std::vector<ObservableRequest>& asked) {
-  const auto passage = first_passage(folder / "summary.json");
+  std::map<std::type_index, std::any> sources;
   std::map<std::string, Course> courses;
   std::vector<double> values;
   for (const ObservableRequest& one : asked) {
     const std::string& name = one.observable;
     const ObservableRecord* record = find_observable(name);
     if (record && record->is_of_whole_run()) {
-      values.push_back(passage ? std::get<double (*)(const PassageResult&)>(record->read)(*passage) : nan);
+      const auto& in_folder = observable_sources().at(record->read.source()).in_folder;
+      const auto [source, is_new] = sources.try_emplace(record->read.source());
+      if (is_new && in_folder) source->second = in_folder(folder);
+      values.push_back(source->second.has_value() ? record->read(source->second) : nan);
       continue;
     }
     if (!courses.contains(name)) courses[name] = course_of(folder, name);
