@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/choice.hpp"
 #include "base/vec3.hpp"
 
 namespace snag {
@@ -16,8 +17,8 @@ enum class Basis { measured, literature, calibrated, assumed };
 const char* name(Basis basis);
 
 /// What a parameter is read into; the value found there at declaration is the default (an empty optional: the program chooses).
-using ParameterTarget = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, Vec3*, Mat3*, std::vector<double>*,
-                                     std::vector<Vec3>*, std::vector<std::string>*>;
+using ParameterTarget = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, AnyChoice*, Vec3*, Mat3*,
+                                     std::vector<double>*, std::vector<Vec3>*, std::vector<std::string>*>;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -46,8 +47,9 @@ struct Parameter {
   FormerName former = {};
 };
 
-/// The same for a text, a list of texts or a switch.
+/// The same for a text, a list of texts, a switch or a choice. `choices`: empty: any text, or all words of a choice.
 inline Parameter setting(std::string key, ParameterTarget target, std::string meaning, std::vector<std::string> choices = {}) {
+  if (const auto* choice = std::get_if<AnyChoice*>(&target); choice && choices.empty()) choices = (*choice)->words();
   return {.key = std::move(key), .target = target, .unit = "", .meaning = std::move(meaning), .choices = std::move(choices)};
 }
 

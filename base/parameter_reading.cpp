@@ -89,6 +89,11 @@ class Reading {
     check_choice(*node.value<std::string>());
     target = *node.value<std::string>();
   }
+  void read(const toml::node& node, AnyChoice& target) const {
+    std::string word;
+    read(node, word);
+    target.choose(word);
+  }
   void read(const toml::node& node, Vec3& target) const {
     const auto& list = array(node, 3);
     for (int i = 0; i < 3; ++i) target[i] = number(list[i]);

@@ -25,6 +25,7 @@ struct Printer {
   std::string operator()(const int* v) const { return std::to_string(*v); }
   std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
   std::string operator()(const std::string* v) const { return toml_text(*v); }
+  std::string operator()(const AnyChoice* v) const { return toml_text(v->word()); }
   std::string operator()(const Vec3* v) const { return list(*v); }
   std::string operator()(const Mat3* v) const {
     return list_text(*v, [this](const Vec3& row) { return list(row); });

@@ -28,7 +28,7 @@ std::vector<std::string> forms_of(FluidForce& force) {
   for (const Parameter& parameter : force.parameters()) {
     if (parameter.key != "form") continue;
     std::vector<std::string> forms = parameter.choices;
-    const auto usual = std::find(forms.begin(), forms.end(), *std::get<std::string*>(parameter.target));
+    const auto usual = std::find(forms.begin(), forms.end(), std::get<AnyChoice*>(parameter.target)->word());
     std::rotate(forms.begin(), usual, usual + 1);
     return forms;
   }

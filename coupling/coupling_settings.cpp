@@ -59,8 +59,7 @@ Section CouplingSettings::section() {
       "coupling",
       "Forces between water and rags.",
       {setting("mode", &mode,
-               "none: rags and water ignore each other; one_way: rags feel the water; two_way: and the water feels the rags.",
-               {"none", "one_way", "two_way"}),
+               "none: rags and water ignore each other; one_way: rags feel the water; two_way: and the water feels the rags."),
        setting("kernel", &kernel, "Smoothing kernel between particles and cells.", kernel_shapes().names()),
        {"kernel_width", &kernel_width, "m", 1e-6, 10, Basis::assumed,
         "Rms width per axis of the kernel, for every kernel but cell; a physical length, not a cell count. Chosen: twice the largest "
@@ -77,7 +76,7 @@ double Coupling::kernel_width(const std::vector<Rag>& rags) const {
 Coupling read_coupling(const Table& root, bool two_way_possible) {
   Coupling coupling;
   CouplingSettings& settings = coupling.settings;
-  if (!two_way_possible) settings.mode = "one_way";
+  if (!two_way_possible) settings.mode = CouplingSettings::Mode::one_way;
   const Table table = root.table("coupling");
   table.read(settings.section().parameters);
   if (settings.two_way() && !two_way_possible)
@@ -97,7 +96,7 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
     // The acceleration of gravity stands in a table of its own, because rags without water read it too.
     (name == gravity ? weight : table.table(name)).read(force->parameters());
     force->set_coupling(settings.two_way());
-    const bool acts = settings.mode != "none" || name == gravity;
+    const bool acts = settings.mode != CouplingSettings::Mode::none || name == gravity;
     if (acts) coupling.forces.push_back(std::move(force));
   }
   return coupling;
@@ -189,7 +188,7 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
 std::vector<std::string> left_out_added_mass(const Coupling& coupling, const std::vector<Rag>& rags) {
   constexpr int least_rows = 3;  // fewer are a thread or a strap, not a sheet
   std::vector<std::string> lines;
-  if (coupling.settings.mode != "one_way") return lines;
+  if (coupling.settings.mode != CouplingSettings::Mode::one_way) return lines;
   for (const Rag& rag : rags) {
     const auto [fewer, more] = std::minmax(rag.n_columns, rag.n_rows);
     if (fewer < least_rows) continue;

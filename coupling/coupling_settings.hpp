@@ -23,13 +23,14 @@ const std::vector<ForceSet>& force_sets();
 std::vector<std::string> spelt_out(const std::vector<std::string>& names);
 
 struct CouplingSettings {
-  std::string mode = "two_way";  // none | one_way | two_way
+  enum class Mode { none, one_way, two_way };
+  Choice<Mode> mode{Mode::two_way, {"none", "one_way", "two_way"}};
   std::string kernel = "gaussian";
   std::optional<double> kernel_width;                             // delta, m; not given: twice the largest particle diameter
   std::vector<std::string> forces = force_sets().front().forces;  // sets are spelt out when a case is read
 
   Section section();
-  bool two_way() const { return mode == "two_way"; }
+  bool two_way() const { return mode == Mode::two_way; }
 };
 
 /// The models that a case chose.

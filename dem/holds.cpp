@@ -21,6 +21,8 @@ bool is_named(const std::string& piece, const std::string& name) {
   return piece.starts_with(name + " ") && piece.find_first_not_of("0123456789", name.size() + 1) == std::string::npos;
 }
 
+using HoldKind = HoldSettings::Kind;
+
 struct Range {
   int first = 0, last = 0;
   bool has(int place) const { return place >= first && place <= last; }
@@ -44,10 +46,18 @@ Range range_of(const std::vector<double>& given, const char* key, int n, const R
 std::array<Range, 2> ranges_of(const HoldSettings& hold, const Rag& rag, const std::string& where) {
   const Range columns = range_of(hold.columns, "columns", rag.n_columns, rag, where);
   const Range rows = range_of(hold.rows, "rows", rag.n_rows, rag, where);
-  if (hold.edge == "first_column") return {Range{0, 0}, rows};
-  if (hold.edge == "last_column") return {Range{rag.n_columns - 1, rag.n_columns - 1}, rows};
-  if (hold.edge == "first_row") return {columns, Range{0, 0}};
-  if (hold.edge == "last_row") return {columns, Range{rag.n_rows - 1, rag.n_rows - 1}};
+  switch (hold.edge) {
+    case HoldSettings::Edge::first_column:
+      return {Range{0, 0}, rows};
+    case HoldSettings::Edge::last_column:
+      return {Range{rag.n_columns - 1, rag.n_columns - 1}, rows};
+    case HoldSettings::Edge::first_row:
+      return {columns, Range{0, 0}};
+    case HoldSettings::Edge::last_row:
+      return {columns, Range{rag.n_rows - 1, rag.n_rows - 1}};
+    case HoldSettings::Edge::none:
+      break;
+  }
   return {columns, rows};
 }
 
@@ -84,7 +94,7 @@ std::vector<int> chosen_places(const HoldSettings& hold, const RagPiece& piece, 
 /// Keys without effect are refused.
 void check(const HoldSettings& hold, const Table& table, const std::string& where) {
   const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, where + what); };
-  const int n_choices = (hold.edge.empty() ? 0 : 1) + (hold.columns.empty() && hold.rows.empty() ? 0 : 1) +
+  const int n_choices = (hold.edge == HoldSettings::Edge::none ? 0 : 1) + (hold.columns.empty() && hold.rows.empty() ? 0 : 1) +
                         (hold.particles.empty() ? 0 : 1) + (hold.has_box ? 1 : 0);
   if (n_choices == 0)
     refuse(" selects no particles: must have one of edge, columns, rows, particles, box_lower with box_upper; give one of them");
@@ -99,9 +109,10 @@ void check(const HoldSettings& hold, const Table& table, const std::string& wher
     if (hold.box_lower[c] > hold.box_upper[c])
       refuse(": box_lower (" + words(hold.box_lower[c]) + " m) is above box_upper (" + words(hold.box_upper[c]) + " m) along axis " +
              std::to_string(c) + "; exchange or correct them");
-  if ((hold.kind == "hinge") != (norm_squared(hold.hinge_axis) > 0))
-    refuse(hold.kind == "hinge" ? " kind = \"hinge\" without hinge_axis, the direction about which its particles turn freely; give it"
-                                : " hinge_axis needs kind = \"hinge\", it is \"" + hold.kind + "\"; set kind, or remove it");
+  if ((hold.kind == HoldKind::hinge) != (norm_squared(hold.hinge_axis) > 0))
+    refuse(hold.kind == HoldKind::hinge
+               ? " kind = \"hinge\" without hinge_axis, the direction about which its particles turn freely; give it"
+               : " hinge_axis needs kind = \"hinge\", it is \"" + hold.kind.word() + "\"; set kind, or remove it");
   const HoldMotion& motion = hold.motion;
   if ((norm_squared(motion.amplitude) > 0) != (motion.frequency > 0))
     refuse(": amplitude and frequency of an oscillation need each other; give both, or none");
@@ -111,14 +122,14 @@ void check(const HoldSettings& hold, const Table& table, const std::string& wher
 
 /// What of a rotation the hold determines; hinge: `axis`, unit.
 Vec3 held_part(const HoldSettings& hold, const Vec3& axis, const Vec3& w) {
-  if (hold.kind == "clamp") return w;
-  return hold.kind == "pin" ? Vec3{} : w - dot(w, axis) * axis;
+  if (hold.kind == HoldKind::clamp) return w;
+  return hold.kind == HoldKind::pin ? Vec3{} : w - dot(w, axis) * axis;
 }
 
 double freedom(const HoldSettings& hold, double time) {
   const bool released = hold.release_time && time >= *hold.release_time * (1 - 1e-12);  // a step that begins then has its time to round-off
   if (released) return 1;
-  return hold.kind == "clamp" ? 0 : pinned;
+  return hold.kind == HoldKind::clamp ? 0 : pinned;
 }
 
 }  // namespace
@@ -132,8 +143,7 @@ Section HoldSettings::section() {
       "Particles of rags that are held, at rest or in a prescribed motion. Reactions: monitors/holds.csv.",
       {setting("rag", &rag,
                "Name of the piece as in outputs; without the number of a copy: all copies. Not given: every piece of the case."),
-       setting("edge", &edge, "Edge of the lattice that is held; not given: the particles of `columns` and `rows`.",
-               {"", "first_column", "last_column", "first_row", "last_row"}),
+       setting("edge", &edge, "Edge of the lattice that is held; not given: the particles of `columns` and `rows`."),
        {.key = "columns",
         .target = &columns,
         .minimum = 0,
@@ -149,8 +159,7 @@ Section HoldSettings::section() {
        vector("box_lower", &box_lower, "m", "Held are the particles that start between this corner and `box_upper`."),
        vector("box_upper", &box_upper, "m", "Highest corner of that box."),
        setting("kind", &kind,
-               "clamp: position and rotation follow the hold. pin: the position alone. hinge: a particle turns freely about `hinge_axis`.",
-               {"clamp", "pin", "hinge"}),
+               "clamp: position and rotation follow the hold. pin: the position alone. hinge: a particle turns freely about `hinge_axis`."),
        vector("hinge_axis", &hinge_axis, "1", "hinge: direction of the axis, a vector of any length; it turns with the hold."),
        vector("velocity", &motion.velocity, "m/s", "Velocity of translation of the hold."),
        vector("amplitude", &motion.amplitude, "m",
@@ -329,7 +338,9 @@ std::vector<std::string> Holds::lines() const {
     const HoldSettings& hold = settings_[static_cast<std::size_t>(place.hold)];
     const HoldMotion& motion = hold.motion;
     std::string line = "hold " + std::to_string(place.hold) + ": " + counted(place.n_particles, "particle") + " of " + place.rag_name;
-    line += hold.kind == "clamp" ? " clamped" : hold.kind == "pin" ? " pinned" : " hinged about " + vector(unit(hold.hinge_axis));
+    line += hold.kind == HoldKind::clamp ? " clamped"
+            : hold.kind == HoldKind::pin ? " pinned"
+                                         : " hinged about " + vector(unit(hold.hinge_axis));
     line += ", mean position " + vector(place.point) + " m";
     if (norm_squared(motion.velocity) > 0) line += ", moves with " + vector(motion.velocity) + " m/s";
     if (motion.rotation_speed != 0) line += ", turns at " + words(motion.rotation_speed) + " rad/s about " + vector(unit(motion.axis));

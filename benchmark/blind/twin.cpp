@@ -25,7 +25,7 @@ std::map<std::string, std::string> other_forms(const Truth& truth, NormalNumbers
     for (const Parameter& parameter : force->parameters()) {
       if (parameter.key != "form" || parameter.choices.size() < 2) continue;
       std::vector<std::string> others = parameter.choices;
-      std::erase(others, *std::get<std::string*>(parameter.target));
+      std::erase(others, std::get<AnyChoice*>(parameter.target)->word());
       forms[name] =
           "coupling." + name + ".form=\"" + others[static_cast<std::size_t>(random.index(static_cast<int>(others.size())))] + "\"";
     }

@@ -17,9 +17,10 @@ namespace {
 struct AddedMass final : FluidForce {
   static constexpr const char* name = "added_mass";
   double coefficient = 0.5;
-  std::string form = "free";
+  enum class Form { free, wall };
+  Choice<Form> form{Form::free, {"free", "wall"}};
 
-  bool at_wall() const { return form == "wall"; }
+  bool at_wall() const { return form == Form::wall; }
   ForceDescription description() const override {
     return {.name = name,
             .equation = "F = C_m rho V_h (Du/Dt - dv/dt)",
@@ -36,7 +37,7 @@ struct AddedMass final : FluidForce {
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "theta: C_m far from walls; 1/2 for a sphere."},
-            setting("form", &form, "free: C_m everywhere; wall: larger near walls.", {"free", "wall"})};
+            setting("form", &form, "free: C_m everywhere; wall: larger near walls.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     const double m_free = coefficient * fluid.density * particles.volume, a = 0.5 * particles.diameter;

@@ -54,7 +54,8 @@ struct History final : FluidForce {
   static constexpr const char* name = "history";
   enum Memory { last_step, last_w, sums = 4, n_memory = sums + 3 * (n_rates + 1) };
   double coefficient = 1, window = 0.1;
-  std::string form = "basset";
+  enum class Form { basset, fading, developed };
+  Choice<Form> form{Form::basset, {"basset", "fading", "developed"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -75,8 +76,7 @@ struct History final : FluidForce {
     return {
         {"coefficient", &coefficient, "1", 0, 10, Basis::literature, "Factor theta on the history force; 1 by theory."},
         {"window", &window, "s", 1e-6, 1e6, Basis::assumed, "Time window t_w of the form fading."},
-        setting("form", &form, "basset: memory as t^(-1/2); fading: lost after t_w; developed: as basset, the slip at the start not new.",
-                {"basset", "fading", "developed"})};
+        setting("form", &form, "basset: memory as t^(-1/2); fading: lost after t_w; developed: as basset, the slip at the start not new.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (coefficient == 0) return;
@@ -119,7 +119,7 @@ struct History final : FluidForce {
   }
 
  private:
-  double rate(int i) const { return exponentials.rate[i] + (form == "fading" ? 1 / window : 0); }
+  double rate(int i) const { return exponentials.rate[i] + (form == Form::fading ? 1 / window : 0); }
   static double* number(const Particles& particles, int i) { return particles.memory + i * particles.memory_stride; }
   static VectorSum vector(const Particles& particles, int i) {
     return {number(particles, i), number(particles, i + 1), number(particles, i + 2)};
@@ -131,7 +131,7 @@ struct History final : FluidForce {
     int first = particles.begin;
     while (first + 1 < particles.end && tile.exists[static_cast<std::size_t>(first)] < 0.5) ++first;
     const double h = number(particles, last_step)[first];  // the same for a whole tile; 0 at birth
-    const bool takes_change = h > 0 || form != "developed";
+    const bool takes_change = h > 0 || form != Form::developed;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum before = vector(particles, last_w);
     for (int i = 0; i <= n_rates && takes_change; ++i) {

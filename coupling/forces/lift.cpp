@@ -24,7 +24,8 @@ constexpr double tiny = 1e-30;
 struct Lift final : FluidForce {
   static constexpr const char* name = "lift";
   double coefficient = 1, rotation_coefficient = 1;
-  std::string form = "mei";
+  enum class Form { mei, saffman, mei_free };
+  Choice<Form> form{Form::mei, {"mei", "saffman", "mei_free"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -43,13 +44,12 @@ struct Lift final : FluidForce {
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "Factor theta on the lift; 1 by theory."},
             {"rotation_coefficient", &rotation_coefficient, "1", 0, 10, Basis::literature, "Further factor on the lift by spin."},
-            setting("form", &form, "saffman: creeping flow; mei: with its decay at finite Re; mei_free: as mei, without lift by spin.",
-                    {"mei", "saffman", "mei_free"})};
+            setting("form", &form, "saffman: creeping flow; mei: with its decay at finite Re; mei_free: as mei, without lift by spin.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
-    const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter, mei = form == "saffman" ? 0 : 1;
+    const double rho = fluid.density, mu = fluid.dynamic_viscosity, d = particles.diameter, mei = form == Form::saffman ? 0 : 1;
     const double shear = coefficient * 1.615 * d * d * std::sqrt(rho * mu);
-    const double spin = form == "mei_free" ? 0 : coefficient * rotation_coefficient * std::numbers::pi / 8 * rho * d * d * d;
+    const double spin = form == Form::mei_free ? 0 : coefficient * rotation_coefficient * std::numbers::pi / 8 * rho * d * d * d;
     const VectorArray u = fluid.velocity, v = particles.velocity, omega_p = particles.angular_velocity;
     const auto G = fluid.velocity_gradient;
     const VectorSum force = forces.force;

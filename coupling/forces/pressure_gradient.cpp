@@ -22,7 +22,8 @@ namespace {
 struct PressureGradient final : FluidForce {
   static constexpr const char* name = "pressure_gradient";
   double coefficient = 1;
-  std::string form = "acceleration";
+  enum class Form { acceleration, pressure, along_particle };
+  Choice<Form> form{Form::acceleration, {"acceleration", "pressure", "along_particle"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -30,9 +31,9 @@ struct PressureGradient final : FluidForce {
             .source = "Maxey and Riley (1983)",
             .valid_for = "particles smaller than the scale over which the acceleration of the fluid varies",
             .reacts_on_fluid = false,
-            .samples = {.velocity_gradient = form == "along_particle",
-                        .pressure_gradient = form == "pressure",
-                        .material_acceleration = form != "pressure"},
+            .samples = {.velocity_gradient = form == Form::along_particle,
+                        .pressure_gradient = form == Form::pressure,
+                        .material_acceleration = form != Form::pressure},
             .prior = Prior{.key = "coupling.pressure_gradient.coefficient",
                            .meaning = "share of the stress of the undisturbed flow",
                            .mean = 1,
@@ -42,11 +43,10 @@ struct PressureGradient final : FluidForce {
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 10, Basis::literature, "Factor theta on the force; 1 by theory."},
-            setting("form", &form, "acceleration: rho Du/Dt; pressure: without the viscous stress; along_particle: rho du/dt on its way.",
-                    {"acceleration", "pressure", "along_particle"})};
+            setting("form", &form, "acceleration: rho Du/Dt; pressure: without the viscous stress; along_particle: rho du/dt on its way.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
-    const bool pressure = form == "pressure", along = form == "along_particle";
+    const bool pressure = form == Form::pressure, along = form == Form::along_particle;
     const double factor = coefficient * particles.volume * (pressure ? -1 : fluid.density);
     const VectorArray a = pressure ? fluid.pressure_gradient : fluid.material_acceleration, u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;

@@ -16,7 +16,8 @@ namespace {
 struct Reconfiguration final : FluidForce {
   static constexpr const char* name = "reconfiguration";
   double exponent = -2.0 / 3, reference_speed = 0.5;
-  std::string form = "cauchy";
+  enum class Form { cauchy, power };
+  Choice<Form> form{Form::cauchy, {"cauchy", "power"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -35,12 +36,12 @@ struct Reconfiguration final : FluidForce {
   std::vector<Parameter> parameters() override {
     return {{"exponent", &exponent, "1", -2, 0, Basis::literature, "Vogel exponent V (theta); 0: rigid parts."},
             {"reference_speed", &reference_speed, "m/s", 1e-6, 100, Basis::assumed, "w_0: relative speed above which the parts fold."},
-            setting("form", &form, "cauchy: smooth; power: with a corner at w_0.", {"cauchy", "power"})};
+            setting("form", &form, "cauchy: smooth; power: with a corner at w_0.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (exponent == 0) return;  // a power of zero is 1 only to the last digits
     const double V = exponent, per_reference = 1 / reference_speed;
-    const bool smooth = form == "cauchy";
+    const bool smooth = form == Form::cauchy;
     multiply_drag(fluid, particles, forces, [=](int, double, double speed) {
       const double x = per_reference * speed, square = smooth ? 1 + x * x : std::max(x * x, 1.0);
       return pow(square, 0.5 * V);

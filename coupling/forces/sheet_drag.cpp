@@ -50,10 +50,11 @@ struct SheetDrag final : FluidForce {
   static constexpr double rough = 0.02;                   // C_t of form "quadratic"
   double share = 1, chosen_coefficient = of_plate, transition_reynolds = 5e5;
   std::optional<double> normal_coefficient, tangential_coefficient;
-  std::string form = "quadratic";
+  enum class Form { quadratic, viscous };
+  Choice<Form> form{Form::quadratic, {"quadratic", "viscous"}};
   bool is_two_way = false;
 
-  bool viscous() const { return form == "viscous"; }
+  bool viscous() const { return form == Form::viscous; }
   ForceDescription description() const override {
     return {.name = name,
             .equation = "F = (1 - theta) F_drag + theta (1/2 rho C_n A |w_n| w_n + rho C_t A |w_t| w_t)",
@@ -78,8 +79,7 @@ struct SheetDrag final : FluidForce {
         {"tangential_coefficient", &tangential_coefficient, "1", 0, 10, Basis::assumed,
          "C_t: friction coefficient of one side; by default 0.02, with form = \"viscous\" 0."},
         setting("form", &form,
-                "quadratic: constant coefficients; viscous: with the boundary layers along the sheet and the term of slow flow across it.",
-                {"quadratic", "viscous"}),
+                "quadratic: constant coefficients; viscous: with the boundary layers along the sheet and the term of slow flow across it."),
         {"transition_reynolds", &transition_reynolds, "1", 0, 1e9, Basis::literature,
          "Re_t = U x/nu from the edge at which boundary layers become turbulent (form = \"viscous\"); 0: from the edge on, as in stirred "
          "water."}};

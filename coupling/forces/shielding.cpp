@@ -15,7 +15,8 @@ namespace {
 struct Shielding final : FluidForce {
   static constexpr const char* name = "shielding";
   double shelter = 0.5;
-  std::string form = "bonded";
+  enum class Form { bonded, wake };
+  Choice<Form> form{Form::bonded, {"bonded", "wake"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -33,10 +34,10 @@ struct Shielding final : FluidForce {
   }
   std::vector<Parameter> parameters() override {
     return {{"shelter", &shelter, "1", 0, 1, Basis::assumed, "theta: fraction of the drag that a fully sheltered particle loses."},
-            setting("form", &form, "bonded: by the number of neighbours; wake: by a neighbour upstream.", {"bonded", "wake"})};
+            setting("form", &form, "bonded: by the number of neighbours; wake: by a neighbour upstream.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
-    const bool wake = form == "wake";
+    const bool wake = form == Form::wake;
     const double theta = shelter;
     const VectorArray u = fluid.velocity, v = particles.velocity, x = particles.position;
     const double *along = particles.tile.bond_x.data(), *across = particles.tile.bond_y.data();

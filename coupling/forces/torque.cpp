@@ -16,7 +16,8 @@ namespace {
 struct Torque final : FluidForce {
   static constexpr const char* name = "torque";
   double coefficient = 1;
-  std::string form = "stokes";
+  enum class Form { stokes, dennis };
+  Choice<Form> form{Form::stokes, {"stokes", "dennis"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -36,10 +37,10 @@ struct Torque final : FluidForce {
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 100, Basis::literature, "Factor theta on the torque; 1 by theory."},
-            setting("form", &form, "stokes: creeping flow; dennis: more at finite Re.", {"stokes", "dennis"})};
+            setting("form", &form, "stokes: creeping flow; dennis: more at finite Re.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
-    const double d = particles.diameter, mu = fluid.dynamic_viscosity, dennis = form == "dennis" ? 1 : 0;
+    const double d = particles.diameter, mu = fluid.dynamic_viscosity, dennis = form == Form::dennis ? 1 : 0;
     const double K_stokes = coefficient * std::numbers::pi * mu * d * d * d, per_turn = fluid.density * d * d / mu;
     const VectorArray omega_p = particles.angular_velocity;
     const auto G = fluid.velocity_gradient;

@@ -30,7 +30,8 @@ struct TurbulentDispersion final : FluidForce {
   enum Memory { number, q_x, q_y, q_z, age, n_memory };
   double intensity = 1, time_constant = 0.3;
   int seed = 1;
-  std::string form = "lagrangian";
+  enum class Form { lagrangian, crossing, eddy };
+  Choice<Form> form{Form::lagrangian, {"lagrangian", "crossing", "eddy"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -53,13 +54,12 @@ struct TurbulentDispersion final : FluidForce {
     return {{"intensity", &intensity, "1", 0, 10, Basis::literature, "Factor theta on the fluctuations; 1: those of k, 0: none."},
             {"time_constant", &time_constant, "1", 1e-3, 10, Basis::literature, "C_T; published values from 0.15 to 0.6."},
             {.key = "seed", .target = &seed, .minimum = 0, .meaning = "Seed of the random numbers; each seed gives another realisation."},
-            setting("form", &form, "Correlation in time: lagrangian, crossing (of trajectories), or eddy (constant for a lifetime).",
-                    {"lagrangian", "crossing", "eddy"})};
+            setting("form", &form, "Correlation in time: lagrangian, crossing (of trajectories), or eddy (constant for a lifetime).")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (intensity == 0) return;
     const double tau = particles.mass / (3 * std::numbers::pi * fluid.dynamic_viscosity * particles.diameter);
-    const bool eddy = form == "eddy", crossing = form == "crossing";
+    const bool eddy = form == Form::eddy, crossing = form == Form::crossing;
     const auto at = [&](int i, int p) -> double& { return particles.memory[i * particles.memory_stride + p]; };
     for_particles(particles.tile, [&](int p, int column, int row) {
       const double k = fluid.turbulent_kinetic_energy[p], sigma = std::sqrt(2.0 / 3 * k);

@@ -17,7 +17,8 @@ namespace {
 struct VolumeFraction final : FluidForce {
   static constexpr const char* name = "volume_fraction";
   double exponent = 2.7;
-  std::string form = "power";
+  enum class Form { power, linear };
+  Choice<Form> form{Form::power, {"power", "linear"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -37,12 +38,12 @@ struct VolumeFraction final : FluidForce {
   }
   std::vector<Parameter> parameters() override {
     return {{"exponent", &exponent, "1", 0, 10, Basis::literature, "Exponent theta; 0: drag of single particles."},
-            setting("form", &form, "power: of the void fraction; linear: its leading order.", {"power", "linear"})};
+            setting("form", &form, "power: of the void fraction; linear: its leading order.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (exponent == 0) return;  // a power of zero is 1 only to the last digits
     const double theta = exponent;
-    const bool power = form == "power";
+    const bool power = form == Form::power;
     const double* solid = fluid.solid_fraction;
     multiply_drag(fluid, particles, forces, [=](int p, double, double) {
       const double grown = pow(void_fraction(solid[p]), -theta);

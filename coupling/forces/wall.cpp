@@ -24,7 +24,8 @@ namespace {
 struct Wall final : FluidForce {
   static constexpr const char* name = "wall";
   double strength = 1, least_gap = 0.01;
-  std::string form = "series";
+  enum class Form { series, leading };
+  Choice<Form> form{Form::series, {"series", "leading"}};
 
   ForceDescription description() const override {
     return {.name = name,
@@ -44,11 +45,11 @@ struct Wall final : FluidForce {
   std::vector<Parameter> parameters() override {
     return {{"strength", &strength, "1", 0, 10, Basis::literature, "Strength theta of the wall correction; 1 by theory."},
             {"least_gap", &least_gap, "1", 1e-6, 1, Basis::assumed, "Least gap over radius: roughness keeps lubrication finite."},
-            setting("form", &form, "leading: first order in a/h; series: to contact.", {"series", "leading"})};
+            setting("form", &form, "leading: first order in a/h; series: to contact.")};
   }
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (strength == 0) return;
-    const bool series = form == "series";
+    const bool series = form == Form::series;
     const double a = 0.5 * particles.diameter, theta = strength, least = series ? 1 + least_gap : 1.25;
     const double* distance = fluid.wall_distance;
     const VectorArray normal = fluid.wall_normal;

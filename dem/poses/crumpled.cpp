@@ -45,7 +45,7 @@ constexpr double largest_overlap = 0.3;        // over the radius, at rest
 constexpr double crushing_overlap = 1;         // over the radius, on the way
 
 [[noreturn]] void refuse(const PosePlan& plan, const std::string& what) {
-  throw Error(ExitCode::usage, plan.where + ": pose = \"" + plan.kind + "\": " + what);
+  throw Error(ExitCode::usage, plan.where + ": pose = \"" + plan.kind.word() + "\": " + what);
 }
 
 void check_plan(const RagPiece& piece) {
@@ -104,7 +104,7 @@ RagPiece flat_piece(const RagPiece& given) {
   piece.centre = piece.velocity = piece.spin = {};
   piece.poses.clear();
   piece.rag.breakage = false;
-  if (piece.plan.kind != "hopper") return piece;
+  if (piece.plan.kind != PosePlan::Kind::hopper) return piece;
   const Vec3 axis = unit(piece.plan.confine_axis);
   const double angle = piece.plan.hopper_angle;
   double height = -infinity;
@@ -143,7 +143,7 @@ class Crumpling {
     begin();
   }
   CrumpledPose run() {
-    piece_.plan.kind == "hopper" ? fall() : close();
+    piece_.plan.kind == PosePlan::Kind::hopper ? fall() : close();
     return result();
   }
 
@@ -175,7 +175,7 @@ class Crumpling {
 PipeShape Crumpling::pipe() const {
   const PosePlan& plan = piece_.plan;
   PipeShape shape{.axis = unit(plan.confine_axis), .radius = plan.confine_radius, .half_length = infinity};
-  if (plan.kind == "hopper") {
+  if (plan.kind == PosePlan::Kind::hopper) {
     shape.hopper_slope = std::tan(plan.hopper_angle);
     return shape;
   }
@@ -265,7 +265,7 @@ CrumpledPose Crumpling::result() {
   pose.overlap_over_radius = rags_.contacts()->measures().max_overlap_over_radius;
   pose.strain_p99 = std::max(bond_strain_quantile(rags_, 0, 0.99), -bond_strain_quantile(rags_, 0, 0.01));
   pose.duration = rags_.time();
-  if (piece_.plan.kind == "confined" && outside > 0) refuse_crushed("particles are left " + words(outside) + " m outside");
+  if (piece_.plan.kind == PosePlan::Kind::confined && outside > 0) refuse_crushed("particles are left " + words(outside) + " m outside");
   if (pose.strain_p99 > largest_strain || pose.overlap_over_radius > largest_overlap)
     refuse_crushed("strain of the bonds (p99) " + words(pose.strain_p99) + ", must be below " + words(largest_strain) +
                    ", overlap over radius " + words(pose.overlap_over_radius) + ", must be below " + words(largest_overlap));
@@ -276,7 +276,7 @@ CrumpledPose Crumpling::result() {
 
 CrumpledPose crumple(const RagPiece& piece, const ContactSettings& contacts) {
   check_plan(piece);
-  if (piece.plan.kind == "hopper") return Crumpling(piece, contacts, 0).run();
+  if (piece.plan.kind == PosePlan::Kind::hopper) return Crumpling(piece, contacts, 0).run();
   double speed = closing_speed;
   for (int attempt = 1;; ++attempt, speed /= 2) try {
       CrumpledPose pose = Crumpling(piece, contacts, speed).run();
@@ -305,8 +305,8 @@ std::vector<std::string> make_poses(MPI_Comm comm, std::vector<RagPiece>& pieces
     piece.poses = std::move(made.poses);
     std::ostringstream line;
     line.precision(3);
-    line << "pose of " << piece.rag.name << ": " << piece.plan.kind << ", seed " << piece.plan.seed << ", by a run of " << made.duration
-         << " s of the particles alone in " << MPI_Wtime() - begun << " s; strain of the bonds (p99) " << made.strain_p99
+    line << "pose of " << piece.rag.name << ": " << piece.plan.kind.word() << ", seed " << piece.plan.seed << ", by a run of "
+         << made.duration << " s of the particles alone in " << MPI_Wtime() - begun << " s; strain of the bonds (p99) " << made.strain_p99
          << ", overlap of particles over radius " << made.overlap_over_radius;
     if (made.attempts > 1)
       line << "; attempt " << made.attempts << ", with walls that close at " << made.closing_speed << " m/s: faster ones crushed the sheet";

@@ -3,12 +3,14 @@
 #include <numbers>
 #include <string>
 
+#include "base/choice.hpp"
 #include "base/vec3.hpp"
 
 namespace snag {
 
 struct PosePlan {
-  std::string kind = "flat";                      // flat | folded | confined | hopper
+  enum class Kind { flat, folded, confined, hopper };
+  Choice<Kind> kind{Kind::flat, {"flat", "folded", "confined", "hopper"}};
   int folds_lengthwise = 0;                       // folded: folds across the rows, which shorten the length
   int folds_crosswise = 0;                        // folded: folds along the rows, which shorten the width
   double confine_radius = 0;                      // confined, hopper: of the pipe, m
@@ -19,7 +21,7 @@ struct PosePlan {
   std::string where;                              // the table of the case file, for messages
 
   /// Whether the pose comes from a run of the particles alone (crumpled.hpp).
-  bool crumpled() const { return kind == "confined" || kind == "hopper"; }
+  bool crumpled() const { return kind == Kind::confined || kind == Kind::hopper; }
 };
 
 }  // namespace snag

@@ -33,8 +33,8 @@ std::vector<RagPiece> copies_of(const RagPiece& piece, const RagCopies& copies, 
   if (release.patch.empty() && (release.depth > 0 || release.spread > 0))
     throw Error(ExitCode::usage, where + ": release_depth and release_spread need release_patch; give it, or remove them");
   if (copies.poses > 1 && !piece.plan.crumpled())
-    throw Error(ExitCode::usage,
-                where + ": copy_poses needs pose = \"confined\" or \"hopper\", it is \"" + piece.plan.kind + "\"; set pose, or remove it");
+    throw Error(ExitCode::usage, where + ": copy_poses needs pose = \"confined\" or \"hopper\", it is \"" + piece.plan.kind.word() +
+                                     "\"; set pose, or remove it");
   std::vector<RagPiece> all(copies.count, piece);
   for (int k = 0; k < copies.count; ++k) {
     RagPiece& copy = all[k];

@@ -17,6 +17,7 @@ namespace snag {
 namespace {
 
 using Shape = RagSettings::Shape;
+using Properties = RagSettings::Properties;
 constexpr double pi = std::numbers::pi;
 
 /// Jensen (2018) Tables 3.3 (lengthwise) and 3.4 (crosswise); r_p in m, stiffness in N/m3, strength in Pa.
@@ -110,7 +111,8 @@ BondProperties beam_bond(const RagSettings& s, const Rag& rag) {
 double shear_modulus(const RagSettings& s) {
   constexpr double published = 1e6;  // Pa, Jensen (2018), Table 3.1
   if (s.shear_modulus) return *s.shear_modulus;
-  return s.properties == "beam" && s.passport.empty() ? std::min(published, s.youngs_modulus / (2 * (1 + s.poisson_ratio))) : published;
+  return s.properties == Properties::beam && s.passport.empty() ? std::min(published, s.youngs_modulus / (2 * (1 + s.poisson_ratio)))
+                                                                : published;
 }
 
 void set_bonds_of(const Passport& passport, const std::string& where, Rag& rag) {
@@ -128,13 +130,13 @@ void set_bonds(const RagSettings& s, const std::string& where, const std::filesy
   if (s.shape == Shape::particle) return;
   rag.bond_law = s.law ? s.law : bond_laws().make(s.bond_law, where + " bond_law");
   if (!s.passport.empty()) {
-    if (s.properties == "custom")
+    if (s.properties == Properties::custom)
       throw Error(ExitCode::usage,
                   where + ": passport = \"" + s.passport + "\" and properties = \"custom\" both set the bonds; keep one of them");
     set_bonds_of(read_passport(folder / s.passport), where, rag);
-  } else if (s.properties == "beam") {
+  } else if (s.properties == Properties::beam) {
     rag.bond = {beam_bond(s, rag), {}};
-  } else if (s.properties == "custom") {
+  } else if (s.properties == Properties::custom) {
     rag.bond = {s.along, s.across};
     const bool needs_across = s.shape != Shape::fibre;
     if (s.along.normal_stiffness <= 0 || (needs_across && s.across.normal_stiffness <= 0))
@@ -150,20 +152,20 @@ void set_bonds(const RagSettings& s, const std::string& where, const std::filesy
 void check_plan(const RagSettings& s, const std::string& where) {
   const PosePlan& plan = s.plan;
   const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, where + ": " + what); };
-  if (!s.pose_file.empty() && plan.kind != "flat")
-    refuse("pose = \"" + plan.kind + "\" and pose_file = \"" + s.pose_file + "\" both place the particles; keep one of them");
-  if (plan.kind != "folded" && plan.folds_lengthwise + plan.folds_crosswise > 0)
-    refuse("folds_lengthwise and folds_crosswise need pose = \"folded\", it is \"" + plan.kind + "\"; set pose, or remove them");
+  if (!s.pose_file.empty() && plan.kind != PosePlan::Kind::flat)
+    refuse("pose = \"" + plan.kind.word() + "\" and pose_file = \"" + s.pose_file + "\" both place the particles; keep one of them");
+  if (plan.kind != PosePlan::Kind::folded && plan.folds_lengthwise + plan.folds_crosswise > 0)
+    refuse("folds_lengthwise and folds_crosswise need pose = \"folded\", it is \"" + plan.kind.word() + "\"; set pose, or remove them");
   if (!plan.crumpled() && plan.confine_radius > 0)
-    refuse("confine_radius needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
-  if (plan.kind != "confined" && plan.confine_length > 0)
-    refuse("confine_length needs pose = \"confined\", it is \"" + plan.kind + "\"; set pose, or remove it");
+    refuse("confine_radius needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind.word() + "\"; set pose, or remove it");
+  if (plan.kind != PosePlan::Kind::confined && plan.confine_length > 0)
+    refuse("confine_length needs pose = \"confined\", it is \"" + plan.kind.word() + "\"; set pose, or remove it");
   if (!plan.crumpled() && plan.seed != PosePlan{}.seed)
-    refuse("seed needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
-  if (plan.kind != "hopper" && plan.hopper_angle != PosePlan{}.hopper_angle)
-    refuse("hopper_angle needs pose = \"hopper\", it is \"" + plan.kind + "\"; set pose, or remove it");
+    refuse("seed needs pose = \"confined\" or \"hopper\", it is \"" + plan.kind.word() + "\"; set pose, or remove it");
+  if (plan.kind != PosePlan::Kind::hopper && plan.hopper_angle != PosePlan{}.hopper_angle)
+    refuse("hopper_angle needs pose = \"hopper\", it is \"" + plan.kind.word() + "\"; set pose, or remove it");
   if (plan.crumpled() && plan.confine_radius <= 0)
-    refuse("pose = \"" + plan.kind + "\" without confine_radius, the radius of the pipe; give it");
+    refuse("pose = \"" + plan.kind.word() + "\" without confine_radius, the radius of the pipe; give it");
 }
 
 }  // namespace
@@ -191,7 +193,7 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   piece.plan = s.plan, piece.plan.where = where;
   check_plan(s, where);
   if (!s.pose_file.empty()) piece.poses = read_pose_file(folder / s.pose_file, piece.rag);
-  if (s.plan.kind == "folded") piece.poses = folded_poses(piece);
+  if (s.plan.kind == PosePlan::Kind::folded) piece.poses = folded_poses(piece);
   return piece;
 }
 

@@ -63,8 +63,7 @@ void add_mass(RagSettings& s, Records& r) {
                      "Mass of the soaked cloth per area: 0.060 kg/m2 of polyester, and water in the rest of the thickness."));
   r.push_back(renamed(setting("density_model", &s.density_model,
                               "mass_per_area: the mass of the particles follows from that key. jensen_2018: the density of the spheres is "
-                              "538 (1 mm/r_p) kg/m3, as in the coupled simulations of Jensen (2018).",
-                              {"mass_per_area", "jensen_2018"}),
+                              "538 (1 mm/r_p) kg/m3, as in the coupled simulations of Jensen (2018)."),
                       {.key = "as_published", .values = {{"false", "\"mass_per_area\""}, {"true", "\"jensen_2018\""}}}));
 }
 
@@ -72,8 +71,7 @@ void add_plan(PosePlan& p, Records& r) {
   r.push_back(
       setting("pose", &p.kind,
               "How the sheet lies. folded: like a fan. confined: crumpled by a smooth pipe that closes in around the flat sheet, in "
-              "a run of the particles alone. hopper: fallen through a smooth cone into the pipe (Jensen 2018, section 5.2.2).",
-              {"flat", "folded", "confined", "hopper"}));
+              "a run of the particles alone. hopper: fallen through a smooth cone into the pipe (Jensen 2018, section 5.2.2)."));
   const auto folds = [&](const char* key, int* target, const char* meaning) {
     r.push_back({.key = key, .target = target, .minimum = 0, .maximum = 1e6, .meaning = meaning});
   };
@@ -202,7 +200,7 @@ void add_contacts(RagSettings& s, Records& r) {
 RagSettings::RagSettings(Shape piece_shape) : shape(piece_shape) {
   if (shape == Shape::disc) diameter = 0.210;
   if (shape == Shape::particle) diameter = 2e-3;
-  if (shape == Shape::fibre) length = 0.05, properties = "beam";
+  if (shape == Shape::fibre) length = 0.05, properties = Properties::beam;
 }
 
 Section RagSettings::section() {

@@ -37,7 +37,8 @@ struct RagSettings {
   std::optional<double> wall_friction, cloth_friction;       // none: those of [contact]
   double mass_per_area = 0.785;                              // kg/m2
   double density = 1380;                                     // fibre, particle; kg/m3
-  std::string density_model = "mass_per_area";               // or "jensen_2018": spheres of 538 (1 mm/r_p) kg/m3
+  enum class DensityModel { mass_per_area, jensen_2018 };    // the latter: spheres of 538 (1 mm/r_p) kg/m3
+  Choice<DensityModel> density_model{DensityModel::mass_per_area, {"mass_per_area", "jensen_2018"}};
   // pose
   Vec3 position, velocity, spin;  // centre, m; m/s; rad/s
   Vec3 lengthwise{1, 0, 0}, crosswise{0, 1, 0};
@@ -48,17 +49,18 @@ struct RagSettings {
   RagCopies copies;
   // bonds
   std::string bond_law = default_bond_law;
-  std::shared_ptr<const BondLaw> law;    // with its own parameters; none: `bond_law` with their defaults
-  std::string passport;                  // file of a calibration; "": as `properties` says
-  std::string properties = "published";  // published | custom | beam
-  double youngs_modulus = 1e9;           // beam, Pa
-  BondProperties along, across;          // custom
+  std::shared_ptr<const BondLaw> law;  // with its own parameters; none: `bond_law` with their defaults
+  std::string passport;                // file of a calibration; "": as `properties` says
+  enum class Properties { published, custom, beam };
+  Choice<Properties> properties{Properties::published, {"published", "custom", "beam"}};
+  double youngs_modulus = 1e9;   // beam, Pa
+  BondProperties along, across;  // custom
   double bond_damping = 0.5, rotation_friction = 0.001, contact_radius_ratio = 2.2;
   bool breakage = false;
   std::optional<double> shear_modulus;  // Pa, of contacts
   double poisson_ratio = 0.25;
 
-  bool has_published_density() const { return density_model == "jensen_2018"; }
+  bool has_published_density() const { return density_model == DensityModel::jensen_2018; }
   /// Name of the table and its records, which refer to this object.
   Section section();
 };

@@ -11,7 +11,7 @@ Section WallSettings::section() {
   const auto length = [](const char* key, Vec3* target, const char* meaning) {
     return Parameter{.key = key, .target = target, .unit = "m", .meaning = meaning};
   };
-  Parameter kind_of_wall = setting("kind", &kind, "What the wall is.", {"plane", "box", "patches", "stl"});
+  Parameter kind_of_wall = setting("kind", &kind, "What the wall is.");
   kind_of_wall.required = true;
   std::vector<Parameter> parameters{
       kind_of_wall,
@@ -141,19 +141,21 @@ void add_patches(WallSet& walls, const WallSettings& wall, const Mesh& mesh, con
 
 void add_wall(WallSet& walls, const WallSettings& wall, const CaseFile& file, const Mesh* mesh, const WallMotion* rotor) {
   const WallMotion motion{wall.axis, wall.origin, wall.speed, wall.velocity, wall.ramp};
-  if (wall.kind == "plane") {
-    walls.add_plane(wall.name, wall.point, wall.normal, motion);
-  } else if (wall.kind == "box") {
-    walls.add_box(wall.name, wall.lower, wall.upper, motion);
-  } else if (wall.kind == "stl") {
-    WallSurface surface = read_stl(file.path(wall.file), wall.name, wall.scale);
-    if (wall.normals_into_fluid) turn_over(surface);
-    walls.add_surface(wall.name, surface, motion);
-  } else {
-    if (!mesh)
-      throw Error(ExitCode::usage,
-                  "wall \"" + wall.name + "\": kind = \"patches\" without a mesh, patches are of a mesh; give [mesh] or another kind");
-    add_patches(walls, wall, *mesh, motion, rotor);
+  switch (wall.kind) {
+    case WallSettings::Kind::plane:
+      return walls.add_plane(wall.name, wall.point, wall.normal, motion);
+    case WallSettings::Kind::box:
+      return walls.add_box(wall.name, wall.lower, wall.upper, motion);
+    case WallSettings::Kind::stl: {
+      WallSurface surface = read_stl(file.path(wall.file), wall.name, wall.scale);
+      if (wall.normals_into_fluid) turn_over(surface);
+      return walls.add_surface(wall.name, surface, motion);
+    }
+    case WallSettings::Kind::patches:
+      if (!mesh)
+        throw Error(ExitCode::usage,
+                    "wall \"" + wall.name + "\": kind = \"patches\" without a mesh, patches are of a mesh; give [mesh] or another kind");
+      add_patches(walls, wall, *mesh, motion, rotor);
   }
 }
 
@@ -165,16 +167,17 @@ WallSet read_walls(const CaseFile& file, const Mesh* mesh, const WallMotion* rot
   for (const Table& table : file.root().tables("wall")) {
     WallSettings wall;
     table.read(wall.section().parameters);
-    const auto demand = [&](const char* key, const char* kind) {
+    using Kind = WallSettings::Kind;
+    const auto demand = [&](const char* key, Kind kind) {
       if (wall.kind == kind && !table.has(key))
-        throw Error(ExitCode::usage, table.where() + ": no " + key + ", a wall of kind \"" + kind + "\" needs it; give " + key);
+        throw Error(ExitCode::usage, table.where() + ": no " + key + ", a wall of kind \"" + wall.kind.word() + "\" needs it; give " + key);
     };
-    demand("point", "plane"), demand("normal", "plane"), demand("lower", "box"), demand("upper", "box");
-    demand("patches", "patches"), demand("file", "stl");
-    if (wall.stationary && wall.kind != "patches")
-      throw Error(ExitCode::usage, table.where() + ": stationary = true for a wall of kind \"" + wall.kind +
+    demand("point", Kind::plane), demand("normal", Kind::plane), demand("lower", Kind::box), demand("upper", Kind::box);
+    demand("patches", Kind::patches), demand("file", Kind::stl);
+    if (wall.stationary && wall.kind != Kind::patches)
+      throw Error(ExitCode::usage, table.where() + ": stationary = true for a wall of kind \"" + wall.kind.word() +
                                        "\", only patches of a mesh turn by themselves; remove it");
-    if (wall.name.empty()) wall.name = wall.kind + "_" + std::to_string(number);
+    if (wall.name.empty()) wall.name = wall.kind.word() + "_" + std::to_string(number);
     add_wall(walls, wall, file, mesh, rotor);
     ++number;
   }

@@ -20,8 +20,9 @@ namespace snag {
 
 /// One [[wall]] of the case file.
 struct WallSettings {
-  std::string name;                  // default: kind and number
-  std::string kind = "patches";      // plane | box | patches | stl
+  std::string name;  // default: kind and number
+  enum class Kind { plane, box, patches, stl };
+  Choice<Kind> kind{Kind::patches, {"plane", "box", "patches", "stl"}};
   Vec3 point, normal;                // plane: normal points INTO the fluid
   Vec3 lower, upper;                 // box: the fluid is inside
   std::vector<std::string> patches;  // patches of the mesh

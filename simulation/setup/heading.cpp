@@ -28,7 +28,7 @@ double soaked_mass(double thickness, double density) { return fibre_mass + (thic
 
 /// Bonds that were calibrated for another mass or thickness.
 std::string bonds_of_another_cloth(const RagSettings& rag, const RagSettings& standard, const std::string& name) {
-  if (!rag.passport.empty() || rag.properties != "published") return "";
+  if (!rag.passport.empty() || rag.properties != RagSettings::Properties::published) return "";
   const bool same_mass = rag.mass_per_area == standard.mass_per_area || rag.has_published_density(),
              same_thickness = rag.thickness == standard.thickness;
   if (same_mass && same_thickness) return "";

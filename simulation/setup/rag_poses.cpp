@@ -71,7 +71,7 @@ std::string seen_from_the_side(const RagPiece& piece) {
   constexpr double per_cm2 = 1e4;
   std::ostringstream text;
   text.precision(3);
-  text << "pose of " << piece.rag.name << ": " << piece.plan.kind << ", from two sides an area of " << per_cm2 * one.area << " and "
+  text << "pose of " << piece.rag.name << ": " << piece.plan.kind.word() << ", from two sides an area of " << per_cm2 * one.area << " and "
        << per_cm2 * other.area << " cm2, elongation ratio " << one.elongation_ratio << " and " << other.elongation_ratio
        << published(piece.rag);
   return text.str();
@@ -96,7 +96,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
     if (stored && stored->has(name_in_checkpoint(n)))
       pieces[n].poses = as_poses(stored->shared(name_in_checkpoint(n)));
     else
-      log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind);
+      log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind.word());
   }
   std::vector<RagPiece> models;
   for (std::size_t n = 0; n < pieces.size(); ++n)
@@ -111,7 +111,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
     }
   }
   for (std::size_t n = 0; n < pieces.size(); ++n) {
-    if (pieces[n].plan.kind == "flat" || model[n] != n) continue;
+    if (pieces[n].plan.kind == PosePlan::Kind::flat || model[n] != n) continue;
     lines_.push_back(seen_from_the_side(pieces[n]));
     pieces_.push_back(pieces[n]), numbers_.push_back(n);
   }

@@ -149,7 +149,7 @@ TEST(Forces, CandidatesAreTheBaseModelAtZero) {
     for (const std::string& form : forms) {
       SCOPED_TRACE(form);
       for (const auto& parameter : force.parameters())
-        if (parameter.key == "form") **std::get_if<std::string*>(&parameter.target) = form;
+        if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose(form);
       const bool on_drag = force.description().role != Role::force;
       const SphereState s = slanted_state();
       const SphereLoad base = on_drag ? base_load(s) : SphereLoad{};

@@ -18,7 +18,7 @@ constexpr double radius = 0.06;                  // m
 RagPiece cloth(double particle_radius, const Vec3& lengthwise, const Vec3& crosswise) {
   RagSettings settings(RagSettings::Shape::rag);
   settings.length = 0.04, settings.width = 0.03, settings.radius = particle_radius;
-  settings.properties = "custom";  // calibrated for 2 mm at most; here only limp and tight
+  settings.properties = RagSettings::Properties::custom;  // calibrated for 2 mm at most; here only limp and tight
   settings.along = published_bond(std::min(particle_radius, 2e-3), 0), settings.across = published_bond(std::min(particle_radius, 2e-3), 1);
   settings.mass_per_area = 998.2 * settings.thickness;
   settings.position = {radius, 0, 0}, settings.lengthwise = lengthwise, settings.crosswise = crosswise;

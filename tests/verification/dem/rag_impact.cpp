@@ -16,7 +16,7 @@ TEST(RagImpact, CrumplingOnlyLosesEnergy) {
   // Requirement: published cloth thrown corner first against a wall at 15 m/s, spinning, crumples with bonds bent beyond a right angle, and
   // kinetic plus bond energy falls from one millisecond to the next; no particle ends beyond the wall, none is lost.
   RagSettings settings;
-  settings.length = 0.08, settings.width = 0.06, settings.density_model = "jensen_2018";
+  settings.length = 0.08, settings.width = 0.06, settings.density_model = RagSettings::DensityModel::jensen_2018;
   settings.position = {0, 0, 0.07}, settings.velocity = {0, 0, -15}, settings.spin = {10, 30, 50};
   settings.lengthwise = {0.15, 0.5, 1}, settings.crosswise = {0, 1, -0.5};
   RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test")});
