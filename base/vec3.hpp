@@ -45,7 +45,11 @@ inline Vec3 unit(const Vec3& a) {
 /// Rows of a 3 x 3 matrix; of a velocity gradient G[i][j] = d u_i / d x_j.
 using Mat3 = std::array<Vec3, 3>;
 constexpr Vec3 operator*(const Mat3& m, const Vec3& v) { return {dot(m[0], v), dot(m[1], v), dot(m[2], v)}; }
-/// Turns vectors by `angle` (rad) about a unit vector, by Rodrigues' formula.
+/// v turned by `angle` (rad) about a unit vector, by Rodrigues' formula.
+inline Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
+}
+/// The matrix that turns any vector so.
 inline Mat3 rotation(const Vec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   const auto row = [&](const Vec3& e) { return (1 - c) * dot(axis, e) * axis + c * e + s * cross(e, axis); };

@@ -87,11 +87,6 @@ MPI_Comm ranks_of(const CaseFile& file) {
   return file.root().has("mesh") && !start.frozen ? MPI_COMM_WORLD : MPI_COMM_SELF;
 }
 
-/// v turned by an angle about a unit axis (Rodrigues).
-Vec3 turned(const Vec3& v, const Vec3& axis, double angle) {
-  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
-}
-
 }  // namespace
 
 PointCase::~PointCase() = default;

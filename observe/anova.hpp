@@ -14,7 +14,5 @@ struct Anova {
 
 /// From means, standard deviations (n - 1) and counts of the groups. F = 0 and p = 1 where n <= a or nothing varies within the groups.
 Anova anova(std::span<const double> means, std::span<const double> deviations, std::span<const double> counts);
-/// The share of each count that must be independent for the analysis to give this p.
-double independent_share(std::span<const double> means, std::span<const double> deviations, std::span<const double> counts, double p);
 
 }  // namespace snag

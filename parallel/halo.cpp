@@ -83,12 +83,4 @@ void Halo::exchange(std::span<std::int64_t> field) const {
   plan_->to_ghosts(MPI_INT64_T, field.data(), field.data() + plan_->n_owned);
 }
 
-void Halo::add_to_owners(std::span<double> field, int components) const {
-  if (!plan_) return;
-  plan_->check_size(field.size(), components);
-  const double* ghosts = field.data() + plan_->n_owned * static_cast<std::size_t>(components);
-  check_petsc(PetscSFReduceBegin(plan_->sf, row_type(components), ghosts, field.data(), MPI_SUM), "PetscSFReduceBegin");
-  check_petsc(PetscSFReduceEnd(plan_->sf, row_type(components), ghosts, field.data(), MPI_SUM), "PetscSFReduceEnd");
-}
-
 }  // namespace snag

@@ -34,17 +34,6 @@ struct StepReport {
   double seconds_mesh = 0;  // of seconds_rest: turning the mesh, and all that follows from it
 };
 
-/// Terms of the momentum balance of the whole domain in the last step, N; not closed in a turning frame, which adds a force.
-struct MomentumBalance {
-  Vec3 change;      // d/dt of the fluid's momentum
-  Vec3 convection;  // carried out through the boundary
-  Vec3 pressure;    // sum p S of the boundary: force of the fluid on it
-  Vec3 friction;    // viscous force of the fluid on the boundary
-  Vec3 body;        // body force on the fluid
-  Vec3 given;       // by the rags: sum V (f - beta u)
-  Vec3 residual() const { return change + convection + pressure + friction - body - given; }
-};
-
 class FlowSolver {
  public:
   /// Laminar if no turbulence model is given. Throws Error(usage) if the conditions do not suit the mesh. Collective, as are all functions
@@ -64,9 +53,8 @@ class FlowSolver {
   /// Conditions on the boundary are those of the given time, s: of water from another run the time at which it is taken.
   void start(double time_of_conditions);
 
-  /// Force per time that the rags gave to the water in the last step: sum V (reaction - drag u) with the velocity at its end, N.
-  Vec3 momentum_given() const;
-  MomentumBalance momentum_balance() const;
+  /// Coefficients of d/dt in the last step.
+  const TimeScheme& time_scheme() const { return time_; }
   /// From the next step on balances() are made, of the cells that turn and of the rest, about the axis. Collective.
   void keep_balances(const Vec3& origin, const Vec3& axis);
   /// Of angular momentum and of energy in the last step; null if they are not kept.

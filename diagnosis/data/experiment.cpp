@@ -14,7 +14,7 @@
 #include "base/units.hpp"
 #include "base/words.hpp"
 #include "diagnosis/data/experiment_table.hpp"
-#include "diagnosis/data/repeats.hpp"
+#include "diagnosis/data/repeats_of_row.hpp"
 
 namespace snag {
 

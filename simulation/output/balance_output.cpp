@@ -83,18 +83,6 @@ std::vector<Column<BalanceRecord>> columns(const FlowSolver& water) {
   return all;
 }
 
-std::vector<double> values_of(const Balances& now) {
-  std::vector<double> values;
-  for (const Quantity& quantity : quantities) values.push_back(quantity.value(now));
-  return values;
-}
-
-std::vector<double> means_of(const Revolution& revolution) {
-  std::vector<double> means;
-  for (std::size_t q = 0; q < quantities.size(); ++q) means.push_back(revolution_mean(revolution, q));
-  return means;
-}
-
 }  // namespace
 
 BalanceOutput::BalanceOutput(const std::filesystem::path& monitors, const FlowSolver& water, const RotorState& start, bool resume,
@@ -108,12 +96,13 @@ BalanceOutput::BalanceOutput(const std::filesystem::path& monitors, const FlowSo
 void BalanceOutput::after_step(const FlowSolver& water, const RotorState& rotor) {
   const Balances& balances = *water.balances();
   turn_.after_step(rotor, water.flow.time_step_size);
-  for (const Revolution& revolution : sampler_.add(turn_.turned, values_of(balances))) last_means_ = means_of(revolution);
+  for (const Revolution& revolution : sampler_.add(turn_.turned, values_of(quantities, balances)))
+    last_means_ = revolution_means(revolution, quantities.size());
   if (root_) monitor_.add({water.flow.time, &balances});
 }
 
 BalanceSummary BalanceOutput::summary() const {
-  const std::vector<double> means = last_means_.empty() ? means_of(sampler_.current()) : last_means_;
+  const std::vector<double> means = last_means_.empty() ? revolution_means(sampler_.current(), quantities.size()) : last_means_;
   BalanceSummary summary;
   for (std::size_t q = 0; q < quantities.size(); ++q) summary.*quantities[q].mean = means[q];
   return summary;

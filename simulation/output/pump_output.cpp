@@ -52,16 +52,9 @@ enum : std::size_t {
   shaft_power_total = 11
 };
 
-std::vector<double> values_of(const PumpReading& now) {
-  std::vector<double> values;
-  for (const Quantity& quantity : quantities) values.push_back(quantity.value(now));
-  return values;
-}
-
 /// Of all quantities; efficiency is the mean hydraulic over the mean shaft power.
 std::vector<double> means_of(const Revolution& revolution) {
-  std::vector<double> means;
-  for (std::size_t q = 0; q < quantities.size(); ++q) means.push_back(revolution_mean(revolution, q));
+  std::vector<double> means = revolution_means(revolution, quantities.size());
   means[efficiency] = PumpReading::efficiency_of(means[hydraulic_power], means[shaft_power]);
   return means;
 }
@@ -129,7 +122,7 @@ void PumpOutput::after_step(const Flow& flow, const RotorState& rotor, double to
   PumpReading reading = monitor_.read(flow, rotor.shaft);
   reading.torque_contacts = torque_of_contacts;
   reading.shaft_power_total = reading.shaft_power - torque_of_contacts * rotor.shaft.speed;
-  const std::vector<double> values = values_of(reading);
+  const std::vector<double> values = values_of(quantities, reading);
   keeps_speed_ = keeps_speed_ && rotor.shaft.speed == turn_.speed;
   turn_.after_step(rotor, flow.time_step_size);
   for (const Revolution& revolution : sampler_.add(turn_.turned, values)) complete(revolution, flow.time);

@@ -68,6 +68,12 @@ double revolution_mean(const Revolution& revolution, std::size_t quantity) {
   return total / static_cast<double>(values.size());
 }
 
+std::vector<double> revolution_means(const Revolution& revolution, std::size_t n) {
+  std::vector<double> means;
+  for (std::size_t q = 0; q < n; ++q) means.push_back(revolution_mean(revolution, q));
+  return means;
+}
+
 Extremes revolution_extremes(const Revolution& revolution, std::size_t quantity) {
   if (revolution.values.size() < 2) return {};
   Extremes found{revolution.values[1][quantity], revolution.values[1][quantity]};

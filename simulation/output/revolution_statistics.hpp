@@ -28,6 +28,15 @@ struct Revolution {
 
 /// Mean over the angle; of the samples where the shaft has not turned.
 double revolution_mean(const Revolution& revolution, std::size_t quantity);
+/// Of the first n quantities.
+std::vector<double> revolution_means(const Revolution& revolution, std::size_t n);
+/// Of one instant: value(now) of each entry of a table of quantities.
+template <class Table, class Instant>
+std::vector<double> values_of(const Table& quantities, const Instant& now) {
+  std::vector<double> values;
+  for (const auto& quantity : quantities) values.push_back(quantity.value(now));
+  return values;
+}
 
 /// Lowest and highest sample.
 struct Extremes {

@@ -7,8 +7,8 @@
 #include "coupling/coupling_settings.hpp"
 #include "coupling/fluid_force.hpp"
 #include "coupling/kernel_shape.hpp"
-#include "mesh/import/structured.hpp"
 #include "tests/sources.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {

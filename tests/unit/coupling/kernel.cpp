@@ -12,10 +12,10 @@
 #include "../mesh/sliding_shells.hpp"
 #include "coupling/cell_owner.hpp"
 #include "mesh/import/import.hpp"
-#include "mesh/import/structured.hpp"
 #include "mesh/sliding/turning_mesh.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {

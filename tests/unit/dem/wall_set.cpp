@@ -8,8 +8,8 @@
 #include "base/error.hpp"
 #include "dem/walls/wall_triangles.hpp"
 #include "dem/walls/walls.hpp"
-#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
+#include "tests/structured_box.hpp"
 #include "tests/unit/dem/contact_pieces.hpp"
 #include "tests/unit/dem/wall_pieces.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 

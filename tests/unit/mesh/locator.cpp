@@ -7,10 +7,10 @@
 
 #include "check.hpp"
 #include "mesh/import/import.hpp"
-#include "mesh/import/structured.hpp"
 #include "mesh/sliding/turning_mesh.hpp"
 #include "sample.hpp"
 #include "sliding_shells.hpp"
+#include "tests/structured_box.hpp"
 
 namespace {
 

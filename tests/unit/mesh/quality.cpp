@@ -6,8 +6,8 @@
 
 #include "check.hpp"
 #include "mesh/import/import.hpp"
-#include "mesh/import/structured.hpp"
 #include "sample.hpp"
+#include "tests/structured_box.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // ranks: 1 3
 // long ranks: 2 5
-#include "mesh/import/structured.hpp"
+#include "tests/structured_box.hpp"
 
 #include "base/error.hpp"
 #include "check.hpp"

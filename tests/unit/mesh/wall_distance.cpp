@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/parameter.hpp"
-#include "mesh/import/structured.hpp"
 #include "mesh/wall_surface.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 

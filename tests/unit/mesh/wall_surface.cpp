@@ -8,9 +8,9 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "mesh/import/import.hpp"
-#include "mesh/import/structured.hpp"
 #include "parallel/rows.hpp"
 #include "sample.hpp"
+#include "tests/structured_box.hpp"
 
 namespace {
 

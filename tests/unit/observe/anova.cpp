@@ -25,6 +25,28 @@ const std::vector<double> y{2.27, -0.002, 8.68, -3.81, -2.08, -4.70, -2.06, -0.7
 const std::vector<double> y_sigma{32.2, 34.3, 34.5, 33.8, 32.4, 35.4, 31.0, 32.3, 34.5};
 }  // namespace suction_pipe
 
+namespace {
+
+/// p of the analysis if only a share of each count is independent.
+double p_of_share(const std::vector<double>& means, const std::vector<double>& deviations, std::vector<double> counts, double share) {
+  for (double& n : counts) n *= share;
+  return anova(means, deviations, counts).p;
+}
+
+/// The share of each count that must be independent for the analysis to give this p.
+double independent_share(const std::vector<double>& means, const std::vector<double>& deviations, const std::vector<double>& counts,
+                         double p) {
+  double low = 0.02, high = 1;
+  if (p_of_share(means, deviations, counts, high) > p) return 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (p_of_share(means, deviations, counts, middle) > p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
 // The printed means, deviations and counts do not give the printed p; they do when only a part of the rags is independent.
 TEST(Anova, SuctionPipe) {
   using namespace suction_pipe;

@@ -49,22 +49,6 @@ TEST(Halo, ExchangeOfIntegers) {
     EXPECT_EQ(field[ring.rank + g], (std::int64_t{1} << 60) + 100 * ring.owner_rank[g] + ring.owner_index[g]);
 }
 
-// What lies in ghosts is added to the owner, and the ghosts keep their values.
-TEST(Halo, AddToOwnersIsTheTransposeOfExchange) {
-  const Ring ring;
-  const Halo halo(MPI_COMM_WORLD, ring.rank, ring.owner_rank, ring.owner_index);
-  std::vector<double> field(2 * static_cast<std::size_t>(ring.rank + ring.n_ghosts()));
-  for (int i = 0; i < ring.rank; ++i) field[2 * i] = 1000, field[2 * i + 1] = 2000;
-  for (int g = 0; g < ring.n_ghosts(); ++g) field[2 * (ring.rank + g)] = 1, field[2 * (ring.rank + g) + 1] = ring.rank;
-  halo.add_to_owners(field, 2);
-  for (int i = 0; i < ring.rank; ++i) {
-    const bool is_shared = i == ring.rank - 1;
-    EXPECT_EQ(field[2 * i], 1000 + (is_shared ? ring.size - 1 : 0));
-    EXPECT_EQ(field[2 * i + 1], 2000 + (is_shared ? ring.size * (ring.size - 1) / 2 - ring.rank : 0));
-  }
-  for (int g = 0; g < ring.n_ghosts(); ++g) EXPECT_EQ(field[2 * (ring.rank + g) + 1], ring.rank);
-}
-
 // A field of the wrong size is refused instead of read beyond its end; an empty halo changes nothing.
 TEST(Halo, RefusesFieldsOfWrongSize) {
   const Ring ring;

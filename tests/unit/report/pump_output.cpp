@@ -14,10 +14,10 @@
 #include "base/atomic_file.hpp"
 #include "base/series.hpp"
 #include "base/words.hpp"
-#include "mesh/import/structured.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "report/pump_section.hpp"
+#include "tests/structured_box.hpp"
 
 namespace {
 

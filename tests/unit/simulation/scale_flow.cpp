@@ -2,8 +2,8 @@
 // turbulence model has.
 #include <gtest/gtest.h>
 
-#include "mesh/import/structured.hpp"
 #include "simulation/setup/start_flow.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "mesh/import/structured.hpp"
 #include "solver/boundaries/flow_target.hpp"
 #include "solver/boundaries/time_course.hpp"
 #include "solver/flow_solver.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "case_texts.hpp"
-#include "mesh/import/structured.hpp"
 #include "solver/flow_solver.hpp"
 #include "tests/sources.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 using namespace snag::test;

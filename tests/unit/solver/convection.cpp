@@ -5,10 +5,10 @@
 
 #include <random>
 
-#include "mesh/import/structured.hpp"
 #include "solver/convection/convection.hpp"
 #include "solver/convection/limiter.hpp"
 #include "tests/sources.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 

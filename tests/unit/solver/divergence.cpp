@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "case_texts.hpp"
-#include "mesh/import/structured.hpp"
 #include "solver/flow_solver.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 using namespace snag::test;

@@ -2,10 +2,10 @@
 // long ranks: 2
 #include <gtest/gtest.h>
 
-#include "mesh/import/structured.hpp"
 #include "parallel/sum.hpp"
 #include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "mesh/import/structured.hpp"
 #include "solver/monitors.hpp"
+#include "tests/structured_box.hpp"
 
 namespace {
 

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "case_texts.hpp"
-#include "mesh/import/structured.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
 #include "solver/monitors.hpp"
 #include "solver/turbulence/automatic_walls.hpp"
 #include "solver/turbulence/wall_functions.hpp"
 #include "tests/sources.hpp"
+#include "tests/structured_box.hpp"
 
 using namespace snag;
 using namespace snag::test;

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "coupling/coupled_solver.hpp"
-#include "mesh/import/structured.hpp"
 #include "solver/flow_solver.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {

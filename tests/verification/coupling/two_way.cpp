@@ -9,9 +9,9 @@
 
 #include "coupling/coupled_solver.hpp"
 #include "dem/particles/tile_particles.hpp"
-#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {

@@ -5,10 +5,10 @@
 #include <functional>
 #include <numbers>
 
-#include "mesh/import/structured.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "solver/flow_solver.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag::test {
 

@@ -1,19 +1,23 @@
+#pragma once
+// Boxes of hexahedra or tetrahedra without a file, for tests.
+//
 // Cell (i, j, k) has the number i + n_x (j + n_y k); node (i, j, k) likewise with n + 1 nodes along each axis. Rank r owns the slabs k of
 // an equal share.
 // Tetrahedra: the six paths of Kuhn from corner 0 to corner 6 of each hexahedron; diagonals of opposite faces are parallel, so that all
 // faces match, across periods too.
-#include "mesh/import/structured.hpp"
-
+#include <array>
 #include <cstdint>
 
 #include "base/error.hpp"
 #include "base/random_numbers.hpp"
 #include "base/words.hpp"
 #include "mesh/import/parts.hpp"
+#include "mesh/mesh.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
-namespace {
+
+namespace structured {
 
 struct Box {
   Vec3 lower, upper;
@@ -42,18 +46,19 @@ struct Box {
   static double scatter(std::int64_t key) { return 2 * static_cast<double>(mixed(static_cast<std::uint64_t>(key)) >> 11) * 0x1p-53 - 1; }
 };
 
-constexpr std::array<std::array<int, 4>, 6> kuhn{{{0, 1, 2, 6}, {0, 3, 7, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}, {0, 7, 4, 6}, {0, 2, 3, 6}}};
+inline constexpr std::array<std::array<int, 4>, 6> kuhn{
+    {{0, 1, 2, 6}, {0, 3, 7, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}, {0, 7, 4, 6}, {0, 2, 3, 6}}};
 
-int first_slab(int n_slabs, int rank, int size) { return static_cast<int>(std::int64_t{n_slabs} * rank / size); }
+inline int first_slab(int n_slabs, int rank, int size) { return static_cast<int>(std::int64_t{n_slabs} * rank / size); }
 
-int rank_of_slab(int slab, int n_slabs, int size) {
+inline int rank_of_slab(int slab, int n_slabs, int size) {
   int rank = 0;
   while (first_slab(n_slabs, rank + 1, size) <= slab) ++rank;
   return rank;
 }
 
 /// The cells of one hexahedron, whose number it is.
-void add_cells(const Box& box, const std::array<int, 8>& nodes, std::int64_t number, MeshParts& parts) {
+inline void add_cells(const Box& box, const std::array<int, 8>& nodes, std::int64_t number, MeshParts& parts) {
   if (!box.tetrahedra) {
     add_cell(parts, CellShape::hexahedron, nodes.data(), 8);
     parts.cell_id.push_back(number), parts.zone.push_back(0);
@@ -68,7 +73,7 @@ void add_cells(const Box& box, const std::array<int, 8>& nodes, std::int64_t num
 }
 
 /// Slab k: owned, or a ghost slab of another rank. Nodes of the slabs [bottom, ...) lie in parts in the order of their numbers.
-void add_slab(const Box& box, int k, int bottom, MeshParts& parts) {
+inline void add_slab(const Box& box, int k, int bottom, MeshParts& parts) {
   const auto local = [&](int i, int j, int level) { return static_cast<int>(box.node_id(i, j, level) - box.node_id(0, 0, bottom)); };
   const int size = size_of(parts.comm), owner = rank_of_slab(k, box.n[2], size);
   const bool is_ghost = k < box.first || k >= box.last;
@@ -98,7 +103,7 @@ void add_slab(const Box& box, int k, int bottom, MeshParts& parts) {
     }
 }
 
-Mesh meshed(MPI_Comm comm, Box box, std::array<bool, 3> periodic) {
+inline Mesh meshed(MPI_Comm comm, Box box, std::array<bool, 3> periodic) {
   const auto& n = box.n;
   const Vec3 width = box.upper - box.lower;
   for (int axis = 0; axis < 3; ++axis)
@@ -133,14 +138,23 @@ Mesh meshed(MPI_Comm comm, Box box, std::array<bool, 3> periodic) {
   return build_mesh(std::move(parts));
 }
 
-}  // namespace
+}  // namespace structured
 
-Mesh structured_box(MPI_Comm comm, Vec3 lower, Vec3 upper, std::array<int, 3> n, std::array<bool, 3> periodic) {
-  return meshed(comm, {.lower = lower, .upper = upper, .n = n}, periodic);
+/// A box of n[0] x n[1] x n[2] hexahedra; patches x0, x1, y0, y1, z0, z1 (joined to periodic where periodic[axis]); blocks of slabs along z
+/// per rank.
+inline Mesh structured_box(MPI_Comm comm, Vec3 lower, Vec3 upper, std::array<int, 3> n, std::array<bool, 3> periodic = {}) {
+  return structured::meshed(comm, {.lower = lower, .upper = upper, .n = n}, periodic);
 }
 
-Mesh tetrahedral_box(MPI_Comm comm, const BoxShape& shape, std::array<int, 3> n, std::array<bool, 3> periodic) {
-  return meshed(comm, {.lower = shape.lower, .upper = shape.upper, .n = n, .tetrahedra = true, .distortion = shape.distortion}, periodic);
+struct BoxShape {
+  Vec3 lower{}, upper{1, 1, 1};  // m
+  double distortion = 0;  // inner nodes are displaced by up to this share of the spacing along each axis; below 0.2 no cell turns over
+};
+
+/// The same box with each hexahedron cut into six tetrahedra, and its inner nodes displaced at random (the same on any number of ranks).
+inline Mesh tetrahedral_box(MPI_Comm comm, const BoxShape& shape, std::array<int, 3> n, std::array<bool, 3> periodic = {}) {
+  return structured::meshed(comm, {.lower = shape.lower, .upper = shape.upper, .n = n, .tetrahedra = true, .distortion = shape.distortion},
+                            periodic);
 }
 
 }  // namespace snag

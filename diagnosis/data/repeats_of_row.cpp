@@ -1,4 +1,4 @@
-#include "diagnosis/data/repeats.hpp"
+#include "diagnosis/data/repeats_of_row.hpp"
 
 #include <cmath>
 
