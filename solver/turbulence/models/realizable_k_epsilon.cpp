@@ -17,8 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/turbulence/two_equation_model.hpp"
-#include "solver/turbulence/wall_functions.hpp"
+#include "solver/turbulence/k_epsilon_model.hpp"
 
 namespace snag {
 
@@ -26,30 +25,19 @@ namespace {
 
 constexpr double least_C_1 = 0.43;
 
-class RealizableKEpsilon final : public TwoEquationModel {
+class RealizableKEpsilon final : public KEpsilonModel {
  public:
   static constexpr const char* name = "realizable_k_epsilon";
-  RealizableKEpsilon() : TwoEquationModel("epsilon") {}
+  RealizableKEpsilon() : KEpsilonModel(1.2) {}
   Section section() override;
-  TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
-  WallTreatment wall_treatment() const override { return WallTreatment::wall_functions; }
 
  private:
-  std::vector<double>& field_of_phi(Flow& flow) const override { return flow.dissipation_rate; }
-  double phi_of(const TurbulenceValues& values) const override { return values.epsilon; }
-  double turnover_rate(double k, double epsilon) const override { return epsilon / k; }
-  double entering_viscosity(double k, double epsilon) const override { return C_mu_ * k * k / epsilon; }
   void set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& epsilon) override;
-  void prepare_walls(const Flow& flow, const BoundarySet& boundary) override;
-  const WallFaces& walls() const override { return walls_; }
-  void set_wall_viscosity(Flow& flow) override { walls_.set_viscosity(flow, *k_.now); }
-  void set_diffusivity_over(const Flow& flow, double sigma);
+  void set_sources_of_epsilon(const Flow& flow, double dt) override;
+  void set_sources_of_k(const Flow& flow, const std::vector<double>& epsilon) override;
 
-  WallLaw law_;
-  double A_0_ = 4, C_2_ = 1.9, sigma_k_ = 1, sigma_epsilon_ = 1.2;
-  WallFunctions walls_;
+  double A_0_ = 4, C_2_ = 1.9;
   std::vector<double> strain_limit_;  // A_s U, [n_all_cells], 1/s
-  std::vector<double> turbulent_;     // diffusivity of turbulence in the cells, [n_all_cells], m2/s
 };
 
 const bool registered = turbulence_models().add<RealizableKEpsilon>();
@@ -71,18 +59,10 @@ Section RealizableKEpsilon::section() {
   Section model{.name = name,
                 .meaning = "Realizable k-epsilon model (Shih and others 1995) with scalable wall functions (Grotjans and Menter 1998).",
                 .parameters = initial_parameters()};
-  for (Parameter& parameter :
-       std::vector<Parameter>{constant("A_0", &A_0_, 1, 10), constant("C_2", &C_2_, 0.1, 10), constant("sigma_k", &sigma_k_, 0.1, 10),
-                              constant("sigma_epsilon", &sigma_epsilon_, 0.1, 10), constant("kappa", &law_.kappa, 0.2, 1),
-                              constant("E", &law_.E, 2, 100), tolerance_parameter()})
+  for (Parameter& parameter : std::vector<Parameter>{constant("A_0", &A_0_, 1, 10), constant("C_2", &C_2_, 0.1, 10)})
     model.parameters.push_back(std::move(parameter));
+  for (Parameter& parameter : common_parameters()) model.parameters.push_back(std::move(parameter));
   return model;
-}
-
-void RealizableKEpsilon::prepare_walls(const Flow& flow, const BoundarySet& boundary) {
-  law_.C_mu = C_mu_;
-  law_.set_y_laminar();
-  walls_ = WallFunctions(flow.mesh, boundary, law_);
 }
 
 void RealizableKEpsilon::set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& epsilon) {
@@ -93,36 +73,21 @@ void RealizableKEpsilon::set_eddy_viscosity(Flow& flow, const std::vector<double
   }
 }
 
-void RealizableKEpsilon::set_diffusivity_over(const Flow& flow, double sigma) {
-  turbulent_ = flow.eddy_viscosity;
-  for (double& value : turbulent_) value /= sigma;
-  set_diffusivity(flow, turbulent_, 1 / sigma);
-}
-
-TurbulenceReport RealizableKEpsilon::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) {
-  const Mesh& mesh = flow.mesh;
+void RealizableKEpsilon::set_sources_of_epsilon(const Flow& flow, double dt) {
   const double nu = flow.dynamic_viscosity / flow.density;
-  begin_correction(flow, boundary, time, outer);
-  walls_.equilibrium(flow, boundary, k_.guess);
-  std::vector<double>& epsilon = *phi_.now;
-
-  set_diffusivity_over(flow, sigma_epsilon_);
-  for (int c = 0; c < mesh.n_cells; ++c) {
+  for (int c = 0; c < flow.mesh.n_cells; ++c) {
     const double k = k_.guess[c], e = phi_.guess[c], S = std::sqrt(strain_[c]), eta = S * k / e;
-    const double b = C_2_ / (k + std::sqrt(nu * e)), decayed = b * e * time.dt;
+    const double b = C_2_ / (k + std::sqrt(nu * e)), decayed = b * e * dt;
     set_sources_of_phi(c, std::max(least_C_1, eta / (eta + 5)) * S * e, b, 0.5 * decayed / (1 + decayed));
   }
-  const SweepReport of_epsilon = phi_.equation->solve(phi_.history(), {production_, sink_, diffusivity_, phi_.entering},
-                                                      {walls_.cells(), walls_.dissipation()}, epsilon);
-  set_diffusivity_over(flow, sigma_k_);
-  for (int c = 0; c < mesh.n_cells; ++c) {
+}
+
+void RealizableKEpsilon::set_sources_of_k(const Flow& flow, const std::vector<double>& epsilon) {
+  for (int c = 0; c < flow.mesh.n_cells; ++c) {
     const double k = k_.guess[c];
     production_[c] = k * k / (A_0_ * epsilon[c] + strain_limit_[c] * k) * strain_[c];
     sink_[c] = epsilon[c] / k;
   }
-  for (std::size_t i = 0; i < walls_.cells().size(); ++i) production_[walls_.cells()[i]] = walls_.production()[i];
-  const SweepReport of_k = k_.equation->solve(k_.history(), {production_, sink_, diffusivity_, k_.entering}, {}, *k_.now);
-  return end_correction(flow, of_k, of_epsilon);
 }
 
 }  // namespace
