@@ -56,7 +56,8 @@ void check_subjects(const std::vector<ObserveGroup>& groups, bool has_camera) {
     for (const path& subject : group.subjects) {
       if (!std::filesystem::exists(subject)) throw Error(ExitCode::io, subject.string() + ": does not exist" + near_it(subject));
       if (!has_camera && !is_table(subject) && !is_run(subject))
-        throw Error(ExitCode::usage, subject.string() + ": is no run, and pictures need a camera; give --camera CAMERA.toml");
+        throw Error(ExitCode::usage,
+                    subject.string() + ": is not the output folder of a run, and pictures need a camera; give --camera CAMERA.toml");
       ++n_subjects, n_tables += is_table(subject);
     }
   if (n_tables > 0 && n_subjects > 1)

@@ -79,7 +79,7 @@ void reject_unread_in(const CaseNode& node) {
     message += node.known.empty() ? "; no key is read here" : "; known keys: " + joined(node.known);
     for (const std::string& known : node.known) {
       if (key.starts_with(known + "_"))
-        message += " (the ending \"" + shortened(key.substr(known.size() + 1)) + "\" is no unit of " + known + ")";
+        message += " (the ending \"" + shortened(key.substr(known.size() + 1)) + "\" is not a unit of " + known + ")";
     }
     throw Error(ExitCode::usage, message);
   }

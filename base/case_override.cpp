@@ -39,7 +39,7 @@ void apply_override(toml::table& root, const std::string& text) {
       std::size_t index = 0;
       const auto [end, code] = std::from_chars(step.data(), step.data() + step.size(), index);
       if (code != std::errc() || end != step.data() + step.size() || index >= array->size())
-        throw fail("\"" + shortened(step) + "\" is no index of the " + std::to_string(array->size()) + " tables there");
+        throw fail("\"" + shortened(step) + "\" is not the number of one of the " + std::to_string(array->size()) + " tables there");
       at = array->get(index);
       if (last) throw fail("names a table, not a key");
       continue;

@@ -146,7 +146,7 @@ double quantity(std::string_view text, std::string_view si_unit, const std::stri
   double value = 0;
   const char* begin = body.data() + (body.starts_with('+') ? 1 : 0);
   const auto [end, code] = std::from_chars(begin, body.data() + body.size(), value);
-  if (code != std::errc() || !std::isfinite(value)) throw fail("is no number with a unit");
+  if (code != std::errc() || !std::isfinite(value)) throw fail("is not a number with a unit");
   const std::string_view unit_text = trimmed(body.substr(end - body.data()));
   const auto unit = parse_unit(unit_text);
   if (!unit) throw fail("has the unknown unit \"" + shortened(unit_text) + "\"");

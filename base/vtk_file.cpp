@@ -234,7 +234,7 @@ VtkCollection::VtkCollection(std::filesystem::path file, bool resume, double fro
     double seconds = 0;
     const auto [end, failure] = std::from_chars(time.data(), time.data() + time.size(), seconds);
     if (failure != std::errc() || end != time.data() + time.size() || name.empty())
-      fail(file_, "line \"" + line + "\" is no entry of a series; delete the file to start a new one");
+      fail(file_, "line \"" + line + "\" is not an entry of a series; delete the file to start a new one");
     if (!is_later(seconds, from_time)) entries_.emplace_back(seconds, name);
   }
 }

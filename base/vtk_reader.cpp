@@ -38,7 +38,7 @@ template <class Number>
 Number number(const std::string& text, const std::filesystem::path& file) {
   Number value{};
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc() || end != text.data() + text.size()) fail(file, "\"" + shortened(text) + "\" is no number");
+  if (failure != std::errc() || end != text.data() + text.size()) fail(file, "\"" + shortened(text) + "\" is not a number");
   return value;
 }
 

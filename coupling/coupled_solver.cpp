@@ -1,5 +1,6 @@
 #include "coupling/coupled_solver.hpp"
 
+#include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
 #include "dem/particles/tile_particles.hpp"
@@ -14,6 +15,18 @@ namespace {
 
 // Solid fraction of a random packing of spheres: what lies denser has no room for the water that the model puts there.
 constexpr double densest_packing = 0.6;
+
+/// Throws Error(usage) that names the forces of the case that need k and epsilon, if the flow has none. Collective.
+void require_turbulence(const FluidForces& forces, const Flow& flow) {
+  std::vector<std::string> names;
+  for (const auto& force : forces)
+    if (const ForceDescription description = force->description(); description.samples.turbulence) names.push_back(description.name);
+  const auto n_values = static_cast<std::int64_t>(flow.turbulent_kinetic_energy.size());  // none on a rank without cells
+  if (names.empty() || sum(flow.mesh.comm, n_values) > 0) return;
+  throw Error(ExitCode::usage, "[coupling] forces: " + joined(names) + (names.size() > 1 ? " need" : " needs") +
+                                   " k and epsilon, but this flow has none; give [turbulence] model = \"k_epsilon\", or remove " +
+                                   (names.size() > 1 ? "the forces" : "the force"));
+}
 
 /// Adds the time of some work to `seconds`.
 template <class Work>
@@ -33,8 +46,8 @@ void CoupledSolver::step(double dt) {
     load_->begin_step(rags_.tiles(), rags_.time());  // weights w_bc; fluid -> particles, consistent
   });
   timed(seconds_.rags, [&] { rags_.advance(dt, load_.get()); });  // in sub-steps; sums the impulse of the fluid on each particle
-  if (prescribed_field_) return timed(seconds_.coupling, [&] { give(dt), write_report(dt); });
-  timed(seconds_.coupling, [&] { give(dt); });  // particles -> fluid, conservative: solid fraction, reaction
+  if (prescribed_field_) return timed(seconds_.coupling, [&] { spread(dt), write_report(dt); });
+  timed(seconds_.coupling, [&] { spread(dt); });  // particles -> fluid, conservative: solid fraction, reaction
   timed(seconds_.flow, [&] { advance_flow_(dt); });
   timed(seconds_.coupling, [&] {
     if (flow_->mesh.turning.zone >= 0) mesh_moved();
@@ -45,6 +58,7 @@ void CoupledSolver::step(double dt) {
 
 CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double)> advance_flow)
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
+  require_turbulence(coupling_.forces, flow);
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
   prediction_ = std::make_unique<WaterPrediction>(flow);
@@ -74,17 +88,17 @@ std::optional<Vec3> CoupledSolver::water_velocity(int rag) {
   return sum(rags_.comm(), std::span<const Vec3>(velocity)) / static_cast<double>(rags_.rags()[rag].n_particles);
 }
 
-void CoupledSolver::give(double dt) {
+void CoupledSolver::spread(double dt) {
   report_ = {};
   impulses_ = load_->impulses(rags_.tiles());
   if (!flow_) return;
   const ParticleList& particles = kernel_field_->particles();
   std::vector<double> volume(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
-  report_.max_solid_fraction = exchange_->give_volumes(volume);
+  report_.max_solid_fraction = exchange_->spread_volumes(volume);
   warn_of_packing();
   if (!coupling_.settings.two_way()) return;
-  const ExchangeBalance balance = exchange_->give(impulses_, dt);
+  const ExchangeBalance balance = exchange_->spread_reaction(impulses_, dt);
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;
   report_.force_on_water = balance.on_water / dt;
@@ -134,30 +148,30 @@ std::vector<Column<CouplingReport>> CoupledSolver::columns() {
 
 void CoupledSolver::save(CheckpointWriter& writer) const {
   if (prediction_) prediction_->save(writer);
-  const int n = load_->memory();
+  const int n = load_->n_particle_state();
   if (n == 0) return;
   std::vector<std::int64_t> ids;
   std::vector<double> values;
   for (const Tile& tile : rags_.tiles())
     for_particles(tile, [&](int k, int i, int j) {
       ids.push_back(particle_id(rags_.rags()[tile.rag], tile, i, j));
-      for (int f = 0; f < n; ++f) values.push_back(tile.memory.empty() ? 0 : tile.memory[f * tile.exists.size() + k]);
+      for (int f = 0; f < n; ++f) values.push_back(tile.particle_state.empty() ? 0 : tile.particle_state[f * tile.exists.size() + k]);
     });
   writer.rows("coupling/memory", ids, values, n);
 }
 
 void CoupledSolver::load(CheckpointReader& reader) {
   if (prediction_) prediction_->load(reader);
-  if (const int n = load_->memory(); n > 0) {
+  if (const int n = load_->n_particle_state(); n > 0) {
     std::vector<std::int64_t> ids;
     for (const Tile& tile : rags_.tiles())
       for_particles(tile, [&](int, int i, int j) { ids.push_back(particle_id(rags_.rags()[tile.rag], tile, i, j)); });
     const std::vector<double> values = reader.rows("coupling/memory", ids, n);
     const double* row = values.data();
     for (Tile& tile : rags_.tiles()) {
-      tile.memory.assign(n * tile.exists.size(), 0.0);
+      tile.particle_state.assign(n * tile.exists.size(), 0.0);
       for_particles(tile, [&](int k, int, int) {
-        for (int f = 0; f < n; ++f) tile.memory[f * tile.exists.size() + k] = *row++;
+        for (int f = 0; f < n; ++f) tile.particle_state[f * tile.exists.size() + k] = *row++;
       });
     }
   }

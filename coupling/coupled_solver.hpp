@@ -63,7 +63,7 @@ class CoupledSolver {
 
  private:
   void mesh_moved();
-  void give(double dt);
+  void spread(double dt);
   void warn_of_packing();
   void write_report(double dt);
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double momentum_tolerance = 1e-10;  // of what was exchanged
 }
 
-double Exchange::give_volumes(std::span<const double> volumes) {
+double Exchange::spread_volumes(std::span<const double> volumes) {
   flow_.solid_fraction.assign(flow_.mesh.n_cells, 0.0);
   kernel_.spread(volumes, 1, flow_.solid_fraction);
   double largest = 0;
@@ -20,7 +20,7 @@ double Exchange::give_volumes(std::span<const double> volumes) {
   return maximum(flow_.mesh.comm, largest);
 }
 
-ExchangeBalance Exchange::give(std::span<const Vec3> impulse, double dt) {
+ExchangeBalance Exchange::spread_reaction(std::span<const Vec3> impulse, double dt) {
   const Mesh& mesh = flow_.mesh;
   std::vector<double> amounts(3 * impulse.size()), exchanged(impulse.size());
   for (std::size_t b = 0; b < impulse.size(); ++b) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the particles took in one step is given to the water, with the weights by which they saw it:
+// The reaction of the particles in one step is spread to the water, with the weights by which they sampled it:
 //
 //   f_c = 1/V_c sum_b w_bc (-J_b/dt)      so that  sum_b J_b + dt sum_c V_c f_c = 0
 #include "coupling/kernel.hpp"
@@ -18,11 +18,12 @@ class Exchange {
  public:
   Exchange(const Kernel& kernel, Flow& flow) : kernel_(kernel), flow_(flow) {}
 
-  /// Solid fraction of particles of these volumes (m3); not clipped: returns the maximum over all cells. Collective.
-  double give_volumes(std::span<const double> volumes);
+  /// Sets the solid fraction of the flow from the volumes of the particles (m3); not clipped: returns the maximum over all cells.
+  /// Collective.
+  double spread_volumes(std::span<const double> volumes);
   /// Sets the reaction of the flow from the impulses J (N s) of this rank's particles over the step dt, and returns what was exchanged, for
   /// check_momentum. Collective.
-  ExchangeBalance give(std::span<const Vec3> impulse, double dt);
+  ExchangeBalance spread_reaction(std::span<const Vec3> impulse, double dt);
 
  private:
   const Kernel& kernel_;

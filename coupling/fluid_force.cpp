@@ -87,10 +87,10 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   }
   const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity};
   const ForceDescription description = force.description();
-  std::vector<double> memory(static_cast<std::size_t>(description.memory) * tile.field_size);
+  std::vector<double> particle_state(static_cast<std::size_t>(description.n_particle_state) * tile.field_size);
   Particles particles(rag, tile);
   particles.step = state.step;
-  particles.memory = memory.data(), particles.memory_stride = tile.field_size;
+  particles.state = particle_state.data(), particles.state_stride = tile.field_size;
   const bool changes_drag = description.role == Role::drag_replacement || description.role == Role::drag_modifier;
   const auto drag = fluid_forces().make("schiller_naumann", "sphere");
   if (changes_drag) drag->add(fluid, particles, forces);

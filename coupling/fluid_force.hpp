@@ -36,10 +36,10 @@ struct Particles {
   double mass;                                       // m, kg
   double volume;                                     // V_h, hydrodynamic, m3
   double step = 0;                                   // h, of the sub-step, s
-  /// ForceDescription::memory numbers of each particle that stay with it: number i of place k is memory[i * memory_stride + k]; zero at
-  /// birth.
-  double* memory = nullptr;
-  std::size_t memory_stride = 0;
+  /// ForceDescription::n_particle_state numbers of each particle that stay with it: number i of place k is state[i * state_stride + k];
+  /// zero at birth.
+  double* state = nullptr;
+  std::size_t state_stride = 0;
   std::int64_t id(int column, int row) const;  // of the particle in this column and row of the tile
 };
 
@@ -69,7 +69,7 @@ struct ForceDescription {
   SampleSet samples = {};
   bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
   Role role = Role::force;
-  int memory = 0;                   // numbers stored for each particle
+  int n_particle_state = 0;         // numbers stored for each particle
   std::optional<Prior> prior = {};  // of a candidate of the diagnosis
 };
 

@@ -36,8 +36,8 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
             [](const auto& a, const auto& b) { return std::tie(a.first.role, a.first.name) < std::tie(b.first.role, b.first.name); });
   for (const auto& [description, force] : descriptions) {
     needed_ = needed_ | description.samples;
-    forces_.push_back({force, description.reacts_on_fluid, description.role, memory_});
-    memory_ += description.memory;
+    forces_.push_back({force, description.reacts_on_fluid, description.role, n_particle_state_});
+    n_particle_state_ += description.n_particle_state;
     changes_fluid_ = changes_fluid_ || description.role == Role::fluid;
     all_react_ = all_react_ && description.reacts_on_fluid;
     torque_ = torque_ || description.gives_torque, added_mass_ = added_mass_ || description.gives_added_mass;
@@ -99,8 +99,8 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
 FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   Particles particles(rags_[tile.rag], tile);
   particles.step = step;
-  particles.memory_stride = tile.exists.size();
-  if (memory_ > 0 && tile.memory.empty()) tile.memory.assign(memory_ * tile.exists.size(), 0.0);
+  particles.state_stride = tile.exists.size();
+  if (n_particle_state_ > 0 && tile.particle_state.empty()) tile.particle_state.assign(n_particle_state_ * tile.exists.size(), 0.0);
   const auto clear = [&](int f, int count) {
     for (int i = f; i < f + count; ++i) std::fill(array(i) + particles.begin, array(i) + particles.end, 0.0);
   };
@@ -133,7 +133,7 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
     fluid.wall_normal = {array(wall_normal), array(wall_normal + 1), array(wall_normal + 2)};
   }
   for (const Member& member : forces_) {
-    particles.memory = tile.memory.data() + member.memory_begin * particles.memory_stride;
+    particles.state = tile.particle_state.data() + member.state_begin * particles.state_stride;
     member.force->add(fluid, particles, member.reacts ? reacting : silent);
   }
   return fluid;

@@ -36,8 +36,8 @@ class FluidLoad final : public TileForce {
   const SampleSet& needed() const { return needed_; }
   /// Samples the fluid at `time` (s) and sets all sums to zero. Collective.
   void begin_step(std::span<const Tile> tiles, double time);
-  /// Numbers that the forces keep for each particle (Tile::memory).
-  int memory() const { return memory_; }
+  /// Numbers that the forces keep for each particle (Tile::particle_state).
+  int n_particle_state() const { return n_particle_state_; }
   void add(std::size_t index, Tile& tile, double step) override;
 
   /// J of the particle at place k of a tile, N s.
@@ -60,14 +60,14 @@ class FluidLoad final : public TileForce {
     const FluidForce* force;
     bool reacts;
     Role role;
-    int memory_begin;
+    int state_begin;
   };
   std::vector<Member> forces_;  // in the order in which they act
   FluidField& field_;
   const std::vector<Rag>& rags_;
   SampleSet needed_;
   bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false;  // what the forces give
-  int memory_ = 0;
+  int n_particle_state_ = 0;
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.hpp"
-#include "base/words.hpp"
-#include "coupling/fluid_force.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"
 #include "coupling/prescribed_field.hpp"
@@ -19,23 +16,11 @@ namespace {
 
 constexpr double undisturbed = 1e9;  // disturbance width where the particle's own force is not in the fluid, m
 
-/// k of a flow. Throws Error(usage) where it has none.
-const std::vector<double>& turbulent_kinetic_energy(const CellSource& source) {
-  const std::vector<double>& k = source.flow.turbulent_kinetic_energy;
-  if (!k.empty()) return k;
-  std::vector<std::string> forces;
-  for (const auto& force : fluid_forces().make_all())
-    if (const ForceDescription description = force->description(); description.samples.turbulence) forces.push_back(description.name);
-  throw Error(ExitCode::usage, "[coupling] forces: " + joined(forces) +
-                                   " needs k and epsilon, but this flow has none; give [turbulence] model = \"k_epsilon\", or remove the "
-                                   "force");
-}
-
 /// grad k by Gauss over the faces of the cells. At boundaries k of the cell counts: the slope towards a wall is that on the side of the
 /// fluid.
 const double* turbulence_gradient(const CellSource& source, std::vector<double>& made) {
   const Mesh& mesh = source.flow.mesh;
-  const std::vector<double>& value = turbulent_kinetic_energy(source);
+  const std::vector<double>& value = source.flow.turbulent_kinetic_energy;
   made.assign(3 * static_cast<std::size_t>(mesh.n_cells), 0.0);
   const auto add = [&](int cell, const Vec3& v) {
     for (int i = 0; i < 3; ++i) made[3 * static_cast<std::size_t>(cell) + static_cast<std::size_t>(i)] += v[i];
@@ -127,7 +112,7 @@ const std::vector<SampleRow>& sample_rows() {
        .of_sphere = [](const SphereState& state) { return state.material_acceleration; }},
       {.needed = &SampleSet::turbulence,
        .target = &FluidSamples::turbulent_kinetic_energy,
-       .of_cells = [](const CellSource& source, Made) { return turbulent_kinetic_energy(source).data(); },
+       .of_cells = [](const CellSource& source, Made) { return source.flow.turbulent_kinetic_energy.data(); },
        .of_formula =
            [](const FormulaSource& source, double* const* to) {
              for (int p = source.begin; p < source.end; ++p) to[0][p] = std::max(k_of(source, p), 0.0);

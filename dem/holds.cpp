@@ -73,7 +73,7 @@ std::vector<int> chosen_places(const HoldSettings& hold, const RagPiece& piece, 
   std::vector<int> places;
   for (const double given : hold.particles) {
     if (given < 0 || given >= n || given != std::floor(given))
-      throw Error(ExitCode::usage, where + " particles: " + words(given) + " is no particle of " + rag.name +
+      throw Error(ExitCode::usage, where + " particles: " + words(given) + " is not a particle of " + rag.name +
                                        ", must be a whole number from 0 to " + std::to_string(n - 1) + ", row * " +
                                        std::to_string(rag.n_columns) + " + column; correct it, or name another piece in `rag`");
     places.push_back(static_cast<int>(given));

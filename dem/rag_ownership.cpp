@@ -278,8 +278,8 @@ std::vector<double> RagSystem::pack(const Tile& tile) const {
   std::vector<double> values(static_cast<std::size_t>(Tile::n_state) * tile.nx * tile.ny);
   pack_state(tile, 0, tile.ny, values.data());
   for (const AlignedDoubles* mask : {&tile.free, &tile.bond_x, &tile.bond_y}) values.insert(values.end(), mask->begin(), mask->end());
-  values.push_back(static_cast<double>(tile.memory.size()));
-  values.insert(values.end(), tile.memory.begin(), tile.memory.end());
+  values.push_back(static_cast<double>(tile.particle_state.size()));
+  values.insert(values.end(), tile.particle_state.begin(), tile.particle_state.end());
   if (contacts_) {
     const std::vector<double> history = contacts_->pack(tile);
     values.insert(values.end(), history.begin(), history.end());
@@ -294,9 +294,9 @@ Tile RagSystem::unpack(int number, std::span<const double> values) {
     std::copy_n(in, mask->size(), mask->begin());
     in += mask->size();
   }
-  const auto n_memory = static_cast<std::size_t>(*in++);
-  tile.memory.assign(in, in + n_memory);
-  in += n_memory;
+  const auto n_particle_state = static_cast<std::size_t>(*in++);
+  tile.particle_state.assign(in, in + n_particle_state);
+  in += n_particle_state;
   if (contacts_) contacts_->unpack(tile, {in, values.data() + values.size()});
   return tile;
 }

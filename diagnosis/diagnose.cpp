@@ -10,16 +10,16 @@
 #include "base/words.hpp"
 
 #include "diagnosis/attribution/attribution.hpp"
-#include "diagnosis/attribution/restart.hpp"
+#include "diagnosis/attribution/gap_origin.hpp"
 #include "diagnosis/data/noise.hpp"
 #include "diagnosis/data/outliers.hpp"
 #include "diagnosis/judgement/curves.hpp"
-#include "diagnosis/judgement/how_far.hpp"
-#include "diagnosis/judgement/judgement.hpp"
+#include "diagnosis/judgement/decision.hpp"
 #include "diagnosis/judgement/new_conditions.hpp"
 #include "diagnosis/judgement/next_experiment.hpp"
 #include "diagnosis/judgement/posterior.hpp"
-#include "diagnosis/localisation/where.hpp"
+#include "diagnosis/judgement/shrinkage.hpp"
+#include "diagnosis/localisation/gap_cells.hpp"
 
 namespace snag {
 

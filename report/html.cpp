@@ -65,7 +65,7 @@ std::string table(const std::vector<std::string>& header, const std::vector<std:
 std::string embedded_png(const std::filesystem::path& file) {
   const std::string content = file_text(file).value_or("");
   if (!content.starts_with("\x89PNG"))
-    throw Error(ExitCode::io, file.string() + ": is no PNG picture; remove it and make the report again");
+    throw Error(ExitCode::io, file.string() + ": is not a PNG picture; remove it and make the report again");
   std::string code(4 * ((content.size() + 2) / 3) + 1, '\0');  // the library ends it with a null
   const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(code.data()), reinterpret_cast<const unsigned char*>(content.data()),
                                      static_cast<int>(content.size()));

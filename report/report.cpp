@@ -143,7 +143,7 @@ std::string heading(const nlohmann::json& summary, const std::string& title, con
 }  // namespace
 
 void write_report(const std::filesystem::path& dir) {
-  if (!std::filesystem::is_directory(dir)) throw Error(ExitCode::io, dir.string() + ": is no folder; give the folder of --out");
+  if (!std::filesystem::is_directory(dir)) throw Error(ExitCode::io, dir.string() + ": is not a folder; give the folder of --out");
   require_no_outward_links(dir);
   const auto summary = nlohmann::json::parse(file_text(dir / "summary.json").value_or(""), nullptr, false);
   if (!summary.is_object() && !std::filesystem::exists(dir / "monitors") && !std::filesystem::exists(dir / "case.resolved.toml"))

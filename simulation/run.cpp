@@ -105,7 +105,7 @@ void load(Simulation& simulation, CheckpointReader& checkpoint) {
 
 /// What a run does before its first step, and what it refuses there. Collective; throws Error(usage).
 void begin_as_a_run(Simulation& simulation) {
-  if (simulation.water) simulation.water->start(simulation.water->flow.time);
+  if (simulation.water) simulation.water->initialise(simulation.water->flow.time);
   if (simulation.pump) PumpMonitor(simulation.water->flow, *simulation.pump);
 }
 

@@ -97,8 +97,9 @@ void check_names(const Study& study, const std::filesystem::path& file) {
   }
   const auto check = [&](const std::string& key, const std::string& name, const std::vector<std::string>& known, const std::string& what) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    throw Error(ExitCode::usage, file.string() + ": [plateau] " + key + " has \"" + shortened(name) + "\", which is no name of a [[vary]]" +
-                                     what + "; there are: " + (known.empty() ? "none" : joined(known)));
+    throw Error(ExitCode::usage, file.string() + ": [plateau] " + key + " has \"" + shortened(name) +
+                                     "\", which is not the name of a [[vary]]" + what +
+                                     "; there are: " + (known.empty() ? "none" : joined(known)));
   };
   check("x", study.plateau->x, numbers, " with values");
   for (const std::string& name : study.plateau->physical) check("physical", name, names, "");
@@ -119,7 +120,7 @@ void check_keys(const Study& study, const std::filesystem::path& file) {
     }
     if (std::find(known.begin(), known.end(), plain) != known.end()) return;
     const std::string near = nearest_name(plain, known);
-    throw Error(ExitCode::usage, file.string() + ": " + where + " has \"" + shortened(key) + "\", which is no key of summary.json" +
+    throw Error(ExitCode::usage, file.string() + ": " + where + " has \"" + shortened(key) + "\", which is not a key of summary.json" +
                                      (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; known: " + joined(known) +
                                      " (0 stands for any number)");
   };

@@ -82,7 +82,7 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   mobility_ = time.dt / (time.now * flow.density);
   one_over_a0_ = 1 / time.now;
   predict_flux(flow, boundary, gradient, true);
-  give_boundary(flow, boundary);
+  set_boundary_of_correction(flow, boundary);
   const ContinuityReport report = solve(flow);
   correct_cells(flow, true);
   return report;
@@ -101,8 +101,8 @@ Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& va
   return carried * carried * values.acceleration[b];
 }
 
-/// What the boundary gives to p': the change of the fixed pressure, or of the normal slope.
-void Continuity::give_boundary(const Flow& flow, const BoundarySet& boundary) {
+/// p' at the boundary: the change of the fixed pressure, or of the normal slope.
+void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {

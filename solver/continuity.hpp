@@ -65,7 +65,7 @@ class Continuity {
   static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b);
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
-  void give_boundary(const Flow& flow, const BoundarySet& boundary);
+  void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void set_coefficients(const BoundarySet& boundary);

@@ -123,8 +123,8 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   for (const StoredField& field : turbulence_->stored()) write_cells(checkpoint, "flow/" + field.name, mesh, field.values->data(), 1);
   write_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
   write_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
-  write_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.psi, true);
-  write_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
+  write_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.deviation, true);
+  write_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.deviation_old, true);
   write_faces(checkpoint, "flow/boundary_pressure", rows, mesh, on_all_faces(mesh, flow.boundary_pressure), false);
   write_faces(checkpoint, "flow/wall_slope", rows, mesh, on_all_faces(mesh, continuity_.wall_slope), false);
   checkpoint.shared("flow/preconditioner_angle", std::vector<double>{continuity_.preconditioner_angle()});
@@ -175,8 +175,8 @@ void FlowSolver::load_water(CheckpointReader& checkpoint) {
   for (const StoredField& field : turbulence_->stored()) read_cells(checkpoint, "flow/" + field.name, mesh, *field.values, 1);
   read_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
   read_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
-  read_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.psi, true);
-  read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.psi_old, true);
+  read_faces(checkpoint, "flow/psi", rows, mesh, continuity_.history.deviation, true);
+  read_faces(checkpoint, "flow/psi_old", rows, mesh, continuity_.history.deviation_old, true);
   read_boundary(checkpoint, "flow/boundary_pressure", rows, mesh, flow.boundary_pressure);
   read_boundary(checkpoint, "flow/wall_slope", rows, mesh, continuity_.wall_slope);
 }

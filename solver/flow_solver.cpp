@@ -65,7 +65,7 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
 }
 
 StepReport FlowSolver::advance(double dt) {
-  start(flow.time);
+  initialise(flow.time);
   StepReport report;
   const double begun = seconds();
   time_ = bdf(dt, flow.time_step_size);
@@ -85,15 +85,15 @@ void FlowSolver::keep_balances(const Vec3& origin, const Vec3& axis) {
 }
 
 void FlowSolver::advance_frozen(double dt) {
-  start(flow.time);
+  initialise(flow.time);
   flow.velocity_older = flow.velocity_old = flow.velocity;
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
 }
 
 /// The velocity as it was given becomes divergence-free, as an impulsive start makes it.
-void FlowSolver::start(double time_of_conditions) {
+void FlowSolver::initialise(double boundary_time) {
   if (started_) return;
-  boundary_.update(flow, time_of_conditions);
+  boundary_.update(flow, boundary_time);
   flow.mesh.halo.exchange(flow.velocity);
   update_gradient();
   continuity_.start_pressure(flow, boundary_);
@@ -204,7 +204,7 @@ void FlowSolver::correct_turbulence(int outer, const TimeScheme& time, StepRepor
   did = turbulence_->correct(flow, boundary_, time, outer);
   for (const auto& [symbol, sweeps] : did.equations)
     if (!std::isfinite(sweeps.final))
-      watch_.fail(flow, boundary_, time.dt, "the equation of " + symbol + " has a residual that is no number");
+      watch_.fail(flow, boundary_, time.dt, "the equation of " + symbol + " has a residual that is not a number");
   for (const auto& [symbol, sweeps] : did.equations)
     if (!sweeps.converged)
       log::warning("equation of " + symbol + ": change of " + scientific(sweeps.final) + " after " + std::to_string(sweeps.sweeps) +

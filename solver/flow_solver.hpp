@@ -51,7 +51,7 @@ class FlowSolver {
   void advance_frozen(double dt);
   /// What the first step does before it begins: the velocity as it was given becomes divergence-free, gradients and halos are made. Once.
   /// Conditions on the boundary are those of the given time, s: of water from another run the time at which it is taken.
-  void start(double time_of_conditions);
+  void initialise(double boundary_time);
 
   /// Coefficients of d/dt in the last step.
   const TimeScheme& time_scheme() const { return time_; }

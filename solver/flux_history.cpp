@@ -10,9 +10,11 @@
 
 namespace snag {
 
-FluxHistory::FluxHistory(const Mesh& mesh) : psi(mesh.n_faces), psi_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces) {}
+FluxHistory::FluxHistory(const Mesh& mesh) : deviation(mesh.n_faces), deviation_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces) {}
 
-void FluxHistory::mesh_turned() { resize_facets(mesh_, psi), resize_facets(mesh_, psi_old), inherited_.resize(psi.size()); }
+void FluxHistory::mesh_turned() {
+  resize_facets(mesh_, deviation), resize_facets(mesh_, deviation_old), inherited_.resize(deviation.size());
+}
 
 void FluxHistory::begin_step(const std::vector<double>& rate, const std::vector<double>& mesh_flux, const TimeScheme& time) {
   swept_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), 0.0);
@@ -33,20 +35,21 @@ void FluxHistory::begin_step(const std::vector<double>& rate, const std::vector<
     const int P = mesh_.owner[f], N = f < mesh_.n_interior ? mesh_.neighbour[f] : P;
     const double fading = 0.5 * (rate_of(P) + rate_of(N)) * time.dt;
     const double kept = std::clamp(2 - fading, 0.0, 1.0);
-    inherited_[f] = -kept * (time.old * psi[f] + time.older * psi_old[f] + fading * ((1 + time.ratio) * psi[f] - time.ratio * psi_old[f]));
+    inherited_[f] = -kept * (time.old * deviation[f] + time.older * deviation_old[f] +
+                             fading * ((1 + time.ratio) * deviation[f] - time.ratio * deviation_old[f]));
   }
 }
 
 void FluxHistory::end_step(const Flow& flow, const std::vector<Mat3>& gradient) {
-  std::swap(psi, psi_old);
+  std::swap(deviation, deviation_old);
   const auto& u = flow.velocity;
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    psi[f] = flow.flux[f] - interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[P], u[N]), gradient);
+    deviation[f] = flow.flux[f] - interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[P], u[N]), gradient);
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     const int P = mesh_.owner[f];
-    psi[f] = flow.flux[f] - leaving_flux(mesh_, f, u[P], gradient[P]);
+    deviation[f] = flow.flux[f] - leaving_flux(mesh_, f, u[P], gradient[P]);
   }
 }
 

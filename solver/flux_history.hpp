@@ -32,7 +32,7 @@ class FluxHistory {
 
   /// [n_faces], m3/s, times a0.
   const std::vector<double>& inherited() const { return inherited_; }
-  std::vector<double> psi, psi_old;  // [n_faces], m3/s; kept in the checkpoint
+  std::vector<double> deviation, deviation_old;  // psi, [n_faces], m3/s; kept in the checkpoint
 
  private:
   const Mesh& mesh_;

@@ -81,7 +81,7 @@ void Momentum::mesh_turned() {
 void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double share) {
   const auto &u = flow.velocity_old, &before = flow.velocity_older;
   const auto& G = flow.velocity_gradient;
-  const auto& psi = history.psi;
+  const auto& psi = history.deviation;
   const int turning = flow.rotating_zone && flow.rotating_zone->slides() ? flow.rotating_zone->zone() : -1;
   const auto of_cells = [&](int f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
@@ -92,7 +92,7 @@ void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double s
   const auto extrapolated = [&](int f) { return flow.flux_old[f] + share * (flow.flux_old[f] - flow.flux[f]); };
   for (int f = 0; f < mesh_.first_facet; ++f) {
     const bool turns = mesh_.cell_zone[mesh_.owner[f]] == turning;
-    flux_[f] = (turns ? of_cells(f) + psi[f] + share * (psi[f] - history.psi_old[f]) : extrapolated(f)) - flow.mesh_flux[f];
+    flux_[f] = (turns ? of_cells(f) + psi[f] + share * (psi[f] - history.deviation_old[f]) : extrapolated(f)) - flow.mesh_flux[f];
   }
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] = of_cells(f);
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = extrapolated(f) - flow.mesh_flux[f];

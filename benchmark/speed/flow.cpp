@@ -87,7 +87,7 @@ Start flow_in_the_frame(const std::filesystem::path& mesh) {
 }
 
 /// Both meshes come from one file on the same ranks, so that cells have the same places.
-void give(const Start& start, Flow& flow) {
+void begin_with(const Start& start, Flow& flow) {
   const auto n = static_cast<std::ptrdiff_t>(flow.mesh.n_cells);
   on_all_ranks(world, [&] {
     if (!std::equal(flow.mesh.cell_id.begin(), flow.mesh.cell_id.begin() + n, start.cell_id.begin()))
@@ -119,7 +119,7 @@ struct Steps {
 Steps sliding_steps(const std::filesystem::path& mesh, const Start& start, int n_steps) {
   Simulation sliding(CaseFile::parse(case_text(mesh, "sliding", sliding_step, 0), "bench"), world);
   FlowSolver& water = *sliding.water;
-  give(start, water.flow);
+  begin_with(start, water.flow);
   log::info("bench: " + std::to_string(n_warm_up) + " sliding steps to settle, " + std::to_string(n_steps) + " timed");
   Steps found;
   found.n_cells = static_cast<double>(sliding.mesh->n_cells_global);

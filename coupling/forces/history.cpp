@@ -52,7 +52,7 @@ Decay decay(double s, double h) {
 
 struct History final : FluidForce {
   static constexpr const char* name = "history";
-  enum Memory { last_step, last_w, sums = 4, n_memory = sums + 3 * (n_rates + 1) };
+  enum State { last_step, last_w, sums = 4, n_particle_state = sums + 3 * (n_rates + 1) };
   double coefficient = 1, window = 0.1;
   enum class Form { basset, fading, developed };
   Choice<Form> form{Form::basset, {"basset", "fading", "developed"}};
@@ -64,7 +64,7 @@ struct History final : FluidForce {
             .valid_for = "spheres, Re < 1; basset overestimates long memories at larger Re; sub-steps above 1e-5 s",
             .samples = {.velocity_gradient = true, .material_acceleration = true},
             .gives_added_mass = coefficient > 0,
-            .memory = n_memory,
+            .n_particle_state = n_particle_state,
             .prior = Prior{.key = "coupling.history.coefficient",
                            .meaning = "factor on the history force",
                            .mean = 1,
@@ -120,7 +120,7 @@ struct History final : FluidForce {
 
  private:
   double rate(int i) const { return exponentials.rate[i] + (form == Form::fading ? 1 / window : 0); }
-  static double* number(const Particles& particles, int i) { return particles.memory + i * particles.memory_stride; }
+  static double* number(const Particles& particles, int i) { return particles.state + i * particles.state_stride; }
   static VectorSum vector(const Particles& particles, int i) {
     return {number(particles, i), number(particles, i + 1), number(particles, i + 2)};
   }

@@ -27,7 +27,7 @@ constexpr double tiny = 1e-300;
 
 struct TurbulentDispersion final : FluidForce {
   static constexpr const char* name = "turbulent_dispersion";
-  enum Memory { number, q_x, q_y, q_z, age, n_memory };
+  enum State { number, q_x, q_y, q_z, age, n_particle_state };
   double intensity = 1, time_constant = 0.3;
   int seed = 1;
   enum class Form { lagrangian, crossing, eddy };
@@ -40,7 +40,7 @@ struct TurbulentDispersion final : FluidForce {
             .valid_for = "isotropic turbulence given by k and epsilon; particles smaller than the eddies",
             .samples = {.turbulence = true},
             .role = Role::fluid,
-            .memory = n_memory,
+            .n_particle_state = n_particle_state,
             .prior = Prior{.key = "coupling.turbulent_dispersion.intensity",
                            .meaning = "rms fluctuation over that by k",
                            .mean = 1,
@@ -60,7 +60,7 @@ struct TurbulentDispersion final : FluidForce {
     if (intensity == 0) return;
     const double tau = particles.mass / (3 * std::numbers::pi * fluid.dynamic_viscosity * particles.diameter);
     const bool eddy = form == Form::eddy, crossing = form == Form::crossing;
-    const auto at = [&](int i, int p) -> double& { return particles.memory[i * particles.memory_stride + p]; };
+    const auto at = [&](int i, int p) -> double& { return particles.state[i * particles.state_stride + p]; };
     for_particles(particles.tile, [&](int p, int column, int row) {
       const double k = fluid.turbulent_kinetic_energy[p], sigma = std::sqrt(2.0 / 3 * k);
       const Vec3 w = fluid.velocity[p] - particles.velocity[p];

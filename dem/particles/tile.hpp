@@ -73,7 +73,7 @@ struct Tile {
   AlignedDoubles bond_x, bond_y;
   int n_breaks = 0;  // grows whenever a bond mark is taken away: lists that know of bonds are out of date
   // [n][(ny + 2) * stride] numbers that an external force stores for each particle: moved and stored with it; empty if none
-  AlignedDoubles memory;
+  AlignedDoubles particle_state;
 
   /// Sizes the arrays for nx x ny particles: everything zero, unit quaternions, nothing exists.
   void allocate(int tile_nx, int tile_ny);

@@ -29,8 +29,7 @@ struct ParticlePose {
   Quaternion orientation;
 };
 
-/// Release of a piece at a patch of the mesh: its `centre` is found there before
-/// the run begins.
+/// Release of a piece at a patch of the mesh: its `centre` is found there before the run begins.
 struct ReleasePlan {
   std::string patch;  // empty: centre is as given
   double depth = 0;   // of the centre below the patch, into the water, m

@@ -49,7 +49,7 @@ std::vector<Alternative> read_alternatives(const Table& root, const std::vector<
       at.read(keys.section().parameters);
       const std::string& point = keys.point;
       if (std::find(points.begin(), points.end(), point) == points.end())
-        throw Error(ExitCode::usage, at.where() + " point \"" + point + "\" is no [[point]]; there are " + joined(points));
+        throw Error(ExitCode::usage, at.where() + " point \"" + point + "\" is not the name of a [[point]]; there are " + joined(points));
       one.at[point] = keys.values;
     }
     if (one.set.empty() && one.at.empty())
@@ -76,7 +76,7 @@ void set_alternatives(std::vector<Effect>& effects, const std::vector<Alternativ
     if (found == effects.end()) {
       std::vector<std::string> known;
       for (const Effect& effect : effects) known.push_back(effect.name);
-      throw Error(ExitCode::usage, "[[alternative]] effect \"" + alternative.effect + "\" is no candidate; there are " + joined(known));
+      throw Error(ExitCode::usage, "[[alternative]] effect \"" + alternative.effect + "\" is not a candidate; there are " + joined(known));
     }
     // A range so narrow that linear models take it as it is, wide enough for their integrals.
     constexpr double width = 1e-4;

@@ -146,7 +146,7 @@ void require_fitting_sides(const MeshParts& parts, std::span<const Side> group) 
   if (n_cells == 0)
     throw Error(ExitCode::mesh,
                 parts.source + ": a face of the surface \"" + parts.patches[side.index] + "\" at " + place(middle(parts, side.key)) +
-                    " is no face of a cell, it must be one; a cell is missing there or has its corners in a wrong order: mesh "
+                    " is not a face of a cell, it must be one; a cell is missing there or has its corners in a wrong order: mesh "
                     "surfaces and volumes together");
   if (n_cells > 2) throw_overlap(parts, side, n_cells);
   if (n_cells == 2 && side.key[3] != none && opposite_node(parts, first_cell[0]) != opposite_node(parts, first_cell[1]))

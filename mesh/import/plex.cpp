@@ -67,7 +67,9 @@ PetscInt face_of(DM dm, const std::vector<PetscInt>& vertices) {
     if (n_edges == n) face = joins[i];
   }
   check_petsc(DMPlexRestoreJoin(dm, n, vertices.data(), &n_joins, &joins), "DMPlexRestoreJoin");
-  if (face < 0) throw Error(ExitCode::mesh, "a named face is no face of a cell");  // require_fitting_cells has the place
+  if (face < 0)
+    throw Error(ExitCode::mesh,
+                "a face of a named surface belongs to no cell; mesh volume and surface together");  // require_fitting_cells has the place
   return face;
 }
 

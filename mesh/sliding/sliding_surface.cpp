@@ -150,7 +150,7 @@ class SurfaceBuilder {
         const double at_a = side.is_disc[f] ? radius_of(a) : a.z, at_b = side.is_disc[f] ? radius_of(b) : b.z;
         if (std::abs(at_a - at_b) > tolerance_)
           fail(side.face[f],
-               "has an edge on the border of the interface that is no part of a circle about the axis; the interface must be a full "
+               "has an edge on the border of the interface that is not part of a circle about the axis; the interface must be a full "
                "surface of revolution: is the axis right?");
         auto& rims = side.is_disc[f] ? radii : levels;
         rims.push_back(at_a), rims.push_back(at_b);

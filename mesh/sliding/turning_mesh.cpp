@@ -247,7 +247,7 @@ int TurningMesh::cell_of(const FacetSide& side) const {
   const auto found = std::lower_bound(cell_of_id_.begin(), cell_of_id_.end(), std::pair(side.cell_id, 0));
   if (found == cell_of_id_.end() || found->first != side.cell_id)
     throw Error(ExitCode::invariant, "sliding interface: cell " + std::to_string(side.cell_id) + " of rank " + std::to_string(side.rank) +
-                                         " meets a cell of this rank, but is no ghost here");
+                                         " meets a cell of this rank, but is not a ghost cell here");
   return found->second;
 }
 

@@ -321,7 +321,7 @@ std::string Simulation::start_water() {
   if (!kept.as_started) {
     const StartedFlow from = start_flow(*water, start_settings_, start_folder_);
     log_message = from.log_message + ", frozen";
-    water->start(from.time);
+    water->initialise(from.time);
     kept.as_started.emplace(water->flow);
   }
   scale_flow(water->flow, *kept.as_started, start_settings_.velocity_factor);

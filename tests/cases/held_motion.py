@@ -169,7 +169,7 @@ class HeldInMotion(harness.CaseTest):
         self.assertEqual(lines[0], lines[2])
 
     def test_wrong_holds_are_refused(self):
-        for more, message in (("particles = [36]", "particles: 36 is no particle of rag 1, must be a whole number from 0 to 35"),
+        for more, message in (("particles = [36]", "particles: 36 is not a particle of rag 1, must be a whole number from 0 to 35"),
                               ("particles = [3]\nrows = [0, 1]", "has rows, particles: must have one kind of choice"),
                               ("box_lower_m = [0, 0, 0]", "box_lower and box_upper need each other"),
                               ("box_lower_m = [0, 0, 1]\nbox_upper_m = [1, 1, 0]", "is above box_upper (0 m) along axis 2"),

@@ -106,7 +106,7 @@ class Plateau(harness.CaseTest):
         self.assertTrue(self.study("cylinder_segments", 0.01, 'physical = ["drag"]')[1]["found"])
 
     def test_words_of_errors(self):
-        for more, words in (('physical = ["force"]', 'physical has "force", which is no name of a [[vary]]; there are: drag, step'), ("n_least = 1", "n_least")):
+        for more, words in (('physical = ["force"]', 'physical has "force", which is not the name of a [[vary]]; there are: drag, step'), ("n_least = 1", "n_least")):
             self.assertIn(words, self.study(more=more, code=2)[0].stderr)
 
 
@@ -169,7 +169,7 @@ class Study(harness.CaseTest):
         self.assertIn("more than 10000 runs", refused.stderr)
         long_key = "x" * 3000
         refused = self.study(STUDY.format(zip="").replace("rags.7.outcome", long_key), code=2)
-        self.assertIn("which is no key of summary.json", refused.stderr)
+        self.assertIn("which is not a key of summary.json", refused.stderr)
         self.assertNotIn("x" * 100, refused.stderr)
 
     def test_changed_study_is_refused(self):
@@ -208,7 +208,7 @@ class Study(harness.CaseTest):
         lost = self.study(STUDY.replace('case = "case.toml"', 'case = "-inf"').format(zip=""), code=6, ranks=1)
         self.assertIn("study.toml: [study] case", lost.stderr)
         unknown = self.study(STUDY.replace("rags.1.outcome", "rags.1.outcom").format(zip=""), code=2, ranks=1)
-        self.assertIn('"rags.1.outcom", which is no key of summary.json; did you mean "rags.0.outcome"', unknown.stderr)
+        self.assertIn('"rags.1.outcom", which is not a key of summary.json; did you mean "rags.0.outcome"', unknown.stderr)
         self.assertIn("pump.head_m", unknown.stderr, "the known keys are named")
         self.assertIn("need as many", self.study(STUDY.replace("[1, 1.25]", "[1]").format(zip="zip = true"), code=2, ranks=1).stderr)
 

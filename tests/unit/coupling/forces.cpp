@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/error.hpp"
+#include "coupling/coupled_solver.hpp"
 #include "coupling/coupling_settings.hpp"
 #include "coupling/fluid_force.hpp"
 #include "coupling/kernel_shape.hpp"
@@ -302,6 +304,29 @@ TEST(CouplingSettings, ResistanceOfASheetDependsOnTheMode) {
   EXPECT_NEAR(coefficient("mode = \"two_way\"\n"), 2, 1e-12);
   for (const char* mode : {"one_way", "two_way"})
     EXPECT_NEAR(coefficient(std::string("mode = \"") + mode + "\"\n[coupling.sheet_drag]\nnormal_coefficient = 3\n"), 3, 1e-12);
+}
+
+// Requirement: forces that need k and epsilon are refused by name in a flow that has none; forces that the case does not list are not
+// named.
+TEST(CouplingSettings, NamesTheForcesThatNeedTurbulence) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {0, 0, 0}, {0.1, 0.1, 0.1}, {4, 4, 4});
+  Flow flow(mesh);
+  RagSystem rags(MPI_COMM_SELF, {}, {make_piece(RagSettings(RagSettings::Shape::rag), "test")});
+  const auto message = [&](const std::string& forces) -> std::string {
+    try {
+      const CoupledSolver solver(read_coupling(CaseFile::parse("[coupling]\nforces = [" + forces + "]\n").root()), rags, flow,
+                                 [](double) {});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("\"recommended\""), "");
+  EXPECT_TRUE(
+      message("\"recommended\", \"turbulent_dispersion\"").starts_with("[coupling] forces: turbulent_dispersion needs k and epsilon"))
+      << message("\"recommended\", \"turbulent_dispersion\"");
+  flow.turbulent_kinetic_energy.assign(static_cast<std::size_t>(mesh.n_cells), 1e-4);
+  EXPECT_EQ(message("\"recommended\", \"turbulent_dispersion\""), "");
 }
 
 // Requirement: kernels that do not fit particles or cells are named with numbers; one that fits is not.

@@ -169,7 +169,8 @@ TEST_F(ReadExperiment, Alternatives) {
   EXPECT_TRUE(effects[0].fixed && effects[0].blind.empty());
   EXPECT_EQ(effects[0].mean, 1);
   EXPECT_TOLD(message(head + x_mm + A + flow + flow, rows), "second alternative");
-  EXPECT_TOLD(message(head + x_mm + A + flow + "[[alternative.at]]\npoint = \"Z\"\nset = [\"a.b=2\"]\n", rows), "no [[point]]");
+  EXPECT_TOLD(message(head + x_mm + A + flow + "[[alternative.at]]\npoint = \"Z\"\nset = [\"a.b=2\"]\n", rows),
+              "is not the name of a [[point]]");
   EXPECT_TOLD(message(head + x_mm + A + "[[alternative]]\neffect = \"geometry\"\n", rows), "changes nothing");
 }
 

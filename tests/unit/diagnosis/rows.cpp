@@ -6,7 +6,7 @@
 
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/response.hpp"
-#include "diagnosis/localisation/where.hpp"
+#include "diagnosis/localisation/gap_cells.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {

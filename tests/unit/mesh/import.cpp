@@ -251,10 +251,10 @@ TEST(Import, RefusesCellsThatDoNotFit) {
   EXPECT_NE(failure(twisted, ExitCode::mesh).find("at (0.5, 0.5, 1) m has its corners in another cycle"), std::string::npos);
   auto crossed = test::mixed_units(3);
   std::swap(crossed.element[4].node[2], crossed.element[4].node[3]);
-  EXPECT_NE(failure(crossed, ExitCode::mesh).find("is no face of a cell"), std::string::npos);
+  EXPECT_NE(failure(crossed, ExitCode::mesh).find("is not a face of a cell"), std::string::npos);
   auto gap = test::mixed_units(3);
   std::erase_if(gap.element, [](const auto& element) { return element.type == 7 && element.node[0] == 2; });
-  EXPECT_NE(failure(gap, ExitCode::mesh).find("is no face of a cell"), std::string::npos);
+  EXPECT_NE(failure(gap, ExitCode::mesh).find("is not a face of a cell"), std::string::npos);
   auto folded = test::mixed_units(3);
   folded.element[4].node[7] = folded.element[4].node[6];
   EXPECT_NE(failure(folded, ExitCode::mesh).find("twice"), std::string::npos);

@@ -85,7 +85,7 @@ double mean_place(const std::string& form, double intensity = 1) {
         double& x = tile.field(Tile::x)[k];
         if (x >= 0 && x <= 1) return;
         x = x < 0 ? -x : 2 - x;
-        tile.memory[1 * tile.exists.size() + static_cast<std::size_t>(k)] *= -1;
+        tile.particle_state[1 * tile.exists.size() + static_cast<std::size_t>(k)] *= -1;
       });
     if (i < 1000) continue;
     for (const Vec3& x : vectors(rags, Tile::x)) sum += x.x, ++count;

@@ -297,7 +297,7 @@ TEST(MomentumCheck, FindsLeaks) {
   Exchange exchange(kernel, flow);
   const std::vector<Vec3> points{{0.3, 0.4, 0.5}}, impulse{{1, 2, 3}};
   kernel.locate(points);
-  EXPECT_NO_THROW(check_momentum(exchange.give(impulse, 0.1)));
+  EXPECT_NO_THROW(check_momentum(exchange.spread_reaction(impulse, 0.1)));
 }
 
 // Requirement: solid fraction sums to the volume of the rags, is not clipped, and its maximum is reported.

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "diagnosis/localisation/where.hpp"
+#include "diagnosis/localisation/gap_cells.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;

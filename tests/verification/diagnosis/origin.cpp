@@ -3,8 +3,8 @@
 // the begin of a window.
 #include <gtest/gtest.h>
 
-#include "diagnosis/attribution/restart.hpp"
-#include "diagnosis/localisation/where.hpp"
+#include "diagnosis/attribution/gap_origin.hpp"
+#include "diagnosis/localisation/gap_cells.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;

@@ -1,4 +1,4 @@
-#include "diagnosis/localisation/where.hpp"
+#include "diagnosis/localisation/gap_cells.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "diagnosis/attribution/restart.hpp"
+#include "diagnosis/attribution/gap_origin.hpp"
 
 #include <algorithm>
 #include <array>

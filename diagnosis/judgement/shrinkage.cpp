@@ -1,4 +1,4 @@
-#include "diagnosis/judgement/how_far.hpp"
+#include "diagnosis/judgement/shrinkage.hpp"
 
 #include <algorithm>
 #include <cmath>

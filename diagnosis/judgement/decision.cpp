@@ -1,4 +1,4 @@
-#include "diagnosis/judgement/judgement.hpp"
+#include "diagnosis/judgement/decision.hpp"
 
 #include <algorithm>
 #include <cmath>
