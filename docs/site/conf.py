@@ -11,7 +11,8 @@ author = copyright = re.search(r"name: (.*)", (root / "CITATION.cff").read_text(
 version = release = re.search(r"project\(snag VERSION (\S+)", (root / "CMakeLists.txt").read_text())[1]
 extensions = ["myst_parser", "snag_site"]
 root_doc = "docs/index"
-include_patterns = ["docs/**", "cases/*/README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CODE_OF_CONDUCT.md"]
+include_patterns = ["docs/**", "cases/*/README.md", "CHANGELOG.md", "CONTRIBUTING.md", "CODE_OF_CONDUCT.md", "MAINTAINERS.md",
+                    "SECURITY.md"]
 exclude_patterns = ["build", "results", ".git", "tests"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4

@@ -22,7 +22,7 @@ ALLOWED = {
 ALLOWED["app"] = list(ALLOWED)
 HEAVY = re.compile(r"(toml\+\+|spdlog|nlohmann/json.hpp|CLI|petsc|hdf5|gmsh)")
 TOP = set(ALLOWED) | {"cases", "tests", "docs", "share", "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "snag",
-                      "CHANGELOG.md", "CITATION.cff", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "Containerfile", "build", "results"}
+                      "CHANGELOG.md", "CITATION.cff", "CODE_OF_CONDUCT.md", "CONTRIBUTING.md", "Containerfile", "MAINTAINERS.md", "SECURITY.md", "build", "results"}
 
 problems = []
 for path in root.iterdir():
