@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <charconv>
+#include <optional>
 #include <vector>
 
 #include "base/case_node.hpp"
@@ -11,25 +12,32 @@
 
 namespace snag {
 
+namespace {
+
+/// A table whose key `v` has the value: TOML, or a text without its quotes. Nothing if it is neither.
+std::optional<toml::table> parsed_value(const std::string& value) {
+  std::string quoted;
+  for (const char c : value) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const std::string& text : {value, "\"" + quoted + "\""}) {
+    try {
+      return toml::parse("v = " + text);
+    } catch (const toml::parse_error&) {
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 void apply_override(toml::table& root, const std::string& text) {
   const auto equals = text.find('=');
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::usage, "--set " + shortened(text) + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
   };
   if (equals == std::string::npos || equals == 0) throw fail(equals == 0 ? "names no key" : "has no \"=\"");
-  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
-  toml::table parsed;
-  try {
-    parsed = toml::parse("v = " + value);
-  } catch (const toml::parse_error&) {
-    std::string quoted;
-    for (const char c : value) quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-    try {
-      parsed = toml::parse("v = \"" + quoted + "\"");
-    } catch (const toml::parse_error&) {
-      throw fail("its value is not valid TOML");
-    }
-  }
+  const std::string path = text.substr(0, equals);
+  const std::optional<toml::table> parsed = parsed_value(text.substr(equals + 1));
+  if (!parsed) throw fail("its value is not valid TOML");
   const std::vector<std::string> steps = split(path, '.');
   toml::node* at = &root;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -50,7 +58,7 @@ void apply_override(toml::table& root, const std::string& text) {
       const toml::node* before = table->get(step);
       if (before && (before->is_table() || (before->is_array() && is_table_array(*before->as_array()))))
         throw fail("names a section, not a key");
-      table->insert_or_assign(step, *parsed.get("v"));
+      table->insert_or_assign(step, *parsed->get("v"));
     } else {
       if (!table->contains(step)) table->insert(step, toml::table{});
       at = table->get(step);

@@ -178,24 +178,42 @@ struct Place {
   double z = 0;
 };
 
-/// Ways in the plane of the two coordinates that change most, each place coloured by |z|.
-std::string map_of_ways(const Verdict& v) {
-  std::map<std::string, std::map<double, Place>> ways;  // by point and begin of the part
-  std::map<std::string, std::array<double, 2>> ranges;  // by coordinate
+/// The measured ways of all points.
+struct Ways {
+  std::map<std::string, std::map<double, Place>> of_point;  // by the begin of the part
+  std::map<std::string, std::array<double, 2>> ranges;      // by coordinate
+
+  /// The two coordinates that change most, x before y before z; fewer if fewer were measured.
+  std::vector<std::string> axes() const {
+    std::vector<std::string> all;
+    for (const auto& [axis, range] : ranges) all.push_back(axis);
+    const auto width = [&](const std::string& axis) { return ranges.at(axis)[1] - ranges.at(axis)[0]; };
+    std::stable_sort(all.begin(), all.end(), [&](const std::string& a, const std::string& b) { return width(a) > width(b); });
+    if (all.size() > 2) all.resize(2);
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+};
+
+Ways ways_of(const Verdict& v) {
+  Ways ways;
   for (const GapCell& c : v.where) {
     const ObservableRecord* record = find_observable(c.observable);
     if (std::isnan(c.window[0]) || !record || !record->is_position()) continue;
-    Place& place = ways[c.point][c.window[0]];
+    Place& place = ways.of_point[c.point][c.window[0]];
     place.at[c.observable] = c.measured, place.z = std::max(place.z, std::abs(c.z));
-    auto& [low, high] = ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;
+    auto& [low, high] = ways.ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;
     low = std::min(low, c.measured), high = std::max(high, c.measured);
   }
-  std::vector<std::string> axes;
-  for (const auto& [axis, range] : ranges) axes.push_back(axis);
-  std::stable_sort(axes.begin(), axes.end(),
-                   [&](const std::string& a, const std::string& b) { return ranges[a][1] - ranges[a][0] > ranges[b][1] - ranges[b][0]; });
+  return ways;
+}
+
+/// Ways in the plane of the two coordinates that change most, each place coloured by |z|.
+std::string map_of_ways(const Verdict& v) {
+  Ways ways = ways_of(v);
+  auto& ranges = ways.ranges;
+  const std::vector<std::string> axes = ways.axes();
   if (axes.size() < 2) return "";
-  axes.resize(2), std::sort(axes.begin(), axes.end());  // x across, z or y up
   constexpr double width = 760, height = 330, left = 90, right = 40, top = 14, bottom = 44;
   const auto across = [&](double value) {
     return left + (width - left - right) * (value - ranges[axes[0]][0]) / std::max(ranges[axes[0]][1] - ranges[axes[0]][0], 1e-300);
@@ -205,7 +223,7 @@ std::string map_of_ways(const Verdict& v) {
            (height - top - bottom) * (value - ranges[axes[1]][0]) / std::max(ranges[axes[1]][1] - ranges[axes[1]][0], 1e-300);
   };
   std::string lines, dots;
-  for (const auto& [point, way] : ways) {
+  for (const auto& [point, way] : ways.of_point) {
     std::string line;
     for (const auto& [begin, place] : way) {
       if (!place.at.contains(axes[0]) || !place.at.contains(axes[1])) continue;

@@ -92,50 +92,79 @@ Eigen::MatrixXd Screening::share_columns(const Screened& screened, const Whiteni
 }
 
 Screened Screening::screen(const Hypothesis& hypothesis) const {
-  const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(nuisances_.cols());
+  const auto k = static_cast<Eigen::Index>(hypothesis.effects.size());
   Screened result{hypothesis, -std::numeric_limits<double>::infinity(), Eigen::VectorXd(k), std::vector<int>(hypothesis.effects.size(), 0)};
+  const Eigen::VectorXd there = strengths_there(hypothesis);
+  LinearModel linear = linear_model(hypothesis, there);
+  screen_leads(there, linear, result);
+  if (k == 0) return result;
+  screen_shares(there, linear, result);
+  // Forms of the effects that are there.
+  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e)
+    for (std::size_t i = 0; i < around_.state.effects.size(); ++i)
+      if (around_.state.effects[i].first == hypothesis.effects[e]) result.forms[e] = around_.state.form(i);
+  return result;
+}
+
+/// theta of each effect at the state around which was screened; 0 of those that are added.
+Eigen::VectorXd Screening::strengths_there(const Hypothesis& hypothesis) const {
+  Eigen::VectorXd there = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(hypothesis.effects.size()));
+  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e)
+    for (const auto& [index, theta] : around_.state.effects)
+      if (index == hypothesis.effects[e]) there[static_cast<Eigen::Index>(e)] = theta;
+  return there;
+}
+
+/// Prior and bounds of the strengths and the nuisances; the columns of the strengths are still to be filled.
+LinearModel Screening::linear_model(const Hypothesis& hypothesis, const Eigen::VectorXd& there) const {
+  const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(nuisances_.cols());
   LinearModel linear;
   linear.prior = Eigen::VectorXd::Zero(k + m);
   linear.prior.segment(k, m) = -around_.state.nuisances;
   linear.lower.resize(k), linear.upper.resize(k);
-  Eigen::VectorXd there = Eigen::VectorXd::Zero(k);
   for (int e = 0; e < k; ++e) {
     const Effect& effect = model_.effects()[hypothesis.effects[e]];
-    for (const auto& [index, theta] : around_.state.effects)
-      if (index == hypothesis.effects[e]) there[e] = theta;
     linear.prior[e] = (effect.mean - there[e]) / effect.sd;
     linear.lower[e] = (effect.minimum - there[e]) / effect.sd, linear.upper[e] = (effect.maximum - there[e]) / effect.sd;
   }
-  // First without an error of form, each form in the lead by turns.
   linear.rho = rho_, linear.J.resize(rho_.size(), k + m), linear.J.rightCols(m) = nuisances_;
-  std::vector<int> leads(hypothesis.effects.size(), 0);
+  return linear;
+}
+
+/// Without an error of form, each form in the lead by turns: evidence, forms and strengths of the best.
+void Screening::screen_leads(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const {
+  const std::vector<int>& effects = result.hypothesis.effects;
+  const int k = static_cast<int>(effects.size());
+  std::vector<int> leads(effects.size(), 0);
   for (bool more = true; more;) {
-    for (int e = 0; e < k; ++e)
-      linear.J.col(e) = columns_.at(hypothesis.effects[e])[static_cast<std::size_t>(leads[static_cast<std::size_t>(e)])];
+    for (int e = 0; e < k; ++e) linear.J.col(e) = columns_.at(effects[e])[static_cast<std::size_t>(leads[static_cast<std::size_t>(e)])];
     const LinearSolution solution = solve(linear);
     const double evidence = solution.log_evidence - 0.5 * whitening_.log_determinant;
     if (evidence > result.log_evidence) {
       result.log_evidence = evidence, result.forms = leads;
-      for (int e = 0; e < k; ++e) result.theta[e] = there[e] + model_.effects()[hypothesis.effects[e]].sd * solution.d[e];
+      for (int e = 0; e < k; ++e) result.theta[e] = there[e] + model_.effects()[effects[e]].sd * solution.d[e];
     }
     more = false;
     for (std::size_t e = 0; e < leads.size() && !more; ++e) {
-      const int index = hypothesis.effects[e];
-      more = ++leads[e] < (present(index) ? 1 : model_.effects()[index].n_forms);
+      more = ++leads[e] < (present(effects[e]) ? 1 : model_.effects()[effects[e]].n_forms);
       if (!more) leads[e] = 0;
     }
   }
-  if (k == 0) return result;
-  // Then with it, and with shares of the other forms: both follow the strength.
-  Linearization at = around_;
-  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e) {
-    const int index = hypothesis.effects[e];
-    if (present(index)) continue;
-    at.parts.emplace_back();
-    const double share = result.theta[static_cast<Eigen::Index>(e)] / probe_strength(model_.effects()[index]);
-    for (const Eigen::VectorXd& s : signatures_.at(index)[static_cast<std::size_t>(result.forms[e])]) at.parts.back().push_back(share * s);
-  }
+}
+
+/// With an error of form, and with shares of the forms that do not lead: both follow the strength that is known without them.
+void Screening::screen_shares(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const {
   const Screened first = result;
+  const std::vector<int>& effects = first.hypothesis.effects;
+  const int k = static_cast<int>(effects.size()), m = static_cast<int>(nuisances_.cols());
+  Linearization at = around_;
+  for (std::size_t e = 0; e < effects.size(); ++e) {
+    if (present(effects[e])) continue;
+    at.parts.emplace_back();
+    const double share = first.theta[static_cast<Eigen::Index>(e)] / probe_strength(model_.effects()[effects[e]]);
+    for (const Eigen::VectorXd& s : signatures_.at(effects[e])[static_cast<std::size_t>(first.forms[e])])
+      at.parts.back().push_back(share * s);
+  }
   std::vector<double> evidence;
   for (const double form : form_errors) {
     const Whitening whitening = fitter_.whiten(at, form);
@@ -147,21 +176,15 @@ Screened Screening::screen(const Hypothesis& hypothesis) const {
     // Shares that the fit around which was screened has already; effects that are there come before those that are added.
     const Eigen::Index given = std::min<Eigen::Index>(s, around_.state.shares.size());
     linear.prior.segment(k + m, given) = -around_.state.shares.head(given);
-    for (int e = 0; e < k; ++e)
-      linear.J.col(e) = column(hypothesis.effects[e], first.forms[static_cast<std::size_t>(e)], whitening, linear.rho);
+    for (int e = 0; e < k; ++e) linear.J.col(e) = column(effects[e], first.forms[static_cast<std::size_t>(e)], whitening, linear.rho);
     linear.J.middleCols(k, m) = fitter_.nuisance_columns(around_, whitening);
     linear.J.rightCols(s) = shares;
     const LinearSolution solution = solve(linear);
     evidence.push_back(solution.log_evidence - 0.5 * whitening.log_determinant);
     for (int e = 0; e < k && evidence.back() >= *std::max_element(evidence.begin(), evidence.end()); ++e)
-      result.theta[e] = there[e] + model_.effects()[hypothesis.effects[e]].sd * solution.d[e];
+      result.theta[e] = there[e] + model_.effects()[effects[e]].sd * solution.d[e];
   }
   result.log_evidence = log_sum_exp(evidence) - std::log(static_cast<double>(form_errors.size()));
-  // Forms of the effects that are there.
-  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e)
-    for (std::size_t i = 0; i < around_.state.effects.size(); ++i)
-      if (around_.state.effects[i].first == hypothesis.effects[e]) result.forms[e] = around_.state.form(i);
-  return result;
 }
 
 double Screening::weak_gain(int k) const {

@@ -47,6 +47,10 @@ class Screening {
   double projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   Eigen::VectorXd column(int effect, int form, const Whitening& whitening, const Eigen::VectorXd& rho) const;
   bool present(int effect) const;
+  Eigen::VectorXd strengths_there(const Hypothesis& hypothesis) const;
+  LinearModel linear_model(const Hypothesis& hypothesis, const Eigen::VectorXd& there) const;
+  void screen_leads(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const;
+  void screen_shares(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const;
   Eigen::MatrixXd share_columns(const Screened& screened, const Whitening& whitening, const Eigen::VectorXd& rho) const;
 
   Responses& model_;

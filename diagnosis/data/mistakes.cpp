@@ -135,6 +135,29 @@ std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment) {
   return mistakes;
 }
 
+namespace {
+
+/// Observables that one factor can be wrong of: those of a calibration group, else those with one unit, as one instrument measures them.
+std::map<std::string, std::vector<int>> calibrations_of(const Experiment& experiment) {
+  std::map<std::string, std::vector<int>> calibrations;
+  for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
+    const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
+    if (observable.kind != Observable::Kind::gaussian && observable.kind != Observable::Kind::lognormal) continue;
+    calibrations[observable.calibration_group.empty() ? observable.unit : observable.calibration_group].push_back(o);
+  }
+  return calibrations;
+}
+
+/// From the lowest to the highest number of an observable, zero among them.
+double range_of(const Experiment& experiment, int observable) {
+  double low = 0, high = 0;
+  for (const Datum& d : experiment.data)
+    if (d.observable == observable) low = std::min(low, d.value), high = std::max(high, d.value);
+  return high - low;
+}
+
+}  // namespace
+
 std::vector<Mistake> mistakes_of_groups(const Experiment& experiment) {
   std::map<std::string, std::vector<int>> groups;
   int n_training = 0;
@@ -143,18 +166,7 @@ std::vector<Mistake> mistakes_of_groups(const Experiment& experiment) {
     n_training += !point.withheld;
     if (!point.group.empty()) groups[point.group].push_back(p);
   }
-  // Observables that one factor can be wrong of: those of a calibration group, else those with one unit, as one instrument measures them.
-  std::map<std::string, std::vector<int>> calibrations;
-  std::vector<double> range(experiment.observables.size(), 0);
-  for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
-    const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
-    if (observable.kind != Observable::Kind::gaussian && observable.kind != Observable::Kind::lognormal) continue;
-    calibrations[observable.calibration_group.empty() ? observable.unit : observable.calibration_group].push_back(o);
-    double low = infinity, high = -infinity;
-    for (const Datum& d : experiment.data)
-      if (d.observable == o) low = std::min({low, d.value, 0.0}), high = std::max({high, d.value, 0.0});
-    range[static_cast<std::size_t>(o)] = high - low;
-  }
+  const auto calibrations = calibrations_of(experiment);
   constexpr double sd = 0.05, most = 0.5;  // of a factor that is thought to be one; of an offset, over the range of the numbers
   std::vector<Mistake> mistakes;
   const auto add = [&](Mistake::Kind kind, const std::string& name, const std::string& parameter, const std::string& unit, double size,
@@ -180,7 +192,7 @@ std::vector<Mistake> mistakes_of_groups(const Experiment& experiment) {
       add(Mistake::Kind::scale, name, "relative error of a calibration at these points", "1", 1, points, observables);
       for (const int o : observables) {
         const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
-        const double size = range[static_cast<std::size_t>(o)];
+        const double size = range_of(experiment, o);
         if (observable.kind != Observable::Kind::gaussian || size == 0) continue;
         const double unit = parse_unit(observable.unit)->factor;
         add(Mistake::Kind::offset, "offset:" + observable.id + "@" + group, "offset of the numbers at these points", observable.unit,

@@ -16,9 +16,10 @@ constexpr int least_points = 3;
 
 Eigen::VectorXd data_uncertainty(const PointSummary& point) { return point.covariance.diagonal().cwiseSqrt(); }
 
-class HowFar {
+/// What fits say of the withheld points.
+class Prediction {
  public:
-  HowFar(Responses& model, const Attribution& attribution) : model_(model), attribution_(attribution) {}
+  Prediction(Responses& model, const Attribution& attribution) : model_(model), attribution_(attribution) {}
 
   WithheldError predict(const Fit& fit) {
     const auto& withheld = model_.withheld();
@@ -143,8 +144,8 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
   const auto& withheld = model.withheld();
   const auto has_cells = [&](int p) { return model.points()[p].n_gaussian > 0; };
   if (std::count_if(withheld.begin(), withheld.end(), has_cells) < least_points) return;
-  HowFar how_far(model, attribution);
-  const WithheldError before = how_far.predict(attribution.fits.front());
+  Prediction prediction(model, attribution);
+  const WithheldError before = prediction.predict(attribution.fits.front());
   verdict.gap.before = verdict.gap.after = excess_gap(before);
   verdict.gap.floor = noise_floor(before);
   const std::uint64_t seed = model.experiment().seed;
@@ -161,7 +162,7 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
       if (i == chosen) return;
       break;
     }
-    const WithheldError after = how_far.predict(attribution.fits[i]);
+    const WithheldError after = prediction.predict(attribution.fits[i]);
     const Shrinkage shrunk = shrinkage(before, after, seed);
     if (i != chosen) {
       verdict.shrinkage_rejected[attribution.names[i]] = shrunk;
@@ -173,7 +174,7 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
   verdict.gap.computable = true;
   // What no effect of the library takes away: the gap after beyond the floor.
   verdict.gap.remainder = verdict.gap.after;
-  verdict.shrinkage_regression = shrinkage(before, how_far.predict_regression(before), seed);
+  verdict.shrinkage_regression = shrinkage(before, prediction.predict_regression(before), seed);
 }
 
 }  // namespace snag

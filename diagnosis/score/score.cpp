@@ -173,30 +173,38 @@ ScoreRow score_row(const std::string& line) {
 double Score::share() const { return n > 0 ? static_cast<double>(hits) / n : nan; }
 bool Score::met() const { return n > 0 && (at_least ? share() >= limit : share() <= limit); }
 
-ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
+namespace {
+
+bool is_null(const ScoreRow& row) { return row.kind.starts_with("null"); }
+
+std::vector<Score> scores_of(const std::vector<ScoreRow>& rows, bool sphere) {
   const auto clear_single = [](const ScoreRow& row) { return row.kind == "single" && row.strength >= 0.5 && row.detectability >= 3; };
-  const auto is_null = [](const ScoreRow& row) { return row.kind.starts_with("null"); };
   const auto in_library = [](const ScoreRow& row) { return row.kind == "single" || row.kind == "pair"; };
   const auto says_outside = [](const ScoreRow& row) { return row.verdict == VerdictKind::outside; };
   const auto attributes = [](const ScoreRow& row) { return row.verdict == VerdictKind::effects && row.wording == Wording::attributed; };
   const auto clear_pair = [](const ScoreRow& row) { return row.kind == "pair" && row.detectability >= 3; };
+  return {score(rows, "single effect at strength >= 1/2, detectable: named first", true, sphere ? 0.85 : 0.80, clear_single, hit),
+          score(rows, "the same: among the first three", true, 0.97, clear_single, [](const ScoreRow& row) { return row.in_first_three; }),
+          score(rows, "null: an effect is attributed", false, 0.05, is_null, attributes),
+          score(rows, "null: an effect is named at all", false, 0.10, is_null,
+                [](const ScoreRow& row) { return row.verdict == VerdictKind::effects; }),
+          score(
+              rows, "outside, gap over 3 u: says outside", true, 0.90,
+              [](const ScoreRow& row) { return row.kind == "outside" && row.detectability > 3; }, says_outside),
+          score(rows, "effects of the library: says outside", false, 0.05, in_library, says_outside),
+          score(rows, "pairs, detectable: both right", true, 0.75, clear_pair, hit),
+          score(rows, "pairs, detectable: at least one", true, 0.95, clear_pair, names_one_of),
+          score(
+              rows, "attributed and wrong, all sets", false, 0.05, [](const ScoreRow&) { return true; },
+              [&](const ScoreRow& row) { return attributes(row) && !hit(row); })};
+}
+
+}  // namespace
+
+ScoreCard score_card(const std::vector<ScoreRow>& rows, bool sphere) {
   constexpr double ideal = 1, rounding = 1e-9;  // shrinkage
   ScoreCard card;
-  card.scores = {
-      score(rows, "single effect at strength >= 1/2, detectable: named first", true, sphere ? 0.85 : 0.80, clear_single, hit),
-      score(rows, "the same: among the first three", true, 0.97, clear_single, [](const ScoreRow& row) { return row.in_first_three; }),
-      score(rows, "null: an effect is attributed", false, 0.05, is_null, attributes),
-      score(rows, "null: an effect is named at all", false, 0.10, is_null,
-            [](const ScoreRow& row) { return row.verdict == VerdictKind::effects; }),
-      score(
-          rows, "outside, gap over 3 u: says outside", true, 0.90,
-          [](const ScoreRow& row) { return row.kind == "outside" && row.detectability > 3; }, says_outside),
-      score(rows, "effects of the library: says outside", false, 0.05, in_library, says_outside),
-      score(rows, "pairs, detectable: both right", true, 0.75, clear_pair, hit),
-      score(rows, "pairs, detectable: at least one", true, 0.95, clear_pair, names_one_of),
-      score(
-          rows, "attributed and wrong, all sets", false, 0.05, [](const ScoreRow&) { return true; },
-          [&](const ScoreRow& row) { return attributes(row) && !hit(row); })};
+  card.scores = scores_of(rows, sphere);
   card.reliability = reliability_of(rows);
   card.ece = calibration_error(rows), card.ece_by_chance = calibration_error_by_chance(rows);
   // Of effects that cannot be seen a diagnosis cannot know more than its prior.

@@ -112,7 +112,7 @@ double cross_section(const FlowSolver& water) {
 
 Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun)
     : folder_(std::move(folder)), file_(file), simulation_(simulation), checkpoint_clock_(simulation), begun_(begun) {
-  const double from = simulation.time(), end = simulation.time_settings.end;
+  const double end = simulation.time_settings.end;
   fields_interval_ = simulation.output_settings.fields_interval.value_or(end / default_n_fields);
   rags_interval_ = simulation.output_settings.rags_interval.value_or(end / default_n_rag_pictures);
   if (simulation.water) {
@@ -120,51 +120,65 @@ Outputs::Outputs(fs::path folder, const CaseFile& file, Simulation& simulation, 
     cross_section_ = cross_section(*simulation.water);
     if (simulation.coupled) cells_at_walls_ = cells_at_walls(*simulation.water);
   }
-  const bool root = rank_of(MPI_COMM_WORLD) == 0;
   on_all_ranks(MPI_COMM_WORLD, [&] {
-    if (!root) return;
+    if (rank_of(MPI_COMM_WORLD) != 0) return;
     write_atomically(folder_ / "case.resolved.toml", file.resolved());
     if (simulation.poses) simulation.poses->write(folder_ / "rags");
-    const auto open = [&]<class Record>(Monitor<Record>& monitor, const char* name, std::vector<Column<Record>> columns) {
-      monitor = Monitor<Record>(folder_ / "monitors" / name, std::move(columns), resume, from);
-    };
-    open(timing_, "timing.csv", timing_columns());
-    if (simulation.water) {
-      open(residuals_, "residuals.csv", residual_columns());
-      open(patches_, "patches.csv", patch_columns(*simulation.mesh));
-      if (!walls_with_y_plus_.empty()) open(wall_, "wall.csv", wall_columns(*simulation.mesh, walls_with_y_plus_));
-    }
-    if (simulation.rags) open(silhouettes_, "silhouettes.csv", silhouette_columns());
-    if (simulation.holds) open(holds_, "holds.csv", hold_columns());
-    if (simulation.coupled) open(coupling_, "coupling.csv", CoupledSolver::columns());
+    open_monitors(resume);
   });
   const std::shared_ptr<const FieldWriter> writer = field_writers().make(simulation.output_settings.format, "[output] format");
-  const auto in = [&](const char* name) { return SeriesPlace{.folder = folder_ / name, .name = {}, .resume = resume, .from_time = from}; };
-  if (simulation.water) {
-    fields_ = std::make_unique<FieldOutput>(*writer, in("fields"), *simulation.mesh, simulation.output_settings.single_precision);
-    walls_ = std::make_unique<WallOutput>(writer, in("walls"), simulation.water->flow);
+  if (simulation.water) open_water(writer, resume);
+  if (simulation.rags) open_rags(writer, resume);
+}
+
+/// Those that this class writes itself. Rank 0 only.
+void Outputs::open_monitors(bool resume) {
+  const auto open = [&]<class Record>(Monitor<Record>& monitor, const char* name, std::vector<Column<Record>> columns) {
+    monitor = Monitor<Record>(folder_ / "monitors" / name, std::move(columns), resume, simulation_.time());
+  };
+  open(timing_, "timing.csv", timing_columns());
+  if (simulation_.water) {
+    open(residuals_, "residuals.csv", residual_columns());
+    open(patches_, "patches.csv", patch_columns(*simulation_.mesh));
+    if (!walls_with_y_plus_.empty()) open(wall_, "wall.csv", wall_columns(*simulation_.mesh, walls_with_y_plus_));
   }
-  if (simulation.pump) {
-    const Flow& flow = simulation.water->flow;
-    pump_ = std::make_unique<PumpOutput>(folder_ / "monitors", flow, *simulation.pump, rotor_state(*flow.rotating_zone, 0), resume, from);
-  }
-  if (simulation.water && simulation.water->flow.rotating_zone) {
-    const RotatingZone& zone = *simulation.water->flow.rotating_zone;
-    simulation.water->keep_balances(zone.origin(), zone.axis());
-    balance_ = std::make_unique<BalanceOutput>(folder_ / "monitors", *simulation.water, rotor_state(zone, 0), resume, from);
-  }
-  if (simulation.rags) {
-    rag_monitors_ =
-        std::make_unique<RagMonitors>(folder_ / "monitors", *simulation.rags, simulation.passage->geometry().has_value(), resume, from);
-    free_motion_.emplace(simulation.rags->rags().size());
-    elongation_at_start_.resize(simulation.rags->rags().size());
-    rag_output_ = std::make_unique<RagOutput>(*writer, in("rags"));
-    forces_ = rag_forces(*simulation.rags, nullptr, 0);
-    const RotatingZone* zone = simulation.water ? simulation.water->flow.rotating_zone : nullptr;
-    const Shaft shaft = zone ? Shaft{zone->origin(), zone->axis(), zone->full_speed()} : Shaft{};
-    wall_contacts_ = std::make_unique<WallContactOutput>(folder_ / "monitors", *simulation.rags, simulation.walls, zone ? &shaft : nullptr,
-                                                         resume, from);
-  }
+  if (simulation_.rags) open(silhouettes_, "silhouettes.csv", silhouette_columns());
+  if (simulation_.holds) open(holds_, "holds.csv", hold_columns());
+  if (simulation_.coupled) open(coupling_, "coupling.csv", CoupledSolver::columns());
+}
+
+SeriesPlace Outputs::series_in(const char* name, bool resume) const {
+  return {.folder = folder_ / name, .name = {}, .resume = resume, .from_time = simulation_.time()};
+}
+
+/// Fields, walls, and what a turning zone has: balances, and the pump. Collective.
+void Outputs::open_water(const std::shared_ptr<const FieldWriter>& writer, bool resume) {
+  FlowSolver& water = *simulation_.water;
+  const double from = simulation_.time();
+  fields_ =
+      std::make_unique<FieldOutput>(*writer, series_in("fields", resume), *simulation_.mesh, simulation_.output_settings.single_precision);
+  walls_ = std::make_unique<WallOutput>(writer, series_in("walls", resume), water.flow);
+  if (!water.flow.rotating_zone) return;
+  const RotatingZone& zone = *water.flow.rotating_zone;
+  const RotorState start = rotor_state(zone, 0);
+  if (simulation_.pump) pump_ = std::make_unique<PumpOutput>(folder_ / "monitors", water.flow, *simulation_.pump, start, resume, from);
+  water.keep_balances(zone.origin(), zone.axis());
+  balance_ = std::make_unique<BalanceOutput>(folder_ / "monitors", water, start, resume, from);
+}
+
+/// Collective.
+void Outputs::open_rags(const std::shared_ptr<const FieldWriter>& writer, bool resume) {
+  RagSystem& rags = *simulation_.rags;
+  const double from = simulation_.time();
+  rag_monitors_ = std::make_unique<RagMonitors>(folder_ / "monitors", rags, simulation_.passage->geometry().has_value(), resume, from);
+  free_motion_.emplace(rags.rags().size());
+  elongation_at_start_.resize(rags.rags().size());
+  rag_output_ = std::make_unique<RagOutput>(*writer, series_in("rags", resume));
+  forces_ = rag_forces(rags, nullptr, 0);
+  const RotatingZone* zone = simulation_.water ? simulation_.water->flow.rotating_zone : nullptr;
+  const Shaft shaft = zone ? Shaft{zone->origin(), zone->axis(), zone->full_speed()} : Shaft{};
+  wall_contacts_ =
+      std::make_unique<WallContactOutput>(folder_ / "monitors", rags, simulation_.walls, zone ? &shaft : nullptr, resume, from);
 }
 
 void Outputs::initial() {

@@ -80,6 +80,10 @@ class Outputs {
   void load(CheckpointReader& reader);
 
  private:
+  void open_monitors(bool resume);
+  SeriesPlace series_in(const char* name, bool resume) const;
+  void open_water(const std::shared_ptr<const FieldWriter>& writer, bool resume);
+  void open_rags(const std::shared_ptr<const FieldWriter>& writer, bool resume);
   Effort effort() const;
   /// Open on rank 0.
   std::vector<const Series*> series() const;
