@@ -239,7 +239,7 @@ RunResult CaseSimulator::run_collective(const Job& job) const {
   if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
   RunResult result;
   try {
-    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name);
+    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name, meshes_);
     result.values = read_observables(folder_ / "runs" / name, point.asked);
   } catch (const Error& failure) {
     if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;

@@ -15,6 +15,7 @@
 #include "casework/point_case.hpp"
 #include "diagnosis/data/experiment.hpp"
 #include "diagnosis/data/simulator.hpp"
+#include "simulation/setup/generated_meshes.hpp"
 
 namespace snag {
 
@@ -66,6 +67,7 @@ class CaseSimulator final : public Simulator {
   void store(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
+  mutable GeneratedMeshes meshes_;
   mutable FlowCache store_;
   std::filesystem::path folder_;
   std::vector<Observable> observables_;

@@ -1,7 +1,5 @@
 #include "simulation/setup/simulation.hpp"
 
-#include <unistd.h>
-
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
@@ -14,7 +12,7 @@
 #include "simulation/setup/boundary_openings.hpp"
 #include "simulation/setup/coupling_remedy.hpp"
 #include "simulation/setup/forecast.hpp"
-#include "simulation/setup/mesh_generator.hpp"
+#include "simulation/setup/generated_meshes.hpp"
 #include "simulation/setup/rag_release.hpp"
 #include "simulation/setup/start_check.hpp"
 #include "solver/fields/rotating_zone.hpp"
@@ -23,17 +21,6 @@ namespace snag {
 
 namespace {
 
-/// A mesh made for this run only, removed when it has been read.
-struct TemporaryMesh {
-  std::filesystem::path file;
-  ~TemporaryMesh() {
-    std::error_code ignored;
-    if (file.empty()) return;
-    std::filesystem::remove(file, ignored);
-    std::filesystem::remove(file.replace_extension(".resolved.toml"), ignored);  // what snag-mesh writes beside it
-  }
-};
-
 /// Reads the table of a settings struct.
 template <class Settings>
 void read(const Table& root, Settings& settings) {
@@ -41,23 +28,9 @@ void read(const Table& root, Settings& settings) {
   root.table(section).read(section.parameters);
 }
 
-std::filesystem::path made_mesh(MPI_Comm comm, const MeshSettings& settings, const CaseFile& file) {
-  int process = static_cast<int>(getpid());
-  MPI_Bcast(&process, 1, MPI_INT, 0, comm);
-  auto path = std::filesystem::temp_directory_path() / ("snag-" + std::to_string(process) + ".msh");
-  std::vector<std::string> arguments{settings.geometry};
-  if (!settings.parameters.empty()) arguments.push_back(file.path(settings.parameters).string());
-  arguments.insert(arguments.end(), {"--out", path.string()});
-  const ExitCode code = generate_mesh(comm, arguments);
-  if (code != ExitCode::ok)
-    throw Error(code,
-                "[mesh] geometry = \"" + settings.geometry + "\": no mesh was made; try snag mesh " + settings.geometry + " by itself");
-  return path;
-}
-
 }  // namespace
 
-Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowCache* store)
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowCache* store, GeneratedMeshes* generated)
     : comm_(comm), stored_(std::move(stored)), store_(store) {
   const Table root = file.root();
   read(root, case_settings);
@@ -68,7 +41,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowC
   read(root, start_settings_);
   start_folder_ = file.path(start_settings_.from);
   time_settings.n_steps();
-  read_mesh(file);
+  read_mesh(file, generated);
   build_water(file);
   read_pump(root);
   build_rags(file);
@@ -79,7 +52,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowC
 
 Simulation::~Simulation() = default;
 
-void Simulation::read_mesh(const CaseFile& file) {
+void Simulation::read_mesh(const CaseFile& file, GeneratedMeshes* generated) {
   read(file.root(), mesh_settings_);
   ImportOptions options{.scale = mesh_settings_.scale, .partition = stored_.partition};
   for (const Table& table : file.root().tables("periodic")) {
@@ -97,9 +70,14 @@ void Simulation::read_mesh(const CaseFile& file) {
                       words(mesh_settings_.scale)});
   CachedMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
   if (!kept || !kept->mesh) {
-    TemporaryMesh made;
-    if (!mesh_settings_.geometry.empty()) made.file = made_mesh(comm_, mesh_settings_, file);
-    const auto path = made.file.empty() ? file.path(mesh_settings_.file) : made.file;
+    GeneratedMeshes of_this_run;
+    GeneratedMeshes& meshes = generated ? *generated : of_this_run;
+    std::filesystem::path path, parameters;
+    if (!mesh_settings_.parameters.empty()) parameters = file.path(mesh_settings_.parameters);
+    if (mesh_settings_.geometry.empty())
+      path = file.path(mesh_settings_.file);
+    else
+      path = meshes.file(comm_, mesh_settings_.geometry, parameters);
     CachedMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}};
     fresh.quality = quality(*fresh.mesh);
     if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());

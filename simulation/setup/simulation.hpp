@@ -22,6 +22,8 @@
 
 namespace snag {
 
+class GeneratedMeshes;
+
 class Simulation {
  public:
   /// Of a run that is resumed.
@@ -29,9 +31,9 @@ class Simulation {
     std::optional<std::vector<int>> partition;  // rank of every cell
     CheckpointReader* checkpoint;               // null: none; with the poses; only while the simulation is built
   };
-  /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn.
-  /// Collective; throws Error.
-  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, FlowCache* store = nullptr);
+  /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn;
+  /// `generated` the files of generated meshes (null: made for this run alone). Collective; throws Error.
+  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, FlowCache* store = nullptr, GeneratedMeshes* generated = nullptr);
   ~Simulation();
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
@@ -92,7 +94,7 @@ class Simulation {
   Seconds seconds() const;
 
  private:
-  void read_mesh(const CaseFile& file);
+  void read_mesh(const CaseFile& file, GeneratedMeshes* generated);
   void build_water(const CaseFile& file);
   void read_pump(const Table& root);
   void build_rags(const CaseFile& file);

@@ -194,6 +194,22 @@ class Study(harness.CaseTest):
         done = self.study(text, ranks=1, code=2)
         self.assertEqual([row["exit"] for row in self.table()], ["2", "0"], done.tail())
 
+    def test_generated_mesh_is_made_once(self):
+        """Runs with the same geometry and parameters share a mesh, which is gone at the end."""
+        for size in (25, 50):
+            (self.work / f"box_{size}.toml").write_text(f"[box]\nsize_mm = {size}\nlower_m = [0, 0, 0]\nupper_m = [0.1, 0.1, 0.1]\ncells = \"hexahedra\"\n")
+        self.case('[case]\nname = "box"\n[mesh]\ngeometry = "box"\nparameters = "box_25.toml"\n[time]\nend_ms = 2\nstep_ms = 1\n'
+                  '[flow]\n[[boundary]]\npatches = ["x0", "x1", "y0", "y1", "z0", "z1"]\nkind = "wall"\n[output]\nreport = false\n', "box")
+        (self.work / "study.toml").write_text('[study]\nname = "boxes"\ncase = "box.toml"\nresults = ["mesh.cells"]\n'
+                                              '[[vary]]\nkey = "mesh.parameters"\nname = "mesh"\ntexts = ["box_25.toml", "box_50.toml"]\n'
+                                              '[[vary]]\nkey = "flow.kinematic_viscosity_m2_s"\nname = "nu"\nvalues = [1e-6, 1e-5]\n')
+        (self.work / "tmp").mkdir()
+        run = harness.snag(["study", self.work / "study.toml", "--out", self.work / "study"], 2, self.work / "study", environment={"TMPDIR": str(self.work / "tmp")})
+        self.assertEqual(run.code, 0, run.tail())
+        self.assertEqual([row["mesh.cells"] for row in self.table()], ["64", "64", "8", "8"])
+        self.assertEqual(run.stdout.count("of the shape"), 2, run.stdout)
+        self.assertEqual([file.name for file in (self.work / "tmp").iterdir() if file.suffix in (".msh", ".toml")], [])
+
     def written(self, text):
         self.case(TWO_SHEETS)
         (self.work / "study.toml").write_text(text)
