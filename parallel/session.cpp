@@ -30,7 +30,12 @@ class NoNetwork {
     if (launched && !one_machine) return;
     set("OMPI_MCA_pml", "ob1");
     set("OMPI_MCA_btl", launched ? "self,vader" : "self");
-    if (!launched) set("OMPI_MCA_ess_singleton_isolated", "1");
+    if (launched) return;
+    set("OMPI_MCA_ess_singleton_isolated", "1");
+    // Processes without a daemon share one folder of a session, which the first that ends removes; the files of ompio lie there. Open MPI
+    // reads the last of these when the first file is opened, so that it stays.
+    set("OMPI_MCA_orte_create_session_dirs", "0");
+    setenv("OMPI_MCA_io", "^ompio", 0);
   }
   ~NoNetwork() {
     for (const char* name : set_) unsetenv(name);

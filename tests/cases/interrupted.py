@@ -1,6 +1,6 @@
 # timeout: 300
 # cost: 25
-"""Requirement: a run that was interrupted and resumed gives the summary of the uninterrupted run. A damaged checkpoint and removed monitors are reported. A second run in an output folder that is in use is refused."""
+"""Requirement: a run that was interrupted and resumed gives the summary of the uninterrupted run. A damaged checkpoint and removed monitors are reported. A second run in an output folder that is in use is refused, others leave it alone."""
 import os
 import shutil
 import signal
@@ -111,6 +111,17 @@ class Interrupted(harness.CaseTest):
         self.run_case(self.case(SHEETS), 1, "--overwrite")  # a killed run holds nothing
         self.assertFalse((self.work / "out" / ".lock").exists())
         self.assertEqual([], sorted((self.work / "out" / "checkpoint").glob("*.lock")))
+
+    def test_runs_beside_a_run_do_not_disturb_it(self):
+        """Runs that begin and end while another one writes checkpoints do not disturb it, whatever files of its own the library of MPI makes."""
+        case = self.case(SMALL_SHEETS + "[checkpoint]\ninterval_s = 1e-4\n", "own")
+        long = harness.start(["run", case, "--out", self.work / "long", "--set", "time.end_s=0.1"])
+        n = 0
+        while long.poll() is None:
+            self.assertEqual(harness.snag(["--version"]).code, 0)
+            n += 1
+        self.ended(long, 0)
+        self.assertGreater(n, 3)
 
     def test_two_studies_at_once(self):
         self.case(SHEETS)
