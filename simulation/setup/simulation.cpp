@@ -278,7 +278,7 @@ void Simulation::check_inside() {
 }
 
 std::string Simulation::start() {
-  const std::string log_message = start_water();
+  std::string log_message = start_water();
   insert_rags();
   return log_message;
 }
