@@ -136,7 +136,7 @@ void add_patches(WallSet& walls, const WallSettings& wall, const Mesh& mesh, con
                 "wall \"" + wall.name + "\": a motion of its own for patch \"" + turning.front() +
                     "\", which turns with the rotating zone; remove rotation_speed and velocity, or set stationary = true");
   if (!standing.empty()) walls.add_surface(wall.name, wall_surface(mesh, standing), motion);
-  if (!turning.empty()) walls.add_surface(wall.name, wall_surface(mesh, turning), *rotor);
+  if (rotor && !turning.empty()) walls.add_surface(wall.name, wall_surface(mesh, turning), *rotor);
 }
 
 void add_wall(WallSet& walls, const WallSettings& wall, const CaseFile& file, const Mesh* mesh, const WallMotion* rotor) {

@@ -63,8 +63,7 @@ struct EffortRecord {
 class Outputs {
  public:
   /// Writes the resolved case and the poses of the rags, opens monitors and collections; after a resume what lies behind the simulation's
-  /// time is cut. `begun`: MPI_Wtime() at the beginning
-  /// of this process. Collective; throws Error(io).
+  /// time is cut. `begun`: MPI_Wtime() at the beginning of this process. Collective; throws Error(io).
   Outputs(std::filesystem::path folder, const CaseFile& file, Simulation& simulation, bool resume, double begun);
   /// Monitors of the step just done, and fields and a checkpoint where they are due; after the last step whoever ends the run writes it.
   /// Collective; throws Error(io).

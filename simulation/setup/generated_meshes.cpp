@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
@@ -23,9 +24,11 @@ std::filesystem::path GeneratedMeshes::file(MPI_Comm comm, const std::string& ge
   Made wanted{.geometry = geometry, .parameters = {}, .file = {}};
   int from_rank_0[] = {static_cast<int>(getpid()), static_cast<int>(made_.size())};  // process, number of the mesh
   if (rank_of(comm) == 0) {
-    if (!parameters.empty()) wanted.parameters = file_text(parameters).value_or("");
+    // A file that cannot be read is like no other: the generator says why.
+    const auto text = parameters.empty() ? std::optional<std::string>("") : file_text(parameters);
+    if (text) wanted.parameters = *text;
     const auto same = std::find_if(made_.begin(), made_.end(), [&](const Made& one) {
-      return one.geometry == wanted.geometry && one.parameters == wanted.parameters && std::filesystem::exists(one.file);
+      return text && one.geometry == wanted.geometry && one.parameters == wanted.parameters && std::filesystem::exists(one.file);
     });
     from_rank_0[1] = static_cast<int>(same - made_.begin());
   }

@@ -209,6 +209,11 @@ class Study(harness.CaseTest):
         self.assertEqual([row["mesh.cells"] for row in self.table()], ["64", "64", "8", "8"])
         self.assertEqual(run.stdout.count("of the shape"), 2, run.stdout)
         self.assertEqual([file.name for file in (self.work / "tmp").iterdir() if file.suffix in (".msh", ".toml")], [])
+        (self.work / "box_25.toml").write_text("")
+        (self.work / "box_50.toml").unlink()
+        lost = harness.snag(["study", self.work / "study.toml", "--out", self.work / "lost"], 1, self.work / "lost")
+        self.assertEqual(lost.code, 6, lost.tail())
+        self.assertIn("box_50.toml", lost.stderr, "an absent file is not one without parameters")
 
     def written(self, text):
         self.case(TWO_SHEETS)
