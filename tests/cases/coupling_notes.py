@@ -1,3 +1,4 @@
+# processors: 2
 """Requirement: a run says once what its coupling cannot represent: particles that fill more of a cell than they can, and the water that a sheet moves where the coupling is one-way."""
 import harness
 from small_cases import CHANNEL, COARSE_CHANNEL_MESH

@@ -3,6 +3,7 @@
 """Requirement: the case files and meshes that README and tutorials print, and all cases and studies of cases/, are accepted by the program as they stand."""
 import ctypes
 import ctypes.util
+import hashlib
 import os
 import re
 import shlex
@@ -154,6 +155,15 @@ class Examples(harness.CaseTest):
         (self.work / "cases").mkdir(exist_ok=True)
         copy = shutil.copytree(case.parent, self.work / "cases" / case.parent.name)
         (copy / "pump.toml").write_text(pump.read_text().replace('"medium"', '"coarse"'))
+        # The second case of the same pump takes the mesh of the first, which is made here.
+        coarse, made = copy / "pump.toml", self.work / f"{hashlib.sha256(pump.read_bytes()).hexdigest()}.msh"
+        if sum(other.read_bytes() == pump.read_bytes() for other in (harness.SOURCE_DIR / "cases").glob("*/pump.toml")) > 1:
+            if not made.exists():
+                run = harness.snag(["mesh", "pump", coarse, "--out", made])
+                self.assertEqual(run.code, 0, run.tail())
+            text, n = re.subn(r'geometry = "pump"\nparameters = "pump.toml".*', f'file = "{made}"', (copy / case.name).read_text())
+            self.assertEqual(n, 1, case)
+            (copy / case.name).write_text(text)
         return copy / case.name
 
     def studies(self):

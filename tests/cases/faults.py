@@ -1,5 +1,6 @@
 # timeout: 300
 # cost: 43
+# processors: 2
 """Requirement: whatever operation on a file a run is killed at, before it or in the middle of a write, it resumes to the results of the undisturbed run. On a full or broken disk it ends with code 6 and a message that names file and reason, and resumes once the disk works."""
 import collections
 import os

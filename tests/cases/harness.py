@@ -30,7 +30,6 @@ ENVIRONMENT = dict(
     OMPI_ALLOW_RUN_AS_ROOT="1",
     OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
     OMPI_MCA_rmaps_base_oversubscribe="1",
-    OMPI_MCA_mpi_yield_when_idle="1",
     OMPI_MCA_hwloc_base_binding_policy="none",
     OMPI_MCA_btl_base_warn_component_unused="0",
     OMPI_MCA_odls_base_sigkill_timeout="0",  # mpirun otherwise waits two seconds after every run that ends with a code other than 0

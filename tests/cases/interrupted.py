@@ -1,5 +1,6 @@
 # timeout: 300
 # cost: 25
+# processors: 2
 """Requirement: a run that was interrupted and resumed gives the summary of the uninterrupted run. A damaged checkpoint and removed monitors are reported. A second run in an output folder that is in use is refused, others leave it alone."""
 import os
 import shutil

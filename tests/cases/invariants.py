@@ -1,4 +1,5 @@
 # timeout: 900
+# processors: 2
 """Requirement: a rag in the channel loses no particle, bond, mass or momentum, and rags that meet a wall and each other stay out of both."""
 import harness
 from small_cases import TWO_SHEETS

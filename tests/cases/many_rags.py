@@ -1,6 +1,7 @@
 # timeout: 300
-# cost: 48
-"""Requirement: many rags are kept apart and counted, alike on any number of ranks: 144 that fall into a box (240 in many_rags_long.py) touch each other and
+# cost: 30
+# processors: 2
+"""Requirement: many rags are kept apart and counted, alike on any number of ranks: 81 that fall into a box (240 in many_rags_long.py) touch each other and
 come to rest as a heap; those released one after the other leave the mesh as whole objects, also after a resume."""
 import math
 
@@ -26,7 +27,7 @@ pose_file = "rolled.csv"
 velocity_m_s = [0.5, 0, 0]
 """
 
-# 16 columns of sheets. Those of neighbouring columns stand across each other, and all move sideways and turn as they fall.
+# A square of columns of sheets. Those of neighbouring columns stand across each other, and all move sideways and turn as they fall.
 PILE = """
 [case]
 name = "pile"
@@ -39,8 +40,8 @@ acceleration_m_s2 = [0, 0, -9.81]
 impact_speed_m_s = 3
 [[wall]]
 kind = "box"
-lower_m = [-0.08, -0.08, 0]
-upper_m = [0.08, 0.08, 0.5]
+lower_m = [-{half_width}, -{half_width}, 0]
+upper_m = [{half_width}, {half_width}, 0.5]
 [output]
 report = false
 rags_interval_ms = 60
@@ -60,20 +61,25 @@ spin_rad_s = {spin}
 copies = {layers}
 copy_step_m = [0, 0, 0.012]
 """
-N_COLUMNS, N_IN_SHEET, N_BONDS, RADIUS, BOX_WIDTH = 16, 48, 82, 0.002, 0.16
+N_IN_SHEET, N_BONDS, RADIUS, SPACING = 48, 82, 0.002, 0.039  # spacing of the columns, m
 SHEET_MASS = 0.785 * N_IN_SHEET * (2 * RADIUS) ** 2  # kg, by the default mass_per_area
 CLOSEST_PACKING = math.pi / math.sqrt(18)  # of equal spheres, share of the space
 
 
-def pile(layers):
-    text = PILE
-    for i in range(4):
-        for j in range(4):
-            along_x, side, other_side = (i + j) % 2 == 0, (-1) ** i, (-1) ** j
+def half_width(side):
+    """Of the box, m."""
+    return round(0.002 + 0.5 * side * SPACING, 4)
+
+
+def pile(side, layers):
+    text = PILE.format(half_width=half_width(side))
+    for i in range(side):
+        for j in range(side):
+            along_x, sign, other_sign = (i + j) % 2 == 0, (-1) ** i, (-1) ** j
             text += PILE_COLUMN.format(
-                number=4 * i + j, layers=layers, x=round(-0.0585 + 0.039 * i, 4), y=round(-0.0585 + 0.039 * j, 4),
+                number=side * i + j, layers=layers, x=round((i - 0.5 * (side - 1)) * SPACING, 4), y=round((j - 0.5 * (side - 1)) * SPACING, 4),
                 lengthwise=[1, 0, 0.5] if along_x else [0, 1, 0.5], crosswise=[0, 1, 0.2] if along_x else [1, 0, 0.2],
-                velocity=[round((0.3 - 0.2 * i) * other_side, 1), 0.4 * side, -1.5], spin=[20 * side * other_side, -20 * side, 0])
+                velocity=[round((0.3 - 0.2 * i) * other_sign, 1), 0.4 * sign, -1.5], spin=[20 * sign * other_sign, -20 * sign, 0])
     return text
 
 
@@ -88,14 +94,14 @@ def largest_heap(rag_pairs, n_rags):
 class Pile(harness.CaseTest):
     """How many touch is counted here from the places of the particles, not taken from the program."""
 
-    layers = 9  # sheets above each other
+    side, layers = 3, 9  # columns in a row, sheets above each other
 
     @classmethod
     def setUpClass(cls):
-        cls.n_piled = N_COLUMNS * cls.layers
+        cls.n_piled = cls.side**2 * cls.layers
         super().setUpClass()
         cls.case_file = cls.shared / "pile.toml"
-        cls.case_file.write_text(pile(cls.layers))
+        cls.case_file.write_text(pile(cls.side, cls.layers))
         cls.done = harness.snag(["run", cls.case_file, "--out", cls.shared / "one"], 1, cls.shared / "one")
         assert cls.done.code == 0, cls.done.tail()
 
@@ -113,7 +119,7 @@ class Pile(harness.CaseTest):
         for file in files:
             position, rag = harness.particles(file)
             numpy.testing.assert_array_equal(numpy.bincount(rag), numpy.full(self.n_piled, N_IN_SHEET), file.name)
-            self.assertLess(numpy.abs(position[:, :2]).max(), BOX_WIDTH / 2)
+            self.assertLess(numpy.abs(position[:, :2]).max(), half_width(self.side))
             self.assertGreater(position[:, 2].min(), 0)
 
     def test_they_touch_each_other(self):
@@ -135,7 +141,7 @@ class Pile(harness.CaseTest):
     def test_they_lie_on_each_other(self):
         """Spheres that keep apart cannot be packed closer than CLOSEST_PACKING, so their mean height has a least value."""
         position, _ = harness.particles(max((self.done.folder / "rags").glob("particles_*.vtp")))
-        least = 0.5 * len(position) * 4 / 3 * math.pi * RADIUS**3 / CLOSEST_PACKING / BOX_WIDTH**2
+        least = 0.5 * len(position) * 4 / 3 * math.pi * RADIUS**3 / CLOSEST_PACKING / (2 * half_width(self.side)) ** 2
         print(f"  mean height {1000 * position[:, 2].mean():.1f} mm, of the closest packing {1000 * least:.1f} mm")
         self.assertGreater(position[:, 2].mean(), least)
         self.assertLess(position[:, 2].mean(), 4 * least, "the rags have not come down")

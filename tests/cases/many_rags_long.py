@@ -7,7 +7,7 @@ import many_rags
 
 
 class LongPile(many_rags.Pile):
-    layers = 15
+    side, layers = 4, 15
 
 
 del many_rags.Pile, many_rags.ManyRags

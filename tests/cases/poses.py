@@ -1,3 +1,4 @@
+# processors: 2
 """Requirement: a crumpled pose is made before the run, the same on any number of ranks, told and stored; another run and a resume take the stored one."""
 import harness
 

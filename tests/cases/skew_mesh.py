@@ -1,4 +1,5 @@
 # timeout: 120
+# processors: 2
 """Requirement: water past a sphere stays bounded on a mesh of prisms around an axis, with faces skew by 1.49, at a Courant number of 14."""
 import math
 

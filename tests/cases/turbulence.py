@@ -1,3 +1,4 @@
+# processors: 2
 """Requirement: [turbulence] in a case file chooses the model; its fields are written with units, start where the case says, and laminar runs have none."""
 import numpy
 

@@ -1,5 +1,5 @@
 // timeout: 600
-// Pumps of one, three and seven vanes on coarse meshes, against figures that follow from the plan view alone.
+// Pumps of one and seven vanes on coarse meshes, against figures that follow from the plan view alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -132,7 +132,7 @@ TEST_P(VanedPump, VanesAreEqualAndEvenlySpaced) {
   for (const auto& [k, sides] : area) EXPECT_NEAR(sides / (b * vane.perimeter()), 1, 0.15) << "vane " << k;
 }
 
-INSTANTIATE_TEST_SUITE_P(Pump, VanedPump, testing::Values(1, 3, 7));
+INSTANTIATE_TEST_SUITE_P(Pump, VanedPump, testing::Values(1, 7));
 
 // Numbers of vanes outside of 1 to 7, and vanes that overlap or nearly close their passages, are refused with value, rule and remedy.
 TEST(Vanes, AreRefusedWhereTheyDoNotFit) {

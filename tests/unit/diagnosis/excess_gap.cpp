@@ -29,7 +29,7 @@ TEST(ExcessGap, IntervalHoldsTheTruthAsOftenAsItSays) {
   constexpr double before = 1, after = 0.6, truth = 1 - after * after / (before * before);
   NormalNumbers random(5);
   int held = 0;
-  constexpr int n = 400;
+  constexpr int n = 200;
   for (int k = 0; k < n; ++k) {
     std::vector<Eigen::VectorXd> noise(n_points, Eigen::VectorXd(n_rows));
     for (Eigen::VectorXd& e : noise)
