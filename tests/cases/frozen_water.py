@@ -1,6 +1,6 @@
 # timeout: 300
 # cost: 12
-# processors: 2
+# processors: 3
 """Requirement: water that [initial_flow] freezes stays as it was at any rate of flow and carries rags, on any number of ranks and after a resume; a diagnosis runs such cases in memory and finds the same numbers."""
 import json
 

@@ -1,5 +1,5 @@
 # timeout: 120
-# processors: 2
+# processors: 3
 """Requirement: a hold clamps the chosen particles of a rag on any number of ranks and after a resume, its reaction is in equilibrium with weight and
 water, a strip bends as a cantilever, and a choice that is wrong is refused with its line."""
 import harness

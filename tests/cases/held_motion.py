@@ -1,5 +1,5 @@
 # timeout: 180
-# processors: 2
+# processors: 3
 # cost: 12
 """Requirement: pins, hinges and holds in a prescribed motion give the exact motion and reaction of a hanging chain, a swinging rod, and moved masses, on any
 number of ranks and after a resume; particles are chosen by list or box as well as by edge."""

@@ -1,6 +1,6 @@
 # timeout: 300
 # cost: 40
-# processors: 2
+# processors: 3
 """Requirement: a run is killed several times at random moments and resumed each time. Its monitors, rags and summary then equal those of the uninterrupted run, on 1, 2 and 3 ranks."""
 import os
 import random

@@ -1,6 +1,6 @@
 # timeout: 300
 # cost: 30
-# processors: 2
+# processors: 3
 """Requirement: many rags are kept apart and counted, alike on any number of ranks: 81 that fall into a box (240 in many_rags_long.py) touch each other and
 come to rest as a heap; those released one after the other leave the mesh as whole objects, also after a resume."""
 import math

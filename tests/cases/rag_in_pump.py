@@ -1,5 +1,5 @@
 # timeout: 1500
-# processors: 2
+# processors: 3
 # cost: 40
 """Requirement: rags that cross both parts of the sliding interface of a pump, touch its turning walls and are put in later lose nothing, and
 the run agrees to 1e-6 on 1, 2, 3 and 5 ranks and after a stop and a resume to the bit."""

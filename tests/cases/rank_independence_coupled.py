@@ -1,5 +1,5 @@
 # timeout: 600
-# processors: 2
+# processors: 3
 # cost: 25
 """Requirement: a two-way coupled run agrees to 1e-6 in every physical column of its monitors on any number of ranks."""
 import numpy

@@ -1,5 +1,5 @@
 # timeout: 300
-# processors: 2
+# processors: 3
 """Requirement: a run of rags alone gives the same numbers to 1e-12 on 1, 2, 3 and 5 ranks after 1000 sub-steps and more."""
 import harness
 from small_cases import TWO_SHEETS

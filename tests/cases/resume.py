@@ -1,6 +1,6 @@
 # timeout: 600
 # cost: 20
-# processors: 2
+# processors: 3
 """Requirement: a run that was stopped or crashed and then resumed equals the uninterrupted one, to the bit on the same ranks, to solver tolerance on others."""
 import os
 import signal

@@ -1,6 +1,6 @@
 # timeout: 300
 # cost: 15
-# processors: 2
+# processors: 3
 """Requirement: a run that starts from another one begins with its water, on any number of ranks and, where asked, on another mesh; what cannot be read is refused."""
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy

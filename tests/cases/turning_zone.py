@@ -1,5 +1,5 @@
 # timeout: 600
-# processors: 2
+# processors: 3
 # cost: 16
 """Requirement: a run with a turning zone and a turbulence model agrees to 1e-6 on any number of ranks, and one resumed in mid-turn equals the uninterrupted one to the bit on the same ranks."""
 import math
