@@ -1,7 +1,6 @@
 """snag diagnose finds what a base case lacks, the same on any number of ranks, goes on after a stop, and refuses what it cannot read."""
 # timeout: 1800
 # cost: 37
-# processors: 2
 import json
 import math
 import re
@@ -147,23 +146,6 @@ class Diagnose(harness.CaseTest):
         run = harness.snag(["diagnose", "--bench", "L7", "--out", self.work / "none"])
         self.assertEqual(run.code, 2)
         self.assertIn("L7", run.stderr)
-
-    def test_blind_benchmark_of_the_sphere(self):
-        """Two sealed sets of level L2: no score may be worse than chance allows if its target is true; and rows are not done twice."""
-        options = ["diagnose", "--bench", "L2", "--twin", "sphere", "--seed", "1"]
-        few = harness.snag([*options, "--n", "1", "--out", self.work / "bench"], 2, self.work / "bench")
-        self.assertEqual(few.code, 0, few.tail())
-        begun = (few.folder / "rows.csv").read_text()
-        run = harness.snag([*options, "--n", "2", "--out", self.work / "bench"], 2, self.work / "bench")
-        self.assertEqual(run.code, 0, run.tail())
-        rows = (run.folder / "rows.csv").read_text()
-        self.assertTrue(rows.startswith(begun), "rows that were there were done again")
-        self.assertEqual(rows.count("\n"), 3)
-        self.assertEqual((run.folder / "sealed.log").read_text().count("sha256"), 2)
-        print(run.stdout)
-        assert_no_score_is_worse_than_chance(self, run)
-        self.assertIn("<svg", (run.folder / "report.html").read_text())
-
 
 def assert_no_score_is_worse_than_chance(test, benchmark):
     for score in json.loads((benchmark.folder / "score.json").read_text())["scores"]:

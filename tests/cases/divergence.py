@@ -1,6 +1,5 @@
 # timeout: 300
 # cost: 14
-# processors: 2
 """Requirement: when water or particles diverge, the run ends with code 4 while all numbers are finite. The message names the place and a remedy. The report does not say that the run ended as planned."""
 import json
 

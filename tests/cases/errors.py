@@ -1,6 +1,5 @@
 # timeout: 300
 # cost: 48
-# processors: 2
 """Requirement: what a user gets wrong ends on all ranks with the documented exit code and one clear message, and leaves an existing output folder as it was."""
 import re
 

@@ -1,5 +1,4 @@
 # timeout: 120
-# processors: 2
 """Requirement: a case with the key names of version 0.1 is the case with the names of today: each old name gets one warning that names line, old and new key, the resolved case has the new names, and the hash is the one that version 0.1 printed."""
 import re
 

@@ -1,7 +1,9 @@
 # timeout: 120
-# processors: 3
-"""Requirement: a hold clamps the chosen particles of a rag on any number of ranks and after a resume, its reaction is in equilibrium with weight and
+"""Requirement: a hold clamps the chosen particles of a rag, also after a resume, its reaction is in equilibrium with weight and
 water, a strip bends as a cantilever, and a choice that is wrong is refused with its line."""
+import tomllib
+
+import expected
 import harness
 import numpy
 from harness import particles
@@ -111,21 +113,15 @@ class Held(harness.CaseTest):
 
     def test_a_plate_in_a_stream_has_the_drag_of_the_elastica(self):
         self.assertLess(abs(reconfiguration(1e-6) - 1), 1e-5, "a stiff plate")
-        for speed, end in ((1, 0.4), (3.1622776602, 0.12)):
-            run = self.run_case(harness.SOURCE_DIR / "cases" / "held-cloth" / "case.toml", 1, "--set", f"flow.velocity_m_s=[{speed},0,0]",
-                                "--set", f"time.end_s={end}", out=f"speed {speed}")
+        folder = harness.SOURCE_DIR / "cases" / "held-cloth"
+        for speed, end in ((1, 0.5), (3.1622776602, 0.12)):
+            run = self.run_case(folder / "case.toml", 1, "--set", f"flow.velocity_m_s=[{speed},0,0]", "--set", f"time.end_s={end}", out=f"speed {speed}")
+            if speed == 1:  # the case as it stands
+                expected.assert_entries(self, run.summary, tomllib.loads((folder / "expected.toml").read_text())["expect"])
             drag = -self.reaction(run, "force")[-1][0] / (0.5 * 1000 * 0.10125 * 0.00375 * 1.17 * speed**2)
             exact = reconfiguration(10 * speed**2)
             print(f"  C = {10 * speed**2:.0f}: R {drag:.5f}, elastica {exact:.5f}")
             self.assertLess(abs(drag / exact - 1), 2e-3)
-
-    def test_any_number_of_ranks(self):
-        case = self.case(TWO_SHEETS.replace("end_s = 0.02", "end_s = 0.01") + RELEASED)
-        one = self.run_case(case, 1, out="1")
-        for ranks in (2, 3):
-            other = self.run_case(case, ranks, out=str(ranks))
-            for monitor in ("rags", "contacts", "wall_contacts", "holds"):
-                self.assert_monitors_agree(one, other, monitor, 1e-12)
 
     def test_resume_and_release(self):
         case = self.case(SMALL_SHEETS + RELEASED + "[checkpoint]\ninterval_s = 3.2e-3\n")

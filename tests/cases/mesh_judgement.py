@@ -1,6 +1,5 @@
 # timeout: 200
 # cost: 16
-# processors: 3
 """Requirement: `snag mesh --info` prints the same table on any number of ranks, ends with 0 on a sound mesh and with 3 on a bad one."""
 import harness
 

@@ -1,5 +1,4 @@
 # cost: 25
-# processors: 2
 """Requirement: the same rags are seen in a run and in the pictures of it, by one code; their stay in the volute and the difference of operating
 points come out as they were put in; a camera or a table that cannot be is refused with one message."""
 import json

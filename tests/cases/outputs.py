@@ -1,5 +1,4 @@
 # timeout: 300
-# processors: 2
 """Requirement: a run leaves every file of the documented output folder, each readable by the tools it is meant for and with units in its names."""
 import html.parser
 import json

@@ -1,6 +1,6 @@
 # timeout: 600
 # cost: 24
-"""Requirement: a pump between a given pressure at its inlet, total or static, and a target of the flow at its outlet, comes to that flow."""
+"""Requirement: a pump between a given pressure at its inlet, total (static: pump_pressure_long.py), and a target of the flow at its outlet, comes to that flow."""
 import numpy
 
 import harness
@@ -34,22 +34,19 @@ class PumpBetweenPressures(harness.CaseTest):
         numpy.testing.assert_allclose(flow[-10:], TARGET, rtol=0.01)
         self.assertLess(flow.max(), 1.03 * TARGET, "it does not shoot over the target")
 
-    def test_total_and_static_pressure(self):
+    def test_total_pressure(self):
+        self.between_total_pressure()
+
+    def between_total_pressure(self):
         total = self.run_with_inlet("pressure_Pa = 5000", "total")
-        static = self.run_with_inlet("pressure_Pa = 0\ntotal = false", "static")
         self.comes_to_its_flow(total)
-        self.comes_to_its_flow(static)
-        numpy.testing.assert_array_equal(static.monitor("patches").column("inlet_pressure"), 0)
         # The dynamic head of the mean speed is least: an uneven profile has more, and so has the mesh, whose inlet is a polygon in the circle.
         pressure, flow = total.monitor("patches").column("inlet_pressure")[-1], total.monitor("pump").column("flow_in")[-1]
         head = 0.5 * DENSITY * (flow / INLET_AREA) ** 2
         print(f"  dynamic head at the inlet {5000 - pressure:.0f} Pa, of the mean speed {head:.0f} Pa")
         self.assertGreater(5000 - pressure, head)
         self.assertLess(5000 - pressure, 1.2 * head)
-        # Where the level lies makes no difference to what the impeller does.
-        for column, tolerance in (("head", 0.02), ("torque", 0.01)):
-            of_total, of_static = (run.monitor("pump").column(column)[-10:].mean() for run in (total, static))
-            self.assertLess(abs(of_total - of_static), tolerance * abs(of_static), column)
+        return total
 
 
 if __name__ == "__main__":

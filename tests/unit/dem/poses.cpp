@@ -1,4 +1,5 @@
-// ranks: 1 2
+// ranks: 1
+// long ranks: 2
 // Poses in which a sheet is put into a run: folded, crumpled by a pipe, fallen through a hopper.
 #include <gtest/gtest.h>
 
