@@ -1,6 +1,5 @@
 #pragma once
 // A key of the case that is one of a few words: in the program an enumeration.
-#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <stdexcept>
@@ -44,13 +43,5 @@ class Choice : public AnyChoice {
   }
   operator E() const { return static_cast<E>(index_); }
 };
-
-/// The value of E whose word this is; `words`: in the order of E. Throws std::logic_error for another word.
-template <class E, std::size_t n>
-E chosen(std::string_view text, const std::array<const char*, n>& words) {
-  for (std::size_t i = 0; i < n; ++i)
-    if (text == words[i]) return static_cast<E>(i);
-  throw std::logic_error("\"" + std::string(text) + "\" is not one of the choices");
-}
 
 }  // namespace snag

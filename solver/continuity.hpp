@@ -20,7 +20,7 @@ namespace snag {
 struct ContinuitySettings {
   int n_non_orthogonal_correctors = 1;
   double tolerance = 1e-6, tolerance_intermediate = 1e-1;
-  std::string multigrid = "boomeramg";
+  Multigrid multigrid = Multigrid::boomeramg;
 };
 
 struct ContinuityReport {

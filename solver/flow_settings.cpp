@@ -34,7 +34,7 @@ Section FlowSettings::section() {
        "Residual of the last pressure equation of a step over the mass imbalance before it."},
       {"pressure_tolerance_intermediate", &pressure_tolerance_intermediate, "1", 1e-15, 0.5, Basis::assumed,
        "The same for the pressure equations before the last, and for the guessed fluxes of a step where a mesh slides."},
-      setting("multigrid", &multigrid, "Preconditioner of the pressure equation.", {"boomeramg", "gamg"}),
+      setting("multigrid", &multigrid, "Preconditioner of the pressure equation."),
       {"initial_velocity", &initial_velocity, "m/s", -infinity, infinity, Basis::assumed,
        "Uniform velocity at the start, made divergence-free before the first step."},
       {"body_force", &body_force, "N/m3", -infinity, infinity, Basis::assumed, "Uniform force on the fluid, for periodic channels."},

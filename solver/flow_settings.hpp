@@ -3,7 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "base/choice.hpp"
 #include "base/parameter.hpp"
+#include "solver/operators/poisson.hpp"
 
 namespace snag {
 
@@ -18,7 +20,7 @@ struct FlowSettings {
   double momentum_tolerance = 1e-8;
   double pressure_tolerance = 1e-6;
   double pressure_tolerance_intermediate = 1e-1;
-  std::string multigrid = "boomeramg";
+  Choice<Multigrid> multigrid{Multigrid::boomeramg, {"boomeramg", "gamg"}};
   Vec3 initial_velocity;  // m/s
   Vec3 body_force;        // N/m3
 

@@ -6,16 +6,12 @@
 #include <limits>
 #include <map>
 
-#include "base/choice.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
 
 namespace {
-
-enum class Profile { uniform, laminar, turbulent };
-constexpr std::array profile_words{"uniform", "laminar", "turbulent"};
 
 struct Edge {
   std::int64_t a, b;  // node ids, a < b
@@ -54,10 +50,9 @@ double distance(const Vec3& point, const Edge& edge) {
 
 }  // namespace
 
-std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, const std::string& profile) {
+std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, Profile profile) {
   std::vector<double> speed(patch.count, 1.0);
-  const Profile shape = chosen<Profile>(profile, profile_words);
-  if (shape == Profile::uniform) return speed;
+  if (profile == Profile::uniform) return speed;
   const std::vector<Edge> rim = rim_of(mesh, patch);
   double largest = 0;
   for (int i = 0; i < patch.count; ++i) {
@@ -69,7 +64,7 @@ std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, const st
   std::vector<double> flow(patch.count), area(patch.count);
   for (int i = 0; i < patch.count; ++i) {
     const double s = speed[i] / largest;
-    speed[i] = shape == Profile::laminar ? s * (2 - s) : std::pow(s, 1.0 / 7);
+    speed[i] = profile == Profile::laminar ? s * (2 - s) : std::pow(s, 1.0 / 7);
     area[i] = norm(mesh.face_vector[patch.first + i]);
     flow[i] = speed[i] * area[i];
   }

@@ -5,14 +5,15 @@
 //   turbulent:  s^(1/7)                      power law of developed pipe flow, Nikuradse (1932), Re about 1e5
 //
 // divided by its mean over the patch. The whole rim counts as wall.
-#include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 
 namespace snag {
 
-/// Speed over mean speed at each face of the patch; "uniform": 1. Collective.
-std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, const std::string& profile);
+enum class Profile { uniform, laminar, turbulent };
+
+/// Speed over mean speed at each face of the patch; uniform: 1. Collective.
+std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, Profile profile);
 
 }  // namespace snag

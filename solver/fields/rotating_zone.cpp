@@ -4,16 +4,10 @@
 
 #include "base/case_file.hpp"
 #include "base/case_tables.hpp"
-#include "base/choice.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 
 namespace snag {
-
-namespace {
-enum class Motion { sliding, frame };
-constexpr std::array motion_words{"sliding", "frame"};
-}  // namespace
 
 Section RotatingZoneSettings::section() {
   Parameter name = setting("zone", &zone, "Physical volume of the rotor.");
@@ -26,8 +20,7 @@ Section RotatingZoneSettings::section() {
               name,
               setting("motion", &motion,
                       "sliding: the mesh turns in every step. frame: multiple reference frame, the mesh stays at start_angle and the flow "
-                      "is that of this rotor position.",
-                      {motion_words.begin(), motion_words.end()}),
+                      "is that of this rotor position."),
               setting("rotor_patch", &rotor_patch, "Sliding interface on the side of the rotor."),
               setting("stator_patch", &stator_patch, "Sliding interface on the side of the stator."),
               {"origin", &origin, "m", -infinity, infinity, Basis::assumed, "A point on the axis."},
@@ -66,7 +59,7 @@ RotatingZone::RotatingZone(Mesh& mesh, const RotatingZoneSettings& settings)
       speed_(settings.speed),
       ramp_(settings.ramp),
       start_angle_(settings.start_angle),
-      slides_(chosen<Motion>(settings.motion, motion_words) == Motion::sliding) {}
+      slides_(settings.motion == RotatingZoneSettings::Motion::sliding) {}
 
 double RotatingZone::speed(double time) const { return time < ramp_ ? speed_ * time / ramp_ : speed_; }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "base/choice.hpp"
 #include "base/parameter.hpp"
 #include "mesh/sliding/turning_mesh.hpp"
 
@@ -19,7 +20,9 @@ namespace snag {
 class Table;
 
 struct RotatingZoneSettings {
-  std::string zone, motion = "sliding";
+  enum class Motion { sliding, frame };
+  std::string zone;
+  Choice<Motion> motion{Motion::sliding, {"sliding", "frame"}};
   std::string rotor_patch = "interface_rotor", stator_patch = "interface_stator";
   Vec3 origin{}, axis{0, 0, 1};
   double speed = 0, ramp = 0, start_angle = 0;  // rad/s, s, rad

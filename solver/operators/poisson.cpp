@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/choice.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
@@ -32,12 +31,9 @@ const char* const boomeramg_options =
 const char* const gamg_options =
     "-snag_pressure_pc_type gamg -snag_pressure_pc_gamg_threshold 0.02 -snag_pressure_pc_gamg_aggressive_coarsening 2";
 
-enum class Multigrid { boomeramg, gamg };
-constexpr std::array multigrid_words{"boomeramg", "gamg"};
-
 /// A singular matrix must not be factorised on the coarsest level.
-std::string options(const std::string& multigrid, bool singular) {
-  switch (chosen<Multigrid>(multigrid, multigrid_words)) {
+std::string options(Multigrid multigrid, bool singular) {
+  switch (multigrid) {
     case Multigrid::gamg:
       return gamg_options;
     case Multigrid::boomeramg:
@@ -88,7 +84,7 @@ void declare(Mat matrix, MPI_Comm comm, bool singular) {
 
 }  // namespace
 
-Poisson::Poisson(const Mesh& mesh, const std::string& multigrid, bool singular)
+Poisson::Poisson(const Mesh& mesh, Multigrid multigrid, bool singular)
     : mesh_(mesh),
       singular_(singular),
       coefficient_(mesh.n_faces),

@@ -8,7 +8,6 @@
 // preconditioner only, which is repeated when iterations grow beyond 1.8 times those of a fresh one.
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -21,10 +20,13 @@ struct PoissonReport {
   bool rebuilt = false;  // the preconditioner was set up in this solve
 };
 
+/// Preconditioner: hypre's, or that of PETSc.
+enum class Multigrid { boomeramg, gamg };
+
 class Poisson {
  public:
-  /// `multigrid`: "boomeramg" or "gamg". `singular`: no boundary value is fixed; x is then taken with zero mean. Collective.
-  Poisson(const Mesh& mesh, const std::string& multigrid, bool singular);
+  /// `singular`: no boundary value is fixed; x is then taken with zero mean. Collective.
+  Poisson(const Mesh& mesh, Multigrid multigrid, bool singular);
   ~Poisson();
 
   /// Coefficients k of all faces (boundary faces: 0 where nothing is fixed), [n_faces]; kept until they are given again. Local.

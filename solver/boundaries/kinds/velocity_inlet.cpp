@@ -2,6 +2,7 @@
 // s: profile over the patch with mean 1 (solver/boundaries/inlet_profile.hpp), times a factor of time (solver/boundaries/time_course.hpp)
 #include <optional>
 
+#include "base/choice.hpp"
 #include "base/error.hpp"
 #include "solver/boundaries/boundary.hpp"
 #include "solver/boundaries/inlet_profile.hpp"
@@ -14,7 +15,7 @@ struct VelocityInlet final : Boundary {
   static constexpr const char* name = "velocity_inlet";
   Vec3 velocity;
   std::optional<double> normal_speed;
-  std::string profile = "uniform";
+  Choice<Profile> profile{Profile::uniform, {"uniform", "laminar", "turbulent"}};
   TimeCourse course;
   std::vector<double> shape;  // s of each face
 
@@ -27,8 +28,7 @@ struct VelocityInlet final : Boundary {
             {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed,
              "Speed into the domain along the normal, instead of velocity."},
             setting("profile", &profile,
-                    "Profile of the speed over the patch; laminar and turbulent: slower towards the rim, and velocity is the mean.",
-                    {"uniform", "laminar", "turbulent"})}};
+                    "Profile of the speed over the patch; laminar and turbulent: slower towards the rim, and velocity is the mean.")}};
     course.add_keys(section, "velocity");
     return section;
   }

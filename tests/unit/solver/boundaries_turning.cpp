@@ -33,7 +33,7 @@ void check_walls(const std::string& motion, const std::string& keys,
   const test::Shells shape{.origin = {0.3, -0.2, 0.1}, .axis = {1, -2, 0.5}};
   Mesh mesh = shells(shape);
   RotatingZoneSettings settings;
-  settings.zone = "rotor", settings.motion = motion, settings.origin = shape.origin, settings.axis = shape.axis;
+  settings.zone = "rotor", settings.motion.choose(motion), settings.origin = shape.origin, settings.axis = shape.axis;
   settings.speed = full_speed, settings.ramp = ramp;
   auto zone = std::make_unique<RotatingZone>(mesh, settings);
   FlowSolver solver(mesh, {}, read_boundaries(CaseFile::parse("[[boundary]]\npatch = \"wall\"\nkind = \"wall\"\n" + keys).root()), nullptr,

@@ -35,7 +35,7 @@ inline Mesh ring_mesh(const Shells& shells) {
 inline std::unique_ptr<RotatingZone> turning_rotor(Mesh& mesh, const Shells& shells, double speed, const std::string& motion = "sliding",
                                                    double start_angle = 0) {
   RotatingZoneSettings settings;
-  settings.zone = "rotor", settings.motion = motion, settings.speed = speed, settings.start_angle = start_angle;
+  settings.zone = "rotor", settings.motion.choose(motion), settings.speed = speed, settings.start_angle = start_angle;
   settings.origin = shells.origin, settings.axis = shells.axis;
   return std::make_unique<RotatingZone>(mesh, settings);
 }
