@@ -34,10 +34,11 @@ const double* turbulence_gradient(const CellSource& source, std::vector<double>&
   return made.data();
 }
 
-/// Kernel and cell together: on cells of side h a force in one cell answers there with 0.2527/h of the discrete Laplacian (Watson 1939), as
-/// a Gaussian of width 0.178 h does.
+/// Kernel and cell together: on cells of side h a steady force in one cell answers there with 0.114/(mu h) for small steps to 0.129/(mu h)
+/// for large ones (mean over the wave numbers of the grid of the discrete Stokes flow, with the balance of solver/continuity.hpp), as a
+/// Gaussian of width 0.25 h does.
 const double* disturbance_width(const CellSource& source, std::vector<double>& made) {
-  constexpr double width_over_side = 0.178;
+  constexpr double width_over_side = 0.25;
   const Mesh& mesh = source.flow.mesh;
   const double own = source.kernel.has_width() ? source.kernel.width() : 0;
   made.assign(static_cast<std::size_t>(mesh.n_cells), undisturbed);

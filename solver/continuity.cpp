@@ -112,12 +112,37 @@ void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet&
         continue;
       }
       const Vec3 acceleration = acceleration_at_wall(flow, boundary.values(), P, b);
-      const Vec3 force = flow.body_force + flow.reaction[P] - flow.density * acceleration;
+      const Vec3 given = reaction_.empty() ? Vec3{} : reaction_[P];
+      const Vec3 force = flow.body_force + given - flow.density * acceleration;
       const double slope = dot(force, unit(mesh_.face_vector[f]));
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;
     }
   }
+}
+
+void Continuity::balance_reaction(Flow& flow) {
+  const bool any = std::any_of(flow.reaction.begin(), flow.reaction.end(), [](const Vec3& force) { return force != Vec3{}; });
+  reaction_.clear(), reaction_excess_.clear();
+  if (sum(mesh_.comm, std::int64_t{any}) == 0) return;
+  std::vector<Vec3> moved(static_cast<std::size_t>(mesh_.n_all_cells()));
+  reaction_ = flow.reaction;
+  reaction_.resize(moved.size());
+  mesh_.halo.exchange(reaction_);
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double w = mesh_.weight[f];
+    const Vec3 over = w * (1 - w) * dot(reaction_[N] - reaction_[P], mesh_.delta[f]) * mesh_.face_vector[f];
+    moved[P] += over, moved[N] -= over;
+  }
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    moved[c] = 1 / mesh_.cell_volume[c] * moved[c];
+    flow.reaction[c] += moved[c];
+  }
+  mesh_.halo.exchange(moved);
+  reaction_excess_.resize(static_cast<std::size_t>(mesh_.n_interior));
+  for (int f = 0; f < mesh_.n_interior; ++f)
+    reaction_excess_[f] = -dot(blend(mesh_.weight[f], moved[mesh_.owner[f]], moved[mesh_.neighbour[f]]), mesh_.face_vector[f]);
 }
 
 void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
@@ -132,6 +157,7 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
       // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
       flux += mobility_ * coefficient_[f] * (dot(blend(w, g[P], g[N]), d) - (flow.pressure[N] - flow.pressure[P])) +
               one_over_a0_ * history.inherited()[f];
+      if (!reaction_excess_.empty()) flux += mobility_ * reaction_excess_[f];
     }
     flow.flux[f] = flux;
   }

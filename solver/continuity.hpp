@@ -1,13 +1,21 @@
 #pragma once
 // Continuity: fluxes without divergence from the predicted velocity, and the pressure that makes them so.
 //
-//   flux~ = [u* + m grad p]_f.S - m (S.grad p)_f + psi~/a0       m = dt/(a0 rho): mobility, m3 s/kg
+//   flux~ = [u* + m (grad p - f~)]_f.S - m ((S.grad p)_f - [f]_f.S) + psi~/a0       m = dt/(a0 rho): mobility, m3 s/kg
 //   m div(grad p') = div(flux~),    flux = flux~ - m (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
 //
 // [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference damps pressure that alternates from cell
 // to cell, and it is formed from cell values alone, so that a face needs no history. Cell gradients of pressure are of the Gauss form: the
 // sum of V grad p over the cells is the pressure on the boundary. Fluxes and velocities share p', so that u balances momentum with the new
 // pressure exactly.
+//
+// f is the reaction of the rags. A pressure whose compact differences hold [f]_f has a cell gradient other than f where f changes from cell
+// to cell, as it does across a sheet: that of f~, which takes the place of f in the cells and has the same sum over all cells,
+//
+//   f~ = f + 1/V sum_f w (1 - w) ((f_N - f_P).d) S,     (1/4, 1/2, 1/4) of its normal part from cell to cell on uniform cells
+//
+// So a force that pressure can hold leaves the water at rest. Source: balanced forces, Francois et al. (2006), J. Comput. Phys. 213,
+// 141-173; for screens and actuator discs, Rethore and Sorensen (2012), Wind Energy 15, 915-926.
 #include <optional>
 
 #include "solver/boundaries/boundary.hpp"
@@ -39,6 +47,8 @@ class Continuity {
   void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient);
   /// Again after the mesh has turned, at the begin of a step: geometry, and the gradient of the pressure there. Collective.
   void mesh_turned(Flow& flow, const BoundarySet& boundary);
+  /// Before the corrections of a step, with the mesh where it is then: f~ takes the place of f in flow.reaction. Collective.
+  void balance_reaction(Flow& flow);
   /// One pressure correction; `gradient` of velocity, for skewness. Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
 
@@ -83,8 +93,11 @@ class Continuity {
   ContinuitySettings settings_;
   LeastSquares squares_;
   Poisson poisson_;
-  double mobility_ = 1, one_over_a0_ = 1;            // m; 1/a0
-  std::vector<double> coefficient_;                  // c, [n_faces]; 0 where the boundary gives no pressure
+  double mobility_ = 1, one_over_a0_ = 1;  // m; 1/a0
+  std::vector<double> coefficient_;        // c, [n_faces]; 0 where the boundary gives no pressure
+  // f, N/m3, [n_all_cells], and [f - f~]_f.S, N/m, [n_interior]; empty without a reaction
+  std::vector<Vec3> reaction_;
+  std::vector<double> reaction_excess_;
   double preconditioner_angle_ = 0;                  // rad
   std::vector<double> correction_;                   // p'
   std::vector<double> given_, boundary_correction_;  // p' or its slope at the boundary as given; p' there

@@ -156,6 +156,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     turbulence_->mesh_turned(flow, boundary_);
     report.seconds_mesh += seconds() - turned;
   }
+  continuity_.balance_reaction(flow);
   // Where the mesh slides its turn has found them.
   if (balances_ && !(rotating_zone_ && rotating_zone_->slides())) continuity_.find_facet_pressure(flow, boundary_);
   const double share = momentum_.guess_from_history(flow, continuity_.history, time);

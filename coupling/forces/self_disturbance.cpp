@@ -5,7 +5,7 @@
 //
 // c w is what a force f 3 pi mu d w, spread by a Gaussian of width delta over water that moves on with w, leaves in the average by the same
 // Gaussian: in creeping flow F/(6 pi^(3/2) mu delta); psi is the steady Oseen solution, averaged in the same way, to 3 %. f = 1 + 0.15
-// Re^0.687 stands for the drag law. delta^2 = (kernel width)^2 + (0.178 cell size)^2: the answer of a single cell to its own force. For
+// Re^0.687 stands for the drag law. delta^2 = (kernel width)^2 + (0.25 cell size)^2: the answer of a single cell to its own force. For
 // particles apart from each other, in water that has had the time delta^2/nu; c counts as at most 0.8. In a prescribed flow and one-way
 // there is nothing to correct.
 // Source: Stokes and Oseen flow by Fourier transform; in the manner of Balachandar, Liu and Lakhote (2019), J. Comput. Phys. 376, 160-185,

@@ -3,7 +3,8 @@
 //
 //   rho (du/dt + div(u u)) = - grad p + div(mu (grad u + grad u^T)) + f,      div u = 0
 //
-// f (`reaction`, N/m3) is what the rags give, set by the coupling before each step and zero without rags.
+// f (`reaction`, N/m3) is what the rags give, set by the coupling before each step and zero without rags. The step shares it among cells
+// side by side, so that pressure can hold it (solver/continuity.hpp).
 #include <cstdint>
 #include <string>
 #include <vector>

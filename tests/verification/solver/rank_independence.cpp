@@ -33,10 +33,7 @@ struct Duct {
   Mesh mesh;
   FlowSolver solver;
   explicit Duct(MPI_Comm comm, bool sharp = true)
-      : mesh(tetrahedral_box(comm, {.upper = {2, 1, 1}, .distortion = 0.15}, {8, 4, 5})), solver(mesh, settings(sharp), conditions(duct)) {
-    for (int c = 0; c < mesh.n_cells; ++c)
-      if (norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) < 0.3) solver.flow.reaction[c] = {-60, 0, 5};
-  }
+      : mesh(tetrahedral_box(comm, {.upper = {2, 1, 1}, .distortion = 0.15}, {8, 4, 5})), solver(mesh, settings(sharp), conditions(duct)) {}
   static FlowSettings settings(bool sharp) {
     FlowSettings chosen = sharp_settings();
     if (!sharp) chosen.momentum_tolerance = 1e-8, chosen.pressure_tolerance = 1e-6, chosen.pressure_tolerance_intermediate = 1e-2;
@@ -44,7 +41,11 @@ struct Duct {
     return chosen;
   }
   void advance(int steps) {
-    for (int i = 0; i < steps; ++i) solver.advance(0.03);
+    for (int i = 0; i < steps; ++i) {
+      for (int c = 0; c < mesh.n_cells; ++c)
+        solver.flow.reaction[c] = norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) < 0.3 ? Vec3{-60, 0, 5} : Vec3{};
+      solver.advance(0.03);
+    }
   }
 };
 
