@@ -40,6 +40,8 @@ struct Particles {
   /// zero at birth.
   double* state = nullptr;
   std::size_t state_stride = 0;
+  /// J of the water on each particle in the sub-step before, N s; for forces whose description needs it.
+  VectorArray last_impulse = {};
   std::int64_t id(int column, int row) const;  // of the particle in this column and row of the tile
 };
 
@@ -51,6 +53,7 @@ struct Forces {
   double* added_mass;              // kg; the force then holds added_mass Du/Dt
   double* torque_slope = nullptr;  // dT/d(omega_fluid - omega), N m s, >= 0
   VectorSum fluid_velocity = {};   // m/s, what all others see: for Role::fluid only
+  double* relief = nullptr;        // slip that the force loses per impulse of this sub-step beside the answer of the water, 1/kg
 };
 
 /// What a model changes; models act in this order, those of one role in the order of their names.
@@ -67,7 +70,7 @@ struct ForceDescription {
   std::string name, equation, source, valid_for;
   bool reacts_on_fluid = true;  // the water feels the opposite force
   SampleSet samples = {};
-  bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
+  bool gives_torque = false, gives_added_mass = false, needs_impulse = false;  // what is not declared is not read
   Role role = Role::force;
   int n_particle_state = 0;         // numbers stored for each particle
   std::optional<Prior> prior = {};  // of a candidate of the diagnosis

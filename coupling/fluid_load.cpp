@@ -22,7 +22,9 @@ enum Array {
   chi = 21,
   rate_on_way = 22,
   seen_acceleration = 25,
-  n_arrays = 28
+  relief_sum = 28,
+  step_impulse = 29,
+  n_arrays = 32
 };
 
 /// Mean of the relaxation over a sub-step.
@@ -41,7 +43,10 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
     changes_fluid_ = changes_fluid_ || description.role == Role::fluid;
     all_react_ = all_react_ && description.reacts_on_fluid;
     torque_ = torque_ || description.gives_torque, added_mass_ = added_mass_ || description.gives_added_mass;
+    needs_impulse_ = needs_impulse_ || description.needs_impulse;
   }
+  impulse_begin_ = n_particle_state_;
+  if (needs_impulse_) n_particle_state_ += 3;
 }
 
 void FluidLoad::set_walls(const WallSet& walls) {
@@ -65,7 +70,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
 
   const double m = rag.mass;
   const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(slope_sum), *added_mass = array(added_mass_sum);
-  const double *none = array(zero), *d = fluid.response ? fluid.response : none;
+  const double *none = array(zero), *d = fluid.response ? fluid.response : none, *relief = array(relief_sum);
   const VectorArray r_of = fluid.velocity_rate.x ? fluid.velocity_rate : VectorArray{none, none, none};
   const double* rate[] = {r_of.x, r_of.y, r_of.z};
   double *phi = array(relaxation), *driven = array(chi), *slopes = sums_.field(index, slope_integral);
@@ -73,7 +78,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
     const int first = tile.index(0, j), end = first + tile.nx;
 #pragma omp simd
     for (int k = first; k < end; ++k) {
-      const double hK = step * slope[k], theta = hK * ((free[k] > 0.5 ? 1 / (m + added_mass[k]) : 0) + d[k]);
+      const double hK = step * slope[k], theta = hK * ((free[k] > 0.5 ? 1 / (m + added_mass[k]) : 0) + d[k] + relief[k]);
       const double over = 1 / (1 + theta * (2.0 / 3 + theta / 6));
       phi[k] = (1 + theta / 6) * over;
       driven[k] = hK * (0.5 + theta / 6) * over;
@@ -82,12 +87,14 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
     for (int i = 0; i < 3; ++i) {
       const double *R = array(two_way_force + i), *N = array(one_way_force + i), *r = rate[i];
       double *f = tile.field(Tile::fx + i), *J = sums_.field(index, impulse_x + i);
+      double* of_step = needs_impulse_ ? last_impulse(tile, i) : array(step_impulse + i);
 #pragma omp simd
       for (int k = first; k < end; ++k) {
         const double other = f[k] + N[k], M = m + added_mass[k];
         const double mean = phi[k] * R[k] + driven[k] * (r[k] - (free[k] > 0.5 ? other / M : 0));
         const double total = (other + mean) * (free[k] > 0.5 ? m / M : 1);  // m a
-        J[k] += exists[k] > 0 ? step * (total - other) : 0;
+        of_step[k] = exists[k] > 0 ? step * (total - other) : 0;
+        J[k] += of_step[k];
         f[k] = exists[k] > 0 ? total : f[k];
       }
     }
@@ -107,9 +114,12 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   clear(two_way_force, 4);  // with the slope
   if (!all_react_) clear(one_way_force, 3);
   if (added_mass_) clear(added_mass_sum, 1);
+  if (needs_impulse_) clear(relief_sum, 1);
   if (torque_) clear(torque_sum, 4);  // with the slope
   const auto vector = [&](int f) { return VectorSum{array(f), array(f + 1), array(f + 2)}; };
   Forces reacting{vector(two_way_force), vector(torque_sum), array(slope_sum), array(added_mass_sum), array(torque_slope_sum)};
+  reacting.relief = array(relief_sum);
+  if (needs_impulse_) particles.last_impulse = {last_impulse(tile, 0), last_impulse(tile, 1), last_impulse(tile, 2)};
   Forces silent = reacting;
   silent.force = vector(one_way_force);
   // The middle of the sub-step is where the integrator evaluates forces.

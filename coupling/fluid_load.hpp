@@ -53,6 +53,7 @@ class FluidLoad final : public TileForce {
   FluidSamples evaluate(std::size_t index, Tile& tile, double step);
   void follow(FluidSamples& fluid, std::size_t index, const Particles& particles);
   void add_torque(Tile& tile, double step);
+  double* last_impulse(Tile& tile, int i) const { return tile.particle_state.data() + (impulse_begin_ + i) * tile.exists.size(); }
   double* array(int f) { return scratch_.data() + f * scratch_size_; }
 
   /// A force with what its description says.
@@ -67,7 +68,8 @@ class FluidLoad final : public TileForce {
   const std::vector<Rag>& rags_;
   SampleSet needed_;
   bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false;  // what the forces give
-  int n_particle_state_ = 0;
+  bool needs_impulse_ = false;
+  int n_particle_state_ = 0, impulse_begin_ = 0;
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s

@@ -1,5 +1,6 @@
 #include "coupling/kernel_field.hpp"
 
+#include "coupling/cloth_edges.hpp"
 #include "coupling/samples.hpp"
 
 namespace snag {
@@ -23,10 +24,12 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   add(prediction_.change().data(), 3, change);
   const CellSource source{flow_, kernel_, rags_, prediction_, two_way_, particles_, tiles};
   made_.resize(sample_rows().size());
+  int coverage = 0;
   auto made = made_.begin();
   for_each_row([&](const SampleRow& row, int first) {
     std::vector<double>& cells = *made++;
     if (needed.*row.needed) add(row.of_cells(source, cells), row.components(), first);
+    if (row.needed == &SampleSet::coverage) coverage = first;
   });
   const std::vector<double> values = kernel_.average(fields);
 
@@ -45,6 +48,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     }
     if (two_way_) arrays_.field(t, sampled::response)[k] = answers[b];
   }
+  if (needed.coverage) find_edge_distances(flow_.mesh.comm, rags_, tiles, arrays_, coverage, edge_distance);
 }
 
 FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
@@ -55,7 +59,8 @@ FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
                      .velocity_rate = vector(change),
                      .start = vector(start),
                      .response = two_way_ ? arrays_.field(index, sampled::response) : nullptr,
-                     .velocity_gradient = {vector(gradient), vector(gradient + 3), vector(gradient + 6)}};
+                     .velocity_gradient = {vector(gradient), vector(gradient + 3), vector(gradient + 6)},
+                     .edge_distance = arrays_.field(index, edge_distance)};
   for_each_row([&](const SampleRow& row, int first) {
     const double* const arrays[] = {arrays_.field(index, first), row.components() > 1 ? arrays_.field(index, first + 1) : nullptr,
                                     row.components() > 1 ? arrays_.field(index, first + 2) : nullptr};

@@ -51,6 +51,7 @@ struct FluidSamples {
   const double* disturbance_width =
       nullptr;                       // over which the particle's own force is smeared in these samples, m; 1e9 where it is not in them
   const double* coverage = nullptr;  // share of the kernel that the cloth around the particle fills: 1 inside a flat sheet, 1/2 at an edge
+  const double* edge_distance = nullptr;  // s of coupling/cloth_edges.hpp, m; with the coverage
   const double* wall_distance = nullptr;  // of the particle's centre from the nearest wall, m; far away a large number
   VectorArray wall_normal = {};           // unit, from that wall to the particle
 };
@@ -110,7 +111,7 @@ const std::vector<SampleRow>& sample_rows();
 /// Arrays in which a field keeps the fluid at the particles: the first component of each. Those of the rows that are averaged come after
 /// these, in the order of the rows.
 namespace sampled {
-enum Array { velocity = 0, gradient = 3, change = 12, response = 15, start = 16, n_core = 19 };
+enum Array { velocity = 0, gradient = 3, change = 12, response = 15, start = 16, edge_distance = 19, n_core = 20 };
 /// With those of the rows.
 int n_arrays();
 /// Calls visit(row, first array) for each row that has arrays.

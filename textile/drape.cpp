@@ -54,7 +54,7 @@ RagPiece round_cloth(const DrapeTest& test, const DrapeCloth& cloth, const RagSh
   const double r = cloth.radius;
   rag.name = "drape", rag.radius = r;
   rag.n_columns = rag.n_rows = static_cast<int>(std::lround(test.sample_diameter / (2 * r)));
-  piece.mask_radius = test.sample_diameter / 2;
+  piece.rag.mask_radius = test.sample_diameter / 2;
   piece.centre = {0, 0, r};
   rag.mass = test.mass_per_area * 4 * r * r, rag.inertia = 0.4 * rag.mass * r * r;
   rag.bond = cloth.bond, rag.bond_damping = cloth.bond_damping, rag.rotation_friction = cloth.rotation_friction;

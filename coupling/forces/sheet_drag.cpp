@@ -14,12 +14,20 @@
 //   D = D(x_t) + 0.074 (nu/U)^(1/5) (x^(4/5) - x_t^(4/5))        behind x_t, turbulent
 //
 // Two-way the velocity at the sheet is the resolved one. C_n is then the loss coefficient K of the cloth: the pressure drop across it over
-// 1/2 rho |w_n| w_n; a free-stream coefficient would count the blockage of the sheet twice. (One-way: 1.17, a plate across the stream. No
-// measured K of a soaked wipe is known: 2 is an assumption.) Two corrections take the width delta of the kernel into account:
+// 1/2 rho |w| w, w the velocity through it; a free-stream coefficient would count the blockage of the sheet twice. (One-way: 1.17, a plate
+// across the stream. No measured K of a soaked wipe is known: 2 is an assumption.) Two corrections take the width delta of the kernel into
+// account:
 //
-//   edges    C_n = K/(1 + max(0, 1 - kappa) ((1 + K)^(1/2) - 1))^2,   kappa: coverage. Near an edge the kernel averages water that passes
-//            through the cloth with the velocity w, and water that passes beside the cloth with the velocity w_o: w_n = w kappa + w_o (1 -
-//            kappa). The pressure drop of the cloth accelerates the water beside the cloth to w_o = w (1 + K)^(1/2) (Bernoulli's equation).
+//   edges    w = w_n - R Phi,   R = f(s/sigma)/(2 (s/sigma)^(1/2) sigma),   sigma = 2^(1/2) delta: of spreading and averaging together
+//            dPhi/dt = F_n/(rho A) - chi |Phi| Phi/(2 g^2) - nu Phi/s^2,   chi = K/((1 + K)^(1/2) - 1)^2,   g = max((1 - kappa)/R, c s)
+//            J_n: normal force on the water; Phi: jump of the potential across the sheet, m2/s; s: coupling/cloth_edges.hpp; kappa:
+//            coverage
+//
+//            The kernel also averages water beside the sheet. About an edge that pressure sets in motion the potential jumps by 2 B
+//            x^(1/2) at the distance x inside, and the average of the velocity over a Gaussian of width sigma is B f(x/sigma)/sigma^(1/2):
+//            R is their ratio, f fitted within 1.4 %. Far inside R is sigma/(2 pi)^(1/2) times the surface Laplacian of the jump: exact
+//            with s as it is defined. In steady flow the water beside the sheet has the velocity w (1 + K)^(1/2) that Bernoulli's equation
+//            gives it, so that w_n = w kappa + w (1 + K)^(1/2) (1 - kappa): Phi stops growing there.
 //   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2). The boundary layers of both sides slow the water that the
 //            kernel averages. Their deficit, D U, is distributed over the widths of the kernel and of the layers. q is at most 0.375.
 //
@@ -45,10 +53,18 @@ inline double layer_drag(double x, double ratio, double transition) {
   return sum + 0.074 * pow(ratio, 0.2) * (pow(std::max(x, x_t), 0.8) - pow(x_t, 0.8));
 }
 
+/// R, 1/m.
+inline double relief_ratio(double s, double sigma) {
+  const double t = std::min(s / sigma, 1e4), root = std::sqrt(t);
+  return 0.164 * (1 + t * (-0.16245 + t * 0.16691)) /
+         (root * (1 + t * (0.22519 + t * (0.29641 + t * (-0.06504 + root * 0.27447)))) * sigma);
+}
+
 struct SheetDrag final : FluidForce {
   static constexpr const char* name = "sheet_drag";
   static constexpr double of_plate = 1.17, of_cloth = 2;  // C_n one-way and two-way
   static constexpr double rough = 0.02;                   // C_t of form "quadratic"
+  static constexpr double inner = 0.5;                    // c
   double share = 1, chosen_coefficient = of_plate, transition_reynolds = 5e5;
   std::optional<double> normal_coefficient, tangential_coefficient;
   enum class Form { quadratic, viscous };
@@ -61,8 +77,10 @@ struct SheetDrag final : FluidForce {
             .equation = "F = (1 - theta) F_drag + theta (1/2 rho C_n A |w_n| w_n + rho C_t A |w_t| w_t)",
             .source = "Taylor and Batchelor (1949); Hoerner (1965)",
             .valid_for = "sheets resolved by particles",
-            .samples = {.disturbance = is_two_way && viscous(), .coverage = is_two_way},
+            .samples = {.disturbance = is_two_way, .coverage = is_two_way},
+            .needs_impulse = is_two_way,
             .role = Role::drag_replacement,
+            .n_particle_state = is_two_way ? 1 : 0,
             .prior = Prior{.key = "coupling.sheet_drag.share",
                            .meaning = "share of the drag that follows the plane of the sheet",
                            .mean = 0.8,
@@ -100,13 +118,17 @@ struct SheetDrag final : FluidForce {
     const Tile& tile = particles.tile;
     const double rho = fluid.density, nu = fluid.dynamic_viscosity / rho, r = particles.rag.radius, side = 2 * r, area = side * side,
                  K = normal_coefficient.value_or(chosen_coefficient), C_t = tangential_coefficient.value_or(with_layers ? 0 : rough),
-                 theta = share, around_edge = std::sqrt(1 + K) - 1, transition = transition_reynolds;
+                 theta = share, around_edge = std::sqrt(1 + K) - 1, transition = transition_reynolds,
+                 chi = K > 0 ? K / (around_edge * around_edge) : 0;
     const double columns = particles.rag.n_columns, rows = particles.rag.n_rows;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;
     double* slope = forces.slope;
     const LatticeDirections lattice(particles);
     const double *covered = is_two_way ? fluid.coverage : nullptr, *width = is_two_way ? fluid.disturbance_width : nullptr;
+    const double *from_edge = fluid.edge_distance, h = particles.step;
+    const VectorArray J = particles.last_impulse;
+    double *jump = particles.state, *relief = forces.relief;
     for (int j = 0; j < tile.ny; ++j) {
       const int first = tile.index(0, j);
       const double row = tile.row + j + 0.5;
@@ -114,9 +136,19 @@ struct SheetDrag final : FluidForce {
       for (int p = first; p < first + tile.nx; ++p) {
         const Vec3 along = direction(lattice.along(p)), across = direction(lattice.across(p)), n = direction(cross(along, across));
         const Vec3 w = u[p] - v[p], w_n = dot(w, n) * n, w_t = w - w_n;
-        const double speed_n = std::sqrt(norm_squared(w_n)), speed_t = std::sqrt(norm_squared(w_t));
-        const double beyond = covered ? std::max(0.0, 1 - covered[p]) : 0, through = 1 + beyond * around_edge;
-        double K_n = K / (through * through) * speed_n, K_t = C_t * speed_t;
+        const double speed_t = std::sqrt(norm_squared(w_t));
+        double through = dot(w, n), K_t = C_t * speed_t;
+        if (covered) {
+          const double s = from_edge[p], R = relief_ratio(s, std::numbers::sqrt2 * width[p]);
+          const double g = std::max(std::max(0.0, 1 - covered[p]) / R, inner * s) + 1e-30;
+          const double driven = jump[p] + dot(J[p], n) / (rho * area),
+                       fading = 1 + h * (chi * std::abs(driven) / (2 * g * g) + nu / (s * s));
+          jump[p] = driven / fading;
+          relief[p] = R / (rho * area * fading);
+          through -= R * jump[p];
+        }
+        // Of the normal force: that of the slip that the kernel sees, and what the edges take from it.
+        double K_n = K * std::abs(through), K_v = 0;
         if constexpr (with_layers) {
           const double column = tile.column + (p - first) + 0.5, tiny = 1e-30, speed = speed_t + tiny;
           const double a = dot(w_t, along) / speed, b = dot(w_t, across) / speed;
@@ -135,14 +167,15 @@ struct SheetDrag final : FluidForce {
           const double begin = x < 1.001 * half ? 0 : x - half;  // round-off before the edge would count: D is steep there
           const double D = layer_drag(x + half, nu / U, transition) - layer_drag(begin, nu / U, transition);
           K_t += 0.5 * D / half * U * U / speed;
-          K_n += 20.4 * nu / side;
+          K_v = 20.4 * nu / side;
         }
-        K_n *= 0.5 * rho * area, K_t *= rho * area;
+        const Vec3 along_normal = 0.5 * rho * area * (K_n * through + K_v * dot(w, n)) * n;
+        K_n = 0.5 * rho * area * (K_n + K_v), K_t *= rho * area;
         // Both sides of the sheet are in C_t rho = 2 C_t rho/2.
         const double here = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - here;
-        force.x[p] = rest * force.x[p] + here * (K_n * w_n.x + K_t * w_t.x);
-        force.y[p] = rest * force.y[p] + here * (K_n * w_n.y + K_t * w_t.y);
-        force.z[p] = rest * force.z[p] + here * (K_n * w_n.z + K_t * w_t.z);
+        force.x[p] = rest * force.x[p] + here * (along_normal.x + K_t * w_t.x);
+        force.y[p] = rest * force.y[p] + here * (along_normal.y + K_t * w_t.y);
+        force.z[p] = rest * force.z[p] + here * (along_normal.z + K_t * w_t.z);
         slope[p] = rest * slope[p] + here * std::max(K_n, K_t);
       }
     }

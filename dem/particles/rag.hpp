@@ -24,6 +24,7 @@ struct BondProperties {
 struct Rag {
   std::string name;
   int n_columns = 1, n_rows = 1;  // lattice; columns run along the length (x of the lattice frame), rows along the width (y)
+  double mask_radius = 0;         // > 0: only places within this distance of the lattice's centre exist (disc), m
   std::int64_t first_particle =
       0;  // id of the lattice's first place; id = first_particle + row * n_columns + column, places outside the mask included
   std::int64_t n_particles = 0, n_bonds = 0;  // that exist
@@ -45,6 +46,13 @@ struct Rag {
   double shear_modulus = 1e6;                           // Pa
   double poisson_ratio = 0.25;
 
+  /// Whether the lattice has a particle in this column and row.
+  bool exists(int column, int row) const {
+    if (column < 0 || row < 0 || column >= n_columns || row >= n_rows) return false;
+    if (mask_radius <= 0) return true;
+    const double x = (2 * column - (n_columns - 1)) * radius, y = (2 * row - (n_rows - 1)) * radius;
+    return x * x + y * y <= mask_radius * mask_radius * (1 + 1e-12);
+  }
   /// Distance from a wall below which a particle touches it, and its share of that from another particle, m.
   double wall_reach() const { return contact_thickness > 0 ? contact_thickness / 2 : radius; }
   double layer_reach() const { return layer_thickness > 0 ? layer_thickness / 2 : radius; }

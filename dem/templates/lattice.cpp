@@ -34,13 +34,6 @@ Quaternion rotation_to(const Vec3& lengthwise, const Vec3& crosswise) {
   return {q.w(), q.x(), q.y(), q.z()};
 }
 
-bool RagPiece::exists(int column, int row) const {
-  if (column < 0 || row < 0 || column >= rag.n_columns || row >= rag.n_rows) return false;
-  if (mask_radius <= 0) return true;
-  const double x = (2 * column - (rag.n_columns - 1)) * rag.radius, y = (2 * row - (rag.n_rows - 1)) * rag.radius;
-  return x * x + y * y <= mask_radius * mask_radius * (1 + 1e-12);
-}
-
 ParticlePose RagPiece::pose(int column, int row) const {
   if (!poses.empty() && column >= 0 && row >= 0 && column < rag.n_columns && row < rag.n_rows) {
     const ParticlePose& placed = poses[static_cast<std::size_t>(row) * rag.n_columns + column];

@@ -38,8 +38,7 @@ struct ReleasePlan {
 };
 
 struct RagPiece {
-  Rag rag;                           // n_columns, n_rows set; first_particle, n_particles, n_bonds are set by the RagSystem
-  double mask_radius = 0;            // > 0: only places within this distance of the lattice's centre exist (disc), m
+  Rag rag;                           // n_columns, n_rows, mask_radius set; first_particle, n_particles, n_bonds are set by the RagSystem
   Vec3 centre;                       // of the lattice, m
   Quaternion orientation;            // of the lattice frame
   Vec3 velocity, spin;               // of the whole piece, about its centre; m/s, rad/s
@@ -49,7 +48,7 @@ struct RagPiece {
   ReleasePlan release;
   std::vector<ParticlePose> poses;  // [n_rows * n_columns] places about `centre`, instead of the flat lattice, if not empty
 
-  bool exists(int column, int row) const;
+  bool exists(int column, int row) const { return rag.exists(column, row); }
   ParticlePose pose(int column, int row) const;
 };
 

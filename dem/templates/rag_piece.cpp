@@ -54,7 +54,7 @@ void set_lattice(const RagSettings& s, RagPiece& piece) {
   if (s.shape == Shape::rag) rag.n_columns = whole_particles(s.length, s.radius), rag.n_rows = whole_particles(s.width, s.radius);
   if (s.shape == Shape::disc) {
     rag.n_columns = rag.n_rows = whole_particles(s.diameter, s.radius);
-    piece.mask_radius = s.diameter / 2;
+    piece.rag.mask_radius = s.diameter / 2;
   }
   if (s.shape == Shape::fibre) {
     if (s.n_points > 0) rag.radius = s.length / (2 * s.n_points);

@@ -25,7 +25,7 @@ std::vector<RagPiece> pieces() {
   RagPiece sheet = cloth(70, 40), disc = cloth(36, 36);
   sheet.rag.bond_damping = 0.5, sheet.rag.rotation_friction = 0.001;
   sheet.centre = {0, 0, 0.004};
-  disc.rag.name = "disc", disc.mask_radius = 0.036;
+  disc.rag.name = "disc", disc.rag.mask_radius = 0.036;
   disc.rag.bond_damping = 0.5;
   disc.centre = {0.03, 0.02, 0.010}, disc.velocity = {-2, 0.3, -2}, disc.spin = {0, 20, 0};
   return {sheet, disc};
