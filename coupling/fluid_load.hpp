@@ -2,17 +2,18 @@
 // The fluid's forces on the particles, sub-step by sub-step, and what they sum to.
 //
 //   M dv/dt = F_other + F,   du/dt = r - d (F - m_a dv/dt),   F = F_0 + K (w - w_0),   w = u - v
-//   F -> phi F_0 + h K chi (r - F_other/M),  theta = h K (1/M + d)         mean over a sub-step h
+//   F -> phi F_0 + h K chi (r - F_other/M),  theta = h K (1/M + d + e)     mean over a sub-step h
 //   phi = (1 + theta/6)/(1 + 2 theta/3 + theta^2/6) = (1 - exp(-theta))/theta + O(theta^3),   chi = (1 - phi)/theta
 //   J += h (m dv/dt - F_other)                                            impulse of the water on each particle, N s
 //
 // K = dF/dw (secant), m_a added mass, M = m + m_a; r and d: how the water at the particle goes on and answers to the particle within the
-// step (coupling/water_prediction.hpp); r = r_0 + G v on the way of the particle, d = 0 one-way. phi is the mean of the relaxation of water
-// and particle towards each other: third order in theta for a linear drag, and L-stable: a particle much lighter than its drag takes the
-// fluid's velocity within one sub-step, without ringing. F_other must be complete: bonds, contacts and walls come before the fluid.
-// Particles that a clamp holds (Tile::free below 1/2) count as infinitely heavy. Forces that do not react on the fluid (weight, buoyancy,
-// pressure gradient) act on the particle and are left out of J. Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I). Source of phi: Pade
-// approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
+// step (coupling/water_prediction.hpp); r = r_0 + G v on the way of the particle, d = 0 one-way; e: slip that the law itself takes off per
+// impulse (Forces::relief). phi is the mean of the relaxation of water and particle towards each other: third order in theta for a linear
+// drag, and L-stable: a particle much lighter than its drag takes the fluid's velocity within one sub-step, without ringing. F_other must
+// be complete: bonds, contacts and walls come before the fluid. Particles that a clamp holds (Tile::free below 1/2) count as infinitely
+// heavy. Forces that do not react on the fluid (weight, buoyancy, pressure gradient) act on the particle and are left out of J. Torque
+// likewise:  I dw/dt = (T_other + T) phi(h K_t/I). Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving
+// Ordinary Differential Equations II, IV.3.
 #include <memory>
 
 #include "coupling/fluid_field.hpp"

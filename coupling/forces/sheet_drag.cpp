@@ -20,8 +20,8 @@
 //
 //   edges    w = w_n - R Phi,   R = f(s/sigma)/(2 (s/sigma)^(1/2) sigma),   sigma = 2^(1/2) delta: of spreading and averaging together
 //            dPhi/dt = F_n/(rho A) - chi |Phi| Phi/(2 g^2) - nu Phi/s^2,   chi = K/((1 + K)^(1/2) - 1)^2,   g = max((1 - kappa)/R, c s)
-//            J_n: normal force on the water; Phi: jump of the potential across the sheet, m2/s; s: coupling/cloth_edges.hpp; kappa:
-//            coverage
+//            Phi: jump of the potential across the sheet, m2/s; F_n: all that the water gives the particle along n; kappa: coverage; c =
+//            1/2; s: distance from the edges (coupling/cloth_edges.hpp)
 //
 //            The kernel also averages water beside the sheet. About an edge that pressure sets in motion the potential jumps by 2 B
 //            x^(1/2) at the distance x inside, and the average of the velocity over a Gaussian of width sigma is B f(x/sigma)/sigma^(1/2):
@@ -31,8 +31,8 @@
 //   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2). The boundary layers of both sides slow the water that the
 //            kernel averages. Their deficit, D U, is distributed over the widths of the kernel and of the layers. q is at most 0.375.
 //
-// Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have. The edge of a disc is that of its
-// lattice, the square around it; a tear is no edge.
+// Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have. Layers begin at the
+// edge of the lattice, of a disc at that of the square around it; a tear is no edge.
 // Source: resistance of screens, Taylor and Batchelor (1949), Q. J. Mech. Appl. Math. 2, 1-29; plate across the flow C_n = 1.17, Hoerner
 // (1965), chapter 3; disc in creeping flow, Lamb (1932), section 339; laminar layer, Blasius (1908), trailing edge, Messiter (1970), SIAM
 // J. Appl. Math. 18, 241-257; turbulent layer, Prandtl (Schlichting, Boundary-Layer Theory, chapter XXI). At Re 4000 Messiter's term is
@@ -118,8 +118,8 @@ struct SheetDrag final : FluidForce {
     const Tile& tile = particles.tile;
     const double rho = fluid.density, nu = fluid.dynamic_viscosity / rho, r = particles.rag.radius, side = 2 * r, area = side * side,
                  K = normal_coefficient.value_or(chosen_coefficient), C_t = tangential_coefficient.value_or(with_layers ? 0 : rough),
-                 theta = share, around_edge = std::sqrt(1 + K) - 1, transition = transition_reynolds,
-                 chi = K > 0 ? K / (around_edge * around_edge) : 0;
+                 theta = share, transition = transition_reynolds, around_edge = 1 + std::sqrt(1 + K),
+                 chi = K > 0 ? around_edge * around_edge / K : 0;
     const double columns = particles.rag.n_columns, rows = particles.rag.n_rows;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;

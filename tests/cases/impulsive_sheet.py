@@ -1,6 +1,6 @@
 # timeout: 600
 # cost: 20
-"""Requirement: a closed sheet that is set in motion at once gives the water the impulse of potential flow, within 10 %: a disc 8/3 rho a^3 U (Lamb (1932), section 102), a strip pi/4 rho W^2 U a
+"""Requirement: a closed sheet that is set in motion at once gives the water the impulse of potential flow, within 10 %: a disc 8/3 rho a^3 U (Lamb (1932), Hydrodynamics, chapter V), a strip pi/4 rho W^2 U a
 length, though the kernel is as wide as the cells or half of that."""
 import math
 

@@ -1,0 +1,71 @@
+// ranks: 1 3
+// Distances of the edges of a cloth: those of open edges, none of closed ones, the same on any number of ranks.
+#include "coupling/cloth_edges.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dem/rag_system.hpp"
+#include "dem/templates/rag_settings.hpp"
+
+namespace snag {
+namespace {
+
+constexpr double radius = 1e-3;
+
+RagPiece piece(RagSettings::Shape shape) {
+  RagSettings settings(shape);
+  settings.length = 0.2, settings.width = 0.1, settings.diameter = 0.1, settings.radius = radius;
+  return make_piece(settings, "test");
+}
+
+/// Calls visit(x, y, s) for the particles of this rank, x and y from the middle of the cloth, m; `coverage` at x and y.
+template <class Coverage, class Visit>
+void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Visit& visit) {
+  RagSystem rags(MPI_COMM_WORLD, {}, {piece(shape)});
+  const Rag& rag = rags.rags()[0];
+  TileArrays arrays;
+  arrays.reset(rags.tiles(), 2);
+  const auto each = [&](const auto& on) {
+    for (std::size_t t = 0; t < rags.tiles().size(); ++t) {
+      const Tile& tile = rags.tiles()[t];
+      for (int j = 0; j < tile.ny; ++j)
+        for (int i = 0; i < tile.nx; ++i)
+          if (const int k = tile.index(i, j); tile.exists[static_cast<std::size_t>(k)] > 0)
+            on(t, k, (2 * (tile.column + i) - rag.n_columns + 1) * radius, (2 * (tile.row + j) - rag.n_rows + 1) * radius);
+    }
+  };
+  each([&](std::size_t t, int k, double x, double y) { arrays.field(t, 0)[k] = coverage(x, y); });
+  find_edge_distances(MPI_COMM_WORLD, rags.rags(), rags.tiles(), arrays, 0, 1);
+  each([&](std::size_t t, int k, double x, double y) { visit(x, y, arrays.field(t, 1)[k]); });
+}
+
+double open_everywhere(double, double) { return 0.5; }
+
+// At one open edge s is the distance from it; closed edges do not count, half open ones half. The column at the edge is open at its ends.
+TEST(ClothEdges, one_edge) {
+  const auto expect = [](double coverage_at_edge, const auto& distance) {
+    with_distances(
+        RagSettings::Shape::rag, [&](double x, double) { return x < -0.098 ? coverage_at_edge : 1.0; },
+        [&](double x, double, double s) { EXPECT_TRUE(x < -0.098 || std::abs(s - distance(x)) < 1e-12) << x << " " << s; });
+  };
+  expect(0.5, [](double x) { return x + 0.1; });
+  expect(0.3, [](double x) { return x + 0.1; });
+  expect(0.75, [](double x) { return 2 * (x + 0.1); });
+  expect(1.2, [](double) { return 1e3; });
+}
+
+// -4 times the Laplacian of the potential's jump over the jump is 1/s^2: on a disc, where the jump is (a^2 - r^2)^(1/2).
+TEST(ClothEdges, disc) {
+  const double a2 = 0.05 * 0.05;
+  with_distances(RagSettings::Shape::disc, open_everywhere, [&](double x, double y, double s) {
+    const double r2 = x * x + y * y;
+    if (r2 > 0.9 * a2) return;  // at the rim a particle is as far from the edge as its radius, at least
+    const double exact = 4 * (2 * a2 - r2) / ((a2 - r2) * (a2 - r2));
+    EXPECT_NEAR(1 / (s * s), exact, 1e-9 * exact);
+  });
+}
+
+}  // namespace
+}  // namespace snag
