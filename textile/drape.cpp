@@ -106,7 +106,8 @@ class DrapeRun {
     rags_.clamp([&](std::int64_t id) {
       const Rag& rag = piece.rag;
       const double x = (2.0 * (id % rag.n_columns) - (rag.n_columns - 1)) * rag.radius;
-      const double y = (2.0 * (id / rag.n_columns) - (rag.n_rows - 1)) * rag.radius;
+      const auto row = id / rag.n_columns;
+      const double y = (2.0 * row - (rag.n_rows - 1)) * rag.radius;
       return x * x + y * y <= pin * pin;
     });
   }

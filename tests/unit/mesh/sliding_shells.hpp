@@ -37,7 +37,7 @@ inline void add_quad(Sample& sample, int tag, const std::array<int, 4>& q, bool 
 
 inline void add_ring(Sample& sample, const Ring& ring, const Shells& shells) {
   const int first = static_cast<int>(sample.node.size());
-  const auto [n, n_r, n_z] = ring.n;
+  const int n = ring.n[0], n_r = ring.n[1], n_z = ring.n[2];
   const Vec3 e3 = unit(shells.axis), e1 = unit(cross(std::abs(e3.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, e3)), e2 = cross(e3, e1);
   for (int k = 0; k <= n_z; ++k)
     for (int j = 0; j <= n_r; ++j)
