@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/particles/tile_particles.hpp"
+
 namespace snag {
 
 namespace {
@@ -33,15 +35,12 @@ double half_extent(const Rag& rag, int places, double across) {
 
 double open_share(double coverage) { return std::clamp(2 * (1 - coverage), 0.0, 1.0); }
 
-/// Visits the particles of all tiles: tile number, its rag, place, column and row.
+/// visit(tile number, its rag, place, column and row in the rag) for the particles of all tiles.
 template <class Visit>
 void for_each_particle(const std::vector<Rag>& rags, std::span<const Tile> tiles, const Visit& visit) {
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     const Tile& tile = tiles[t];
-    for (int j = 0; j < tile.ny; ++j)
-      for (int i = 0; i < tile.nx; ++i)
-        if (const int k = tile.index(i, j); tile.exists[static_cast<std::size_t>(k)] > 0)
-          visit(t, rags[static_cast<std::size_t>(tile.rag)], k, tile.column + i, tile.row + j);
+    for_particles(tile, [&](int k, int i, int j) { visit(t, rags[static_cast<std::size_t>(tile.rag)], k, tile.column + i, tile.row + j); });
   }
 }
 

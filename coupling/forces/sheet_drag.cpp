@@ -147,7 +147,7 @@ struct SheetDrag final : FluidForce {
           relief[p] = R / (rho * area * fading);
           through -= R * jump[p];
         }
-        // Of the normal force: that of the slip that the kernel sees, and what the edges take from it.
+        // K_n acts on the velocity through the cloth, K_v (slow flow) on the whole slip across it.
         double K_n = K * std::abs(through), K_v = 0;
         if constexpr (with_layers) {
           const double column = tile.column + (p - first) + 0.5, tiny = 1e-30, speed = speed_t + tiny;

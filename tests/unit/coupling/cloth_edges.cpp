@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "dem/particles/tile_particles.hpp"
 #include "dem/rag_system.hpp"
 #include "dem/templates/rag_settings.hpp"
 
@@ -30,10 +31,9 @@ void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Vi
   const auto each = [&](const auto& on) {
     for (std::size_t t = 0; t < rags.tiles().size(); ++t) {
       const Tile& tile = rags.tiles()[t];
-      for (int j = 0; j < tile.ny; ++j)
-        for (int i = 0; i < tile.nx; ++i)
-          if (const int k = tile.index(i, j); tile.exists[static_cast<std::size_t>(k)] > 0)
-            on(t, k, (2 * (tile.column + i) - rag.n_columns + 1) * radius, (2 * (tile.row + j) - rag.n_rows + 1) * radius);
+      for_particles(tile, [&](int k, int i, int j) {
+        on(t, k, (2 * (tile.column + i) - rag.n_columns + 1) * radius, (2 * (tile.row + j) - rag.n_rows + 1) * radius);
+      });
     }
   };
   each([&](std::size_t t, int k, double x, double y) { arrays.field(t, 0)[k] = coverage(x, y); });
