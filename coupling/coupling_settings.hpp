@@ -51,8 +51,8 @@ Vec3 read_gravity(const Table& root);
 /// For the manual: [coupling], [gravity], and a table for each force and kernel that has parameters.
 std::vector<Section> coupling_sections();
 
-/// Remarks on the kernel width against particle diameters and the cells where particles are, with numbers; empty if it fits. `places`: of
-/// particles, on any rank, m. Collective, the same on every rank.
+/// Remarks on the kernel width against particle diameters, the sides of sheets and the cells where particles are, with numbers; empty if it
+/// fits. `places`: of particles, on any rank, m. Collective, the same on every rank.
 std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh,
                                          std::span<const Vec3> places);
 

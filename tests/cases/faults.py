@@ -141,23 +141,30 @@ class Faults(harness.CaseTest):
         self.disturbed(["run", case, "--out", folder], ranks, folder, "kill", 0, of_ranks[0][trailers[1].number + 4])
         return folder.rename(self.work / f"begun-{ranks}")
 
-    def test_runs(self):
+    def runs_on(self, ranks):
         case = self.case(CASE.format(mesh=self.mesh(*COARSE), kernel="cell"))
         folder = self.work / "out"
-        for ranks in self.of_runs:
-            shutil.rmtree(folder, ignore_errors=True)
-            run, of_ranks = self.operations(["run", case, "--out", folder], ranks, folder)
-            whole = harness.Run(folder.rename(self.work / f"whole-{ranks}"), run.code, run.stdout, run.stderr)
-            print(f"\n  a run on {ranks} ranks: {' + '.join(str(len(one)) for one in of_ranks)} operations")
-            self.campaign(case, whole, None, ranks, of_ranks, self.of_runs[ranks])
-            if ranks not in self.of_resumed_runs:
-                continue
-            shutil.rmtree(folder, ignore_errors=True)
-            begun = self.begun(case, ranks, of_ranks)
-            shutil.copytree(begun, folder)
-            _, of_ranks = self.operations(["run", case, "--out", folder, "--resume"], ranks, folder)
-            print(f"  resumed on {ranks} ranks: {' + '.join(str(len(one)) for one in of_ranks)} operations")
-            self.campaign(case, whole, begun, ranks, of_ranks, self.of_resumed_runs[ranks])
+        shutil.rmtree(folder, ignore_errors=True)
+        run, of_ranks = self.operations(["run", case, "--out", folder], ranks, folder)
+        whole = harness.Run(folder.rename(self.work / f"whole-{ranks}"), run.code, run.stdout, run.stderr)
+        print(f"\n  a run on {ranks} ranks: {' + '.join(str(len(one)) for one in of_ranks)} operations")
+        self.campaign(case, whole, None, ranks, of_ranks, self.of_runs[ranks])
+        if ranks not in self.of_resumed_runs:
+            return
+        shutil.rmtree(folder, ignore_errors=True)
+        begun = self.begun(case, ranks, of_ranks)
+        shutil.copytree(begun, folder)
+        _, of_ranks = self.operations(["run", case, "--out", folder, "--resume"], ranks, folder)
+        print(f"  resumed on {ranks} ranks: {' + '.join(str(len(one)) for one in of_ranks)} operations")
+        self.campaign(case, whole, begun, ranks, of_ranks, self.of_resumed_runs[ranks])
+
+    def test_runs(self):
+        self.runs_on(1)
+
+    @harness.parallel
+    def test_runs_on_ranks(self):
+        for ranks in set(self.of_runs) - {1}:
+            self.runs_on(ranks)
 
     # programs that write one file
 

@@ -1,7 +1,9 @@
 """What every test of a whole case needs: run the program as a user does, read what it wrote, compare.
 
-A script states its requirement in one sentence in its docstring, holds one unittest.TestCase made from CaseTest, and ends with
+A script states its requirement in one sentence in its docstring, holds unittest.TestCases made from CaseTest, and ends with
 harness.main(). The program is that of the build folder SNAG_BINARY_DIR; several ranks mean `mpirun -n RANKS`.
+
+A test that needs several processors is marked `@harness.parallel`; `script.py serial` runs the others, `script.py parallel` these alone.
 """
 import json
 import os
@@ -135,6 +137,8 @@ def snag(arguments, ranks=1, folder=None, timeout=600, environment={}):
 
 
 def start(arguments, ranks=1, environment={}):
+    if Part.chosen == "serial" and ranks > 1:
+        raise AssertionError("a test that runs on several ranks must be marked @harness.parallel")
     return subprocess.Popen(
         command(arguments, ranks),
         env=ENVIRONMENT | environment,
@@ -309,5 +313,24 @@ class CaseTest(unittest.TestCase):
         self.assertFalse(bad, f"monitors/{name}.csv differs by more than {tolerance:g}")
 
 
+def parallel(test):
+    """Mark of a test that needs several processors."""
+    test.parallel = True
+    return test
+
+
+class Part(unittest.TestLoader):
+    """The tests of a script that are marked as parallel, those that are not, or all."""
+
+    chosen = "all"
+
+    def getTestCaseNames(self, case):
+        is_parallel = lambda name: hasattr(getattr(case, name), "parallel")
+        return [name for name in super().getTestCaseNames(case) if Part.chosen == "all" or is_parallel(name) == (Part.chosen == "parallel")]
+
+
 def main():
-    unittest.main(verbosity=2)
+    words = sys.argv[:]
+    if len(words) > 1 and words[1] in ("serial", "parallel"):
+        Part.chosen = words.pop(1)
+    unittest.main(argv=words, testLoader=Part(), verbosity=2)

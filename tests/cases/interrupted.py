@@ -31,6 +31,7 @@ class Interrupted(harness.CaseTest):
             self.assertGreater(resumed.summary["performance"][rate], 0)
         return whole
 
+    @harness.parallel
     def test_resume_behind_the_end(self):
         whole = self.resumed_behind_the_end(self.case(SHEETS), 2)
         self.assertGreater(whole.summary["rags"][0]["projected_area_m2"], 0)
@@ -57,6 +58,7 @@ class Interrupted(harness.CaseTest):
         self.assertTrue(left["t_s"] < begun < whole.summary["simulated_s"])
         self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").iterdir()))
 
+    @harness.parallel
     def test_resume_of_a_finished_run(self):
         case = self.case(SHEETS)
         whole = self.run_case(case, 2)
@@ -66,6 +68,7 @@ class Interrupted(harness.CaseTest):
         self.assertIn("nothing is changed", again.stdout)
         self.assertEqual(before, harness.snapshot(whole.folder))
 
+    @harness.parallel
     def test_damaged_checkpoint(self):
         """A bit of the time step in the stamp of the newest checkpoint is another one; then one of the other checkpoint, too."""
         case = self.case(SHEETS)
@@ -97,6 +100,7 @@ class Interrupted(harness.CaseTest):
         self.assertEqual(run.returncode, code, stderr)
         return stderr
 
+    @harness.parallel
     def test_two_runs_at_once(self):
         first = self.begun(ranks=2)
         holder = harness.program_processes(first)[0]
@@ -113,6 +117,7 @@ class Interrupted(harness.CaseTest):
         self.assertFalse((self.work / "out" / ".lock").exists())
         self.assertEqual([], sorted((self.work / "out" / "checkpoint").glob("*.lock")))
 
+    @harness.parallel
     def test_runs_beside_a_run_do_not_disturb_it(self):
         """Runs that begin and end while another one writes checkpoints do not disturb it, whatever files of its own the library of MPI makes."""
         case = self.case(SMALL_SHEETS + "[checkpoint]\ninterval_s = 1e-4\n", "own")
@@ -147,6 +152,7 @@ class Interrupted(harness.CaseTest):
         run.communicate()
         self.assertIn("case two-sheets", (self.work / "out" / "log.txt").read_text())
 
+    @harness.parallel
     def test_monitors_removed(self):
         run = self.begun(ranks=2)
         shutil.rmtree(self.work / "out" / "monitors")

@@ -76,12 +76,19 @@ class Kills(harness.CaseTest):
             shutil.rmtree(folder)
         print(f"  {case.stem} on {ranks} ranks: {kills} kills in {chains} runs, all equal to the uninterrupted run")
 
+    channel_on = (2,)  # ranks
+
     def test_sheets(self):
-        for ranks in (1, 2, 3):
+        self.campaign(self.sheets(), 1)
+
+    @harness.parallel
+    def test_sheets_on_ranks(self):
+        for ranks in (2, 3):
             self.campaign(self.sheets(), ranks)
 
+    @harness.parallel
     def test_channel(self):
-        for ranks in (1, 2, 3) if self.n_kills > 10 else (2,):
+        for ranks in self.channel_on:
             self.campaign(self.channel(), ranks)
 
 

@@ -8,6 +8,7 @@ import kills
 
 class ManyKills(kills.Kills):
     n_kills = int(kills.os.environ.get("SNAG_KILLS", 1000 // 6))
+    channel_on = (1, 2, 3)
 
 
 del kills.Kills

@@ -91,19 +91,24 @@ def largest_heap(rag_pairs, n_rags):
     return numpy.bincount(heap).max()
 
 
-class Pile(harness.CaseTest):
-    """How many touch is counted here from the places of the particles, not taken from the program."""
-
+class PileTest(harness.CaseTest):
     side, layers = 3, 9  # columns in a row, sheets above each other
 
     @classmethod
     def setUpClass(cls):
         cls.n_piled = cls.side**2 * cls.layers
         super().setUpClass()
-        cls.case_file = cls.shared / "pile.toml"
-        cls.case_file.write_text(pile(cls.side, cls.layers))
-        cls.done = harness.snag(["run", cls.case_file, "--out", cls.shared / "one"], 1, cls.shared / "one")
-        assert cls.done.code == 0, cls.done.tail()
+
+    def fall(self, ranks=1, *arguments):
+        return self.run_once(self.case(pile(self.side, self.layers), "pile"), ranks, *arguments)
+
+
+class Pile(PileTest):
+    """How many touch is counted here from the places of the particles, not taken from the program."""
+
+    def setUp(self):
+        super().setUp()
+        self.done = self.fall()
 
     def test_every_rag_is_kept_whole(self):
         summary = self.done.summary
@@ -159,19 +164,16 @@ class Pile(harness.CaseTest):
         self.assertLess(kinetic.max(), whole[0].max(), "a rag is faster than its fall can make it")
         self.assertLess(rags.column("bond_strain_max").max(), 0.05)
 
+
+class PileOnRanks(PileTest):
+    @harness.parallel
     def test_the_same_on_three_ranks(self):
         """The fall and the impacts, one rank's rags among those of the others."""
-        three = harness.snag(["run", self.case_file, "--out", self.work / "three", "--set", "time.end_s=0.06"], 3, self.work / "three")
-        self.assertEqual(three.code, 0, three.tail())
+        one, three = (self.fall(ranks, "--set", "time.end_s=0.06") for ranks in (1, 3))
         self.assertGreater(three.monitor("contacts").column("contacts").max(), 10 * self.n_piled)
         for name in ("rags", "contacts"):
-            one, other = self.done.monitor(name), three.monitor(name)
-            self.assertEqual(other.column("time")[-1], 0.06)
-            one.values = one.values[: len(other.values)]
-            differences = harness.largest_difference(one, other)
-            print(f"  monitors/{name}.csv up to 0.06 s: largest difference {max(differences.values()):.1e}")
-            for column, difference in differences.items():
-                self.assertLessEqual(difference, 1e-12, f"{name}.csv, {column}")
+            self.assertEqual(three.monitor(name).column("time")[-1], 0.06)
+            self.assert_monitors_agree(one, three, name, 1e-12)
 
 
 class ManyRags(harness.CaseTest):
@@ -182,6 +184,7 @@ class ManyRags(harness.CaseTest):
         return self.case(text.replace(rag, "name = \"small\"\nlength_mm = 40\nwidth_mm = 24\nradius_mm = 2\nlengthwise = [0, 0, 1]\ncrosswise = [0, 1, 0]\n" + released)
                          .replace("end_s = 0.05", f"end_s = {end}") + "[checkpoint]\ninterval_s = 0.03\n")
 
+    @harness.parallel
     def test_leave_as_whole_objects(self):
         case = self.channel()
         runs = [self.run_once(case, ranks) for ranks in (1, 2)]
@@ -202,6 +205,7 @@ class ManyRags(harness.CaseTest):
                 self.assertAlmostEqual(starts[r] - starts[0], 0.008 * r, places=9)
         self.assert_monitors_agree(*runs, "rags", 1e-6)
 
+    @harness.parallel
     def test_poses_from_a_file_leave_as_whole_objects(self):
         n_columns, n_rows, radius, arc = 10, 6, 0.002, 0.007  # arc: radius of the roll, m
         turn = 2 * math.asin(radius / arc)  # between neighbours, which stay a diameter apart
@@ -230,6 +234,7 @@ class ManyRags(harness.CaseTest):
         self.assertGreaterEqual(max(n_seen), 3)
         self.assertEqual(n_seen[-1], 2)
 
+    @harness.parallel
     def test_resume_after_some_have_left(self):
         case = self.channel()
         last = lambda run: sorted((run.folder / "rags").glob("*_000100.vtp"))
@@ -238,6 +243,7 @@ class ManyRags(harness.CaseTest):
         self.assert_equal_to_the_bit(whole, resumed, last)
         self.assertEqual(whole.summary["rags"], resumed.summary["rags"])
 
+    @harness.parallel
     def test_release_needs_its_patch(self):
         for old, new, code, message in (('release_patch = "outlet"', 'release_patch = "out"', 3, "outlet"),
                                         ('release_patch = "outlet"\n', "", 2, "release_patch")):

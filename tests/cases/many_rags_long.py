@@ -10,7 +10,11 @@ class LongPile(many_rags.Pile):
     side, layers = 4, 15
 
 
-del many_rags.Pile, many_rags.ManyRags
+class LongPileOnRanks(many_rags.PileOnRanks):
+    side, layers = 4, 15
+
+
+del many_rags.Pile, many_rags.PileOnRanks, many_rags.ManyRags
 
 if __name__ == "__main__":
     harness.main()

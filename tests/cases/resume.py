@@ -45,6 +45,7 @@ class ResumedRun(harness.CaseTest):
     def test_crash_on_one_rank(self):
         self.crash_and_resume(1)
 
+    @harness.parallel
     def test_crash_on_two_ranks(self):
         self.crash_and_resume(2)
 
@@ -101,12 +102,15 @@ class ResumedRun(harness.CaseTest):
         for name in ("rags", "contacts", "coupling", "patches", "residuals"):
             self.assert_monitors_agree(whole, resumed, name, 1e-6)
 
+    @harness.parallel
     def test_signal_to_one_of_two_ranks(self):
         self.to_tolerance(2, self.by_signal, 2)
 
+    @harness.parallel
     def test_signal_to_mpirun(self):
         self.stopped_run(self.channel(), 2, self.by_signal_to_mpirun)
 
+    @harness.parallel
     def test_stop_file_and_other_ranks(self):
         self.to_tolerance(2, self.by_file, 3)
 

@@ -122,6 +122,7 @@ class Study(harness.CaseTest):
         with open(self.work / out / "study.csv", newline="") as file:
             return list(csv.DictReader(file))
 
+    @harness.parallel
     def test_all_combinations(self):
         done = self.study()
         rows = self.table()
@@ -144,6 +145,7 @@ class Study(harness.CaseTest):
         self.assertEqual(last["case_sha256"], alone.summary["case_sha256"])
         self.assertEqual(float(rows[-1]["rags.0.elongation_ratio"]), alone.summary["rags"][0]["elongation_ratio"])
 
+    @harness.parallel
     def test_nothing_is_run_twice(self):
         done = self.study(STUDY.format(zip="zip = true"))
         summaries = [done.folder / name / "summary.json" for name in (NAMES[0], NAMES[3])]
@@ -162,6 +164,7 @@ class Study(harness.CaseTest):
         self.assertNotIn("resumed", again.stdout)
         self.assertEqual(json.loads(summaries[1].read_text())["rags"], json.loads(text[1])["rags"])
 
+    @harness.parallel
     def test_too_many_runs_are_refused(self):
         """Seven keys of 13 values without zip are 62 million runs."""
         vary = "".join(f'[[vary]]\nkey = "rag.0.key_{i}"\nvalues = {list(range(13))}\n' for i in range(7))
@@ -172,12 +175,14 @@ class Study(harness.CaseTest):
         self.assertIn("which is not a key of summary.json", refused.stderr)
         self.assertNotIn("x" * 100, refused.stderr)
 
+    @harness.parallel
     def test_changed_study_is_refused(self):
         text = STUDY.replace("[1, 1.25]", "[1]").replace('["100 mm", "120 mm"]', '["100 mm"]').format(zip="")
         self.study(text)
         refused = self.study(text.replace("0.008", "0.016"), code=2)
         self.assertIn("has a run of another case or of other values", refused.stderr)
 
+    @harness.parallel
     def test_failed_run_does_not_stop_the_others(self):
         """A rag at 400 m/s leaves its bonds behind within a step: the study goes on and ends with the code of that run."""
         text = STUDY.format(zip="zip = true").replace("rag.0.length", "rag.1.velocity_m_s").replace('"100 mm", "120 mm"', '"[4e4, 0, -3e4]", "[2, 0, -3]"')
@@ -194,6 +199,7 @@ class Study(harness.CaseTest):
         done = self.study(text, ranks=1, code=2)
         self.assertEqual([row["exit"] for row in self.table()], ["2", "0"], done.tail())
 
+    @harness.parallel
     def test_generated_mesh_is_made_once(self):
         """Runs with the same geometry and parameters share a mesh, which is gone at the end."""
         for size in (25, 50):

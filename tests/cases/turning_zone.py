@@ -94,12 +94,15 @@ class TurningZone(harness.CaseTest):
             for monitor in ("patches", "residuals", "pump"):
                 self.assert_monitors_agree(one, other, monitor, 1e-6)
 
+    @harness.parallel
     def test_sliding_on_any_number_of_ranks(self):
         self.agree("sliding")
 
+    @harness.parallel
     def test_sliding_with_sst_on_any_number_of_ranks(self):
         self.agree("sliding", "k_omega_sst")
 
+    @harness.parallel
     def test_frame_on_any_number_of_ranks(self):
         self.agree("frame")
 
@@ -115,6 +118,7 @@ class TurningZone(harness.CaseTest):
     def test_resume_on_one_rank(self):
         self.crash_and_resume(1)
 
+    @harness.parallel
     def test_resume_on_two_ranks(self):
         self.crash_and_resume(2)
 

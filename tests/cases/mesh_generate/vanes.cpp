@@ -18,7 +18,7 @@ constexpr double R = 0.1045, r_eye = 0.05, eye_length = 0.006, b = 0.02;  // m: 
 
 // Large cells and short pipes: seconds a mesh.
 const std::string coarse =
-    "'impeller_width=20 mm' 'side_gap=5 mm' 'design_flow=8 L/s' 'inlet_length=60 mm' 'outlet_length=80 mm' 'wall_size=16 mm' 'core_size=24 "
+    "'impeller_width=20 mm' 'side_gap=5 mm' 'design_flow=8 L/s' 'inlet_length=60 mm' 'outlet_length=80 mm' 'wall_size=16 mm' 'core_size=23 "
     "mm' "
     "'interface_size=13 mm' "
     "'pipe_size=40 mm' ";

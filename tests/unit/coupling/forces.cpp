@@ -345,6 +345,15 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   EXPECT_NE(warnings("kernel_width_mm = 1")[1].find("0.2 of the cells where the particles are (mean 5 mm)"), std::string::npos);
   EXPECT_EQ(warnings("kernel_width_mm = 50").size(), 1u);
   EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
+  rags[0].n_columns = 30, rags[0].n_rows = 20, rags[0].radius = 1e-3, rags[0].name = "cloth";  // 40 mm wide
+  EXPECT_TRUE(warnings("kernel_width_mm = 5").empty());
+  ASSERT_EQ(warnings("kernel_width_mm = 10").size(), 1u);
+  EXPECT_NE(warnings("kernel_width_mm = 10")[0].find("0.25 of the shorter side of cloth \"cloth\" (40 mm), advised at most 0.125"),
+            std::string::npos);
+  EXPECT_TRUE(warnings("kernel_width_mm = 10\nforces = [\"published\"]").empty());
+  EXPECT_TRUE(warnings("kernel_width_mm = 10\nmode = \"one_way\"").empty());
+  rags[0].n_rows = 2;
+  EXPECT_TRUE(warnings("kernel_width_mm = 10").empty());
   rags[0].hydrodynamic_diameter = 8e-3;
   EXPECT_EQ(warnings("kernel = \"cell\"").size(), 1u);
   rags[0].hydrodynamic_diameter = 2e-3;
