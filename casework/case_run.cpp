@@ -207,7 +207,7 @@ void move(RagSystem& rags, const Restart& restart, double time) {
 }  // namespace
 
 std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled,
-                                  FlowCache* store, const std::optional<Restart>& restart) {
+                                  RunCache* store, const std::optional<Restart>& restart) {
   const log::Silence silence;
   Simulation run(file, MPI_COMM_SELF, {}, store);
   std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());

@@ -68,7 +68,7 @@ class CaseSimulator final : public Simulator {
 
   MPI_Comm comm_;
   mutable GeneratedMeshes meshes_;
-  mutable FlowCache store_;
+  mutable RunCache store_;
   std::filesystem::path folder_;
   std::vector<Observable> observables_;
   double picture_size_;  // m

@@ -93,7 +93,7 @@ PointCase::~PointCase() = default;
 PointCase::PointCase(PointCase&&) noexcept = default;
 PointCase& PointCase::operator=(PointCase&&) noexcept = default;
 
-PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, FlowCache* store)
+PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, RunCache* store)
     : file_(file), tree_(std::make_unique<Tree>()) {
   const CaseFile read = CaseFile::read(file, overrides);
   const log::Silence silence;
@@ -289,7 +289,7 @@ std::vector<std::string> PointCase::from_elsewhere(std::vector<std::string> over
   return overrides;
 }
 
-std::string PointCase::resolved_with(const std::vector<std::string>& overrides, FlowCache* store) const {
+std::string PointCase::resolved_with(const std::vector<std::string>& overrides, RunCache* store) const {
   const CaseFile file = with(overrides);
   const log::Silence silence;
   const Simulation run(file, ranks_of(file), {}, store);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "base/parameter.hpp"
 
@@ -25,7 +26,18 @@ VoxelGrid::VoxelGrid(const std::vector<WallTriangle>& triangles, double reach, d
   for (int d = 0; d < 3; ++d) n_[d] = static_cast<int>(count(d));
 
   std::vector<Hit> hits;
-  for (std::size_t t = 0; t < triangles.size(); ++t) mark(triangles[t], static_cast<int>(t), {0, 0, 0}, n_, hits);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& node = triangles[t].node;
+    const Vec3 area = cross(node[1] - node[0], node[2] - node[0]);
+    std::array<int, 3> first, n_voxels;  // of the box around the triangle and its reach
+    for (int d = 0; d < 3; ++d) {
+      const auto [low, high] = std::minmax({node[0][d], node[1][d], node[2][d]});
+      const auto place = [&](double x) { return std::clamp(static_cast<int>((x - origin_[d]) / width_), 0, n_[d] - 1); };
+      const double margin = reach_ * (1 + 1e-12);
+      first[d] = place(low - margin), n_voxels[d] = place(high + margin) - first[d] + 1;
+    }
+    mark(triangles[t], norm(area) > 0 ? unit(area) : Vec3{}, static_cast<int>(t), first, n_voxels, hits);
+  }
   start_.assign(std::size_t(n_[0]) * n_[1] * n_[2] + 1, 0);
   for (const Hit& hit : hits) ++start_[hit.voxel + 1];
   for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
@@ -34,26 +46,37 @@ VoxelGrid::VoxelGrid(const std::vector<WallTriangle>& triangles, double reach, d
   for (const Hit& hit : hits) list_[next[hit.voxel]++] = hit.triangle;  // triangles come in ascending order
 }
 
-/// Halves a block of voxels until it is out of reach of the triangle or a single voxel.
-void VoxelGrid::mark(const WallTriangle& triangle, int index, const std::array<int, 3>& first, const std::array<int, 3>& count,
-                     std::vector<Hit>& hits) const {
-  const Vec3 half = 0.5 * width_ * Vec3{double(count[0]), double(count[1]), double(count[2])};
-  const Vec3 centre = origin_ + width_ * Vec3{double(first[0]), double(first[1]), double(first[2])} + half;
-  if (norm(nearest_point(triangle.node, centre).point - centre) > reach_ + norm(half) * (1 + 1e-12)) return;
-  for (int d = 0; d < 3; ++d) {
-    const auto [low, high] = std::minmax({triangle.node[0][d], triangle.node[1][d], triangle.node[2][d]});
-    const double margin = (reach_ + half[d]) * (1 + 1e-12);
-    if (centre[d] + margin < low || centre[d] - margin > high) return;
-  }
-  const int widest = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
-  if (count[widest] == 1) {
-    hits.push_back({(first[2] * n_[1] + first[1]) * n_[0] + first[0], index});
+/// Halves a block of voxels until it is out of reach of the triangle's plane or small; of a small one each voxel is asked.
+void VoxelGrid::mark(const WallTriangle& triangle, const Vec3& normal, int index, const std::array<int, 3>& first,
+                     const std::array<int, 3>& count, std::vector<Hit>& hits) const {
+  constexpr double round_off = 1 + 1e-12;
+  constexpr int small = 512;  // voxels
+  const auto reach_of_plane = [&](const Vec3& half) {
+    return (reach_ + std::abs(normal.x) * half.x + std::abs(normal.y) * half.y + std::abs(normal.z) * half.z) * round_off;
+  };
+  const auto middle_of = [&](const std::array<int, 3>& corner, const Vec3& half) {
+    return origin_ + width_ * Vec3{double(corner[0]), double(corner[1]), double(corner[2])} + half;
+  };
+  if (std::int64_t{count[0]} * count[1] * count[2] > small) {
+    const Vec3 half = 0.5 * width_ * Vec3{double(count[0]), double(count[1]), double(count[2])};
+    if (std::abs(dot(middle_of(first, half) - triangle.node[0], normal)) > reach_of_plane(half)) return;
+    const int widest = static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
+    std::array<int, 3> low = count, high = count, middle = first;
+    low[widest] = count[widest] / 2, high[widest] = count[widest] - low[widest], middle[widest] += low[widest];
+    mark(triangle, normal, index, first, low, hits);
+    mark(triangle, normal, index, middle, high, hits);
     return;
   }
-  std::array<int, 3> low = count, high = count, middle = first;
-  low[widest] = count[widest] / 2, high[widest] = count[widest] - low[widest], middle[widest] += low[widest];
-  mark(triangle, index, first, low, hits);
-  mark(triangle, index, middle, high, hits);
+  const Vec3 half = 0.5 * width_ * Vec3{1, 1, 1};
+  const double of_plane = reach_of_plane(half), of_sphere = reach_ + norm(half) * round_off;
+  for (int k = first[2]; k < first[2] + count[2]; ++k)
+    for (int j = first[1]; j < first[1] + count[1]; ++j)
+      for (int i = first[0]; i < first[0] + count[0]; ++i) {
+        const Vec3 centre = middle_of({i, j, k}, half);
+        if (std::abs(dot(centre - triangle.node[0], normal)) > of_plane) continue;
+        if (norm_squared(nearest_point(triangle.node, centre).point - centre) > of_sphere * of_sphere) continue;
+        hits.push_back({(k * n_[1] + j) * n_[0] + i, index});
+      }
 }
 
 std::span<const int> VoxelGrid::at(const Vec3& x) const {

@@ -38,7 +38,7 @@ class VoxelGrid {
   struct Hit {
     int voxel, triangle;
   };
-  void mark(const WallTriangle& triangle, int index, const std::array<int, 3>& first, const std::array<int, 3>& count,
+  void mark(const WallTriangle& triangle, const Vec3& normal, int index, const std::array<int, 3>& first, const std::array<int, 3>& count,
             std::vector<Hit>& hits) const;
 
   Vec3 origin_;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/log.hpp"
+#include "base/words.hpp"
 #include "dem/poses/crumpled.hpp"
 #include "dem/templates/pose_file.hpp"
 #include "observe/silhouette.hpp"
@@ -88,13 +89,18 @@ std::size_t first_alike(const std::vector<RagPiece>& pieces, std::size_t n) {
 
 }  // namespace
 
-RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored) {
+RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored, MadePoses* made,
+                   const std::string& text) {
+  // The ranks that build a run must agree on what was made before: those that build runs for themselves have made others.
+  const auto key = [&](std::size_t n) { return joined({words(size_of(comm)), words(n), text}); };
   std::vector<std::size_t> model(pieces.size());  // the first piece of the same pose
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     model[n] = first_alike(pieces, n);
     if (!pieces[n].plan.crumpled() || model[n] != n) continue;
     if (stored && stored->has(name_in_checkpoint(n)))
       pieces[n].poses = as_poses(stored->shared(name_in_checkpoint(n)));
+    else if (made && made->contains(key(n)))
+      pieces[n].poses = made->at(key(n));
     else
       log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind.word());
   }
@@ -106,6 +112,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     if (model[n] == n) {
       pieces[n] = std::move(*next++);
+      if (made && pieces[n].plan.crumpled()) made->emplace(key(n), pieces[n].poses);
     } else {
       pieces[n].poses = pieces[model[n]].poses;
     }

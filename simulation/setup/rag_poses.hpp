@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,16 @@ namespace snag {
 class CheckpointReader;
 class CheckpointWriter;
 
+/// Poses that were made before in this process, by the text of all that decides about them.
+using MadePoses = std::map<std::string, std::vector<ParticlePose>>;
+
 class RagPoses {
  public:
   /// Makes the poses that take a run of their own, or reads them from the checkpoint `stored` of the run that is resumed (null: there is
-  /// none). Collective; throws Error(usage, io).
-  RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored);
+  /// none). `made` (null: none) has those of earlier runs, and gets the new ones; `text` is all that the case says of pieces and contacts.
+  /// Collective; throws Error(usage, io).
+  RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored,
+           MadePoses* made = nullptr, const std::string& text = {});
 
   /// How each pose was made, and what a camera beside the pipe sees of it, for the log.
   const std::vector<std::string>& lines() const { return lines_; }

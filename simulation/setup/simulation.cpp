@@ -30,7 +30,7 @@ void read(const Table& root, Settings& settings) {
 
 }  // namespace
 
-Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowCache* store, GeneratedMeshes* generated)
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, RunCache* store, GeneratedMeshes* generated)
     : comm_(comm), stored_(std::move(stored)), store_(store) {
   const Table root = file.root();
   read(root, case_settings);
@@ -143,7 +143,10 @@ void Simulation::build_rags(const CaseFile& file) {
     throw Error(ExitCode::usage,
                 "[rotating_zone] motion = \"frame\" with rags: rags need a rotor mesh that turns with its walls; use \"sliding\"");
   place_at_patches(mesh.get(), pieces);
-  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint);
+  std::string of_poses = file.root().table("contact").resolved();
+  for (const char* sheet : {"rag", "disc"})
+    for (const Table& table : file.root().tables(sheet)) of_poses += table.resolved();
+  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint, store_ ? &store_->poses : nullptr, of_poses);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
   if (way) rags->contacts()->set_tongue({way->tongue(), way->direction(), way->tongue_reach()});

@@ -10,10 +10,10 @@
 #include "dem/rag_system.hpp"
 #include "dem/walls/walls.hpp"
 #include "mesh/quality.hpp"
-#include "simulation/setup/flow_cache.hpp"
 #include "simulation/setup/observe_settings.hpp"
 #include "simulation/setup/passage.hpp"
 #include "simulation/setup/rag_poses.hpp"
+#include "simulation/setup/run_cache.hpp"
 #include "simulation/setup/settings.hpp"
 #include "simulation/setup/speed_bounds.hpp"
 #include "simulation/setup/start_flow.hpp"
@@ -33,7 +33,7 @@ class Simulation {
   };
   /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn;
   /// `generated` the files of generated meshes (null: made for this run alone). Collective; throws Error.
-  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, FlowCache* store = nullptr, GeneratedMeshes* generated = nullptr);
+  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, RunCache* store = nullptr, GeneratedMeshes* generated = nullptr);
   ~Simulation();
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
@@ -112,7 +112,7 @@ class Simulation {
   StartSettings start_settings_;
   std::filesystem::path start_folder_;
   Stored stored_;
-  FlowCache* store_;
+  RunCache* store_;
   CachedFlow* cached_flow_ = nullptr;  // of the store, for frozen water
   std::string mesh_key_;               // of the store
   std::optional<PrescribedFlow> prescribed_;

@@ -1,6 +1,6 @@
 #pragma once
-// Meshes and frozen water that many runs of one process share, as those of a diagnosis do: read and started once, not at every run.
-// Runs that share are made one after another.
+// Meshes, frozen water and poses that many runs of one process share, as those of a diagnosis do: read, started and made once, not at
+// every run. Runs that share are made one after another.
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/quality.hpp"
+#include "simulation/setup/rag_poses.hpp"
 #include "solver/flow_solver.hpp"
 
 namespace snag {
@@ -23,9 +24,10 @@ struct CachedFlow {
 };
 
 /// By all that decides about them, as text.
-struct FlowCache {
+struct RunCache {
   std::map<std::string, CachedMesh> meshes;
   std::map<std::string, CachedFlow> flows;
+  MadePoses poses;
 };
 
 }  // namespace snag
