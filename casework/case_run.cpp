@@ -207,9 +207,9 @@ void move(RagSystem& rags, const Restart& restart, double time) {
 }  // namespace
 
 std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled,
-                                  RunCache* store, const std::optional<Restart>& restart) {
+                                  FlowCache* store, const std::optional<Restart>& restart, Prepared* prepared) {
   const log::Silence silence;
-  Simulation run(file, MPI_COMM_SELF, {}, store);
+  Simulation run(file, MPI_COMM_SELF, {}, store, prepared);
   std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());
   if (!run.rags || (run.mesh && !run.frozen()))
     throw Error(ExitCode::usage, file.root().where() + ": a run in memory must be a case without a mesh or with frozen flow");

@@ -8,7 +8,8 @@
 #include "base/case_file.hpp"
 #include "base/vec3.hpp"
 #include "diagnosis/data/simulator.hpp"
-#include "simulation/setup/run_cache.hpp"
+#include "simulation/setup/flow_cache.hpp"
+#include "simulation/setup/prepared.hpp"
 
 namespace snag {
 
@@ -35,6 +36,6 @@ using UnmodelledForce = std::function<Vec3(double time, const LatticePosition& p
 /// time of a piece that stays, a window that was never reached. `store`: holds meshes and water between runs. `restart`: at the last step
 /// before its time; in a prescribed flow only. Throws Error.
 std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled = {},
-                                  RunCache* store = nullptr, const std::optional<Restart>& restart = {});
+                                  FlowCache* store = nullptr, const std::optional<Restart>& restart = {}, Prepared* prepared = nullptr);
 
 }  // namespace snag

@@ -139,7 +139,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     const OperatingPoint& point = experiment.points[p];
     if (!file_text(point.case_file))
       throw Error(ExitCode::io, point.where + " case \"" + point.case_file.string() + "\" cannot be read; check the path");
-    PointCase base(point.case_file, point.set, &store_);
+    PointCase base(point.case_file, point.set, &store_, &prepared_);
     if (base.is_whole_run() && folder_.empty())
       throw Error(ExitCode::usage, point.case_file.string() + ": has a mesh; its runs need an output folder");
     for (const std::string& note : base.former_names()) log::warning_once(note);
@@ -201,7 +201,7 @@ std::string CaseSimulator::resolved_case(const RunRequest& request) {
   const PointCase& base = points_.at(static_cast<std::size_t>(request.point)).base;
   std::vector<std::string> overrides = change_of(request).overrides;
   if (!base.is_whole_run() || request.step_factor != 1) overrides.push_back(base.with_step_factor(request.step_factor));
-  return base.resolved_with(overrides, &store_);
+  return base.resolved_with(overrides, &store_, &prepared_);
 }
 
 CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
@@ -223,7 +223,7 @@ RunResult CaseSimulator::run_serial(const Job& job) const {
   try {
     std::vector<std::string> overrides = job.change.overrides;
     overrides.push_back(point.base.with_step_factor(job.request->step_factor));
-    result.values = run_in_memory(point.base.with(overrides), point.asked, {}, &store_, job.request->restart);
+    result.values = run_in_memory(point.base.with(overrides), point.asked, {}, &store_, job.request->restart, &prepared_);
   } catch (const std::exception& failure) {
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
     result.failure = failure.what();
@@ -239,7 +239,7 @@ RunResult CaseSimulator::run_collective(const Job& job) const {
   if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
   RunResult result;
   try {
-    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name, meshes_);
+    run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name, prepared_);
     result.values = read_observables(folder_ / "runs" / name, point.asked);
   } catch (const Error& failure) {
     if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;

@@ -15,7 +15,7 @@
 #include "casework/point_case.hpp"
 #include "diagnosis/data/experiment.hpp"
 #include "diagnosis/data/simulator.hpp"
-#include "simulation/setup/generated_meshes.hpp"
+#include "simulation/setup/prepared.hpp"
 
 namespace snag {
 
@@ -67,8 +67,8 @@ class CaseSimulator final : public Simulator {
   void store(const std::string& key, const RunResult& result);
 
   MPI_Comm comm_;
-  mutable GeneratedMeshes meshes_;
-  mutable RunCache store_;
+  mutable Prepared prepared_;
+  mutable FlowCache store_;
   std::filesystem::path folder_;
   std::vector<Observable> observables_;
   double picture_size_;  // m

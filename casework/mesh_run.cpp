@@ -82,7 +82,7 @@ Course course_of(const std::filesystem::path& folder, const std::string& name) {
 }  // namespace
 
 void run_in_folder(const std::string& case_text, const std::vector<std::string>& overrides, const std::filesystem::path& folder,
-                   GeneratedMeshes& meshes) {
+                   Prepared& prepared) {
   auto case_file = folder;
   case_file += ".toml";
   int done = 0, begun = 0;
@@ -94,8 +94,12 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
   MPI_Bcast(&done, 1, MPI_INT, 0, MPI_COMM_WORLD);
   MPI_Bcast(&begun, 1, MPI_INT, 0, MPI_COMM_WORLD);
   if (done) return;
-  const ExitCode code = run_case(
-      {.case_file = case_file, .out = folder, .overrides = overrides, .resume = begun != 0, .overwrite = begun == 0, .meshes = &meshes});
+  const ExitCode code = run_case({.case_file = case_file,
+                                  .out = folder,
+                                  .overrides = overrides,
+                                  .resume = begun != 0,
+                                  .overwrite = begun == 0,
+                                  .prepared = &prepared});
   if (code == ExitCode::stopped)
     throw Error(code, folder.string() + ": the run was stopped; start the same diagnosis again, it continues from the checkpoint");
   if (code != ExitCode::ok)

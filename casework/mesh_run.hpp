@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "casework/case_run.hpp"
-#include "simulation/setup/generated_meshes.hpp"
+#include "simulation/setup/prepared.hpp"
 
 namespace snag {
 
 /// Runs the case (its resolved text with overrides) in `folder`, or goes on with the run that is there, or only reads it if it is done.
 /// Collective over all ranks; throws Error.
 void run_in_folder(const std::string& case_text, const std::vector<std::string>& overrides, const std::filesystem::path& folder,
-                   GeneratedMeshes& meshes);
+                   Prepared& prepared);
 
 /// Answers from a finished run, of its first rag: places, velocities and pictures from its monitors, retention_time, recirculations, stuck,
 /// exited from its summary; any other name is a column of a monitor (head, torque ...): at a time, or, without one, its mean over the last

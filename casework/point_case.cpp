@@ -93,11 +93,11 @@ PointCase::~PointCase() = default;
 PointCase::PointCase(PointCase&&) noexcept = default;
 PointCase& PointCase::operator=(PointCase&&) noexcept = default;
 
-PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, RunCache* store)
+PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides, FlowCache* store, Prepared* prepared)
     : file_(file), tree_(std::make_unique<Tree>()) {
   const CaseFile read = CaseFile::read(file, overrides);
   const log::Silence silence;
-  const Simulation run(read, ranks_of(read), {}, store);
+  const Simulation run(read, ranks_of(read), {}, store, prepared);
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
   case_file_ = read;
   resolved_ = read.resolved(), sha256_ = read.sha256();
@@ -289,10 +289,10 @@ std::vector<std::string> PointCase::from_elsewhere(std::vector<std::string> over
   return overrides;
 }
 
-std::string PointCase::resolved_with(const std::vector<std::string>& overrides, RunCache* store) const {
+std::string PointCase::resolved_with(const std::vector<std::string>& overrides, FlowCache* store, Prepared* prepared) const {
   const CaseFile file = with(overrides);
   const log::Silence silence;
-  const Simulation run(file, ranks_of(file), {}, store);
+  const Simulation run(file, ranks_of(file), {}, store, prepared);
   return file.resolved();
 }
 

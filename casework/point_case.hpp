@@ -10,7 +10,8 @@
 #include "base/case_file.hpp"
 #include "diagnosis/effects/effect_model.hpp"
 #include "observe/observables.hpp"
-#include "simulation/setup/run_cache.hpp"
+#include "simulation/setup/flow_cache.hpp"
+#include "simulation/setup/prepared.hpp"
 
 namespace snag {
 
@@ -29,7 +30,8 @@ class PointCase {
  public:
   /// Reads the base case and builds it once, so that an error in it is reported at once. Throws Error.
   /// `overrides`: values of the case that this point replaces; `store`: holds meshes and water of several cases.
-  explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, RunCache* store = nullptr);
+  explicit PointCase(const std::filesystem::path& file, const std::vector<std::string>& overrides = {}, FlowCache* store = nullptr,
+                     Prepared* prepared = nullptr);
   ~PointCase();
   PointCase(PointCase&&) noexcept;
   PointCase& operator=(PointCase&&) noexcept;
@@ -67,7 +69,7 @@ class PointCase {
   /// The same overrides for a copy of the case in another folder: paths are relative to the case file.
   std::vector<std::string> from_elsewhere(std::vector<std::string> overrides) const;
   /// The case of such a run with all its keys, built once: an error in it is thrown.
-  std::string resolved_with(const std::vector<std::string>& overrides, RunCache* store) const;
+  std::string resolved_with(const std::vector<std::string>& overrides, FlowCache* store, Prepared* prepared) const;
   /// The case file of such a run.
   CaseFile with(const std::vector<std::string>& overrides) const;
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field),

@@ -140,7 +140,7 @@ ExitCode run_case(const RunOptions& options) {
 
   Simulation::Stored stored{};
   if (reader) stored = {.partition = stored_partition(reader.get()), .checkpoint = reader.get()};
-  Simulation simulation(file, world, std::move(stored), nullptr, options.meshes);
+  Simulation simulation(file, world, std::move(stored), nullptr, options.prepared);
   if (reader) check_same_case(file, folder, *reader);
   const ReportWriter write_report = simulation.output_settings.report ? options.write_report : ReportWriter{};
   if (reader && has_ended_before(folder, file, write_report != nullptr, *reader)) return ExitCode::ok;

@@ -9,15 +9,15 @@
 
 namespace snag {
 
-class GeneratedMeshes;
+struct Prepared;
 
 struct RunOptions {
   std::filesystem::path case_file;
   std::filesystem::path out;           // empty: results/NAME
   std::vector<std::string> overrides;  // --set
   bool resume = false, overwrite = false;
-  ReportWriter write_report{};        // at the end, unless [output] report = false; empty: no report
-  GeneratedMeshes* meshes = nullptr;  // of runs that share them
+  ReportWriter write_report{};   // at the end, unless [output] report = false; empty: no report
+  Prepared* prepared = nullptr;  // of runs that share it
 };
 
 /// Run a case to its end, or to a request to stop. Collective over all ranks.

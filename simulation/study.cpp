@@ -16,7 +16,7 @@
 #include "parallel/session.hpp"
 #include "simulation/output/summary.hpp"
 #include "simulation/run.hpp"
-#include "simulation/setup/generated_meshes.hpp"
+#include "simulation/setup/prepared.hpp"
 
 namespace snag {
 
@@ -186,9 +186,9 @@ bool has_checkpoint(const std::filesystem::path& folder) {
 
 /// Runs one; what it failed with if that is its own matter.
 ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, RunState before,
-                 const ReportWriter& write_report, GeneratedMeshes& meshes) {
+                 const ReportWriter& write_report, Prepared& prepared) {
   RunOptions options{
-      .case_file = study.case_file, .out = folder, .overrides = run.overrides, .write_report = write_report, .meshes = &meshes};
+      .case_file = study.case_file, .out = folder, .overrides = run.overrides, .write_report = write_report, .prepared = &prepared};
   if (before != RunState::nothing) {
     options.resume = has_checkpoint(folder / "checkpoint");
     options.overwrite = !options.resume;
@@ -299,7 +299,7 @@ ExitCode run_study(const StudyOptions& options) {
     if (rank_of(world) == 0 && !options.dry_run) lock.emplace(folder);
   });
   ExitCode worst = ExitCode::ok;
-  GeneratedMeshes meshes;
+  Prepared prepared;
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     StudyRun& run = study.runs[i];
     const std::string which = "run " + std::to_string(i + 1) + " of " + std::to_string(study.runs.size()) + ": " + run.name;
@@ -310,7 +310,7 @@ ExitCode run_study(const StudyOptions& options) {
     const RunState before = prepare(folder / run.name, study, run);
     log::info(which + (before == RunState::ended ? " has been run before" : ""));
     if (before == RunState::ended) continue;
-    const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report, meshes);
+    const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report, prepared);
     if (code == ExitCode::stopped) return code;
     run.failed_with = static_cast<int>(code);
     if (worst == ExitCode::ok) worst = code;

@@ -93,6 +93,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
                    const std::string& text) {
   // The ranks that build a run must agree on what was made before: those that build runs for themselves have made others.
   const auto key = [&](std::size_t n) { return joined({words(size_of(comm)), words(n), text}); };
+  std::vector<std::string> reused;
   std::vector<std::size_t> model(pieces.size());  // the first piece of the same pose
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     model[n] = first_alike(pieces, n);
@@ -100,7 +101,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
     if (stored && stored->has(name_in_checkpoint(n)))
       pieces[n].poses = as_poses(stored->shared(name_in_checkpoint(n)));
     else if (made && made->contains(key(n)))
-      pieces[n].poses = made->at(key(n));
+      pieces[n].poses = made->at(key(n)), reused.push_back("pose of " + pieces[n].rag.name + ": as made for an earlier run");
     else
       log::info("making the pose of " + pieces[n].rag.name + ": " + pieces[n].plan.kind.word());
   }
@@ -108,6 +109,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
   for (std::size_t n = 0; n < pieces.size(); ++n)
     if (model[n] == n) models.push_back(pieces[n]);
   lines_ = make_poses(comm, models, contacts);
+  lines_.insert(lines_.end(), reused.begin(), reused.end());
   auto next = models.begin();
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     if (model[n] == n) {

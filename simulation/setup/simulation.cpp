@@ -12,7 +12,7 @@
 #include "simulation/setup/boundary_openings.hpp"
 #include "simulation/setup/coupling_remedy.hpp"
 #include "simulation/setup/forecast.hpp"
-#include "simulation/setup/generated_meshes.hpp"
+#include "simulation/setup/prepared.hpp"
 #include "simulation/setup/rag_release.hpp"
 #include "simulation/setup/start_check.hpp"
 #include "solver/fields/rotating_zone.hpp"
@@ -30,8 +30,8 @@ void read(const Table& root, Settings& settings) {
 
 }  // namespace
 
-Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, RunCache* store, GeneratedMeshes* generated)
-    : comm_(comm), stored_(std::move(stored)), store_(store) {
+Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowCache* store, Prepared* prepared)
+    : comm_(comm), stored_(std::move(stored)), store_(store), prepared_(prepared) {
   const Table root = file.root();
   read(root, case_settings);
   read(root, time_settings);
@@ -41,7 +41,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, RunCa
   read(root, start_settings_);
   start_folder_ = file.path(start_settings_.from);
   time_settings.n_steps();
-  read_mesh(file, generated);
+  read_mesh(file);
   build_water(file);
   read_pump(root);
   build_rags(file);
@@ -52,7 +52,7 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, RunCa
 
 Simulation::~Simulation() = default;
 
-void Simulation::read_mesh(const CaseFile& file, GeneratedMeshes* generated) {
+void Simulation::read_mesh(const CaseFile& file) {
   read(file.root(), mesh_settings_);
   ImportOptions options{.scale = mesh_settings_.scale, .partition = stored_.partition};
   for (const Table& table : file.root().tables("periodic")) {
@@ -71,7 +71,9 @@ void Simulation::read_mesh(const CaseFile& file, GeneratedMeshes* generated) {
   CachedMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
   if (!kept || !kept->mesh) {
     GeneratedMeshes of_this_run;
-    GeneratedMeshes& meshes = generated ? *generated : of_this_run;
+    // Ranks that build runs for themselves do not agree on what was made before.
+    const bool of_all_ranks = size_of(comm_) == size_of(MPI_COMM_WORLD);
+    GeneratedMeshes& meshes = prepared_ && of_all_ranks ? prepared_->meshes : of_this_run;
     std::filesystem::path path, parameters;
     if (!mesh_settings_.parameters.empty()) parameters = file.path(mesh_settings_.parameters);
     if (mesh_settings_.geometry.empty())
@@ -146,7 +148,7 @@ void Simulation::build_rags(const CaseFile& file) {
   std::string of_poses = file.root().table("contact").resolved();
   for (const char* sheet : {"rag", "disc"})
     for (const Table& table : file.root().tables(sheet)) of_poses += table.resolved();
-  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint, store_ ? &store_->poses : nullptr, of_poses);
+  poses = std::make_unique<RagPoses>(comm_, pieces, contacts, stored_.checkpoint, prepared_ ? &prepared_->poses : nullptr, of_poses);
   rags = std::make_unique<RagSystem>(comm_, settings, std::move(pieces));
   rags->set_contacts(std::make_unique<ContactSolver>(contacts, rags->rags(), &walls));
   if (way) rags->contacts()->set_tongue({way->tongue(), way->direction(), way->tongue_reach()});

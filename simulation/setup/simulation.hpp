@@ -10,10 +10,10 @@
 #include "dem/rag_system.hpp"
 #include "dem/walls/walls.hpp"
 #include "mesh/quality.hpp"
+#include "simulation/setup/flow_cache.hpp"
 #include "simulation/setup/observe_settings.hpp"
 #include "simulation/setup/passage.hpp"
 #include "simulation/setup/rag_poses.hpp"
-#include "simulation/setup/run_cache.hpp"
 #include "simulation/setup/settings.hpp"
 #include "simulation/setup/speed_bounds.hpp"
 #include "simulation/setup/start_flow.hpp"
@@ -22,7 +22,7 @@
 
 namespace snag {
 
-class GeneratedMeshes;
+struct Prepared;
 
 class Simulation {
  public:
@@ -32,8 +32,8 @@ class Simulation {
     CheckpointReader* checkpoint;               // null: none; with the poses; only while the simulation is built
   };
   /// Reads the whole case, refuses unknown keys, and builds. `store` holds a mesh and frozen water between runs, which then use it in turn;
-  /// `generated` the files of generated meshes (null: made for this run alone). Collective; throws Error.
-  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, RunCache* store = nullptr, GeneratedMeshes* generated = nullptr);
+  /// `prepared` the files of generated meshes and poses (null: made for this run alone). Collective; throws Error.
+  Simulation(const CaseFile& file, MPI_Comm comm, Stored stored = {}, FlowCache* store = nullptr, Prepared* prepared = nullptr);
   ~Simulation();
 
   /// One step of time.step: water, rags, or both. Collective; throws Error.
@@ -94,7 +94,7 @@ class Simulation {
   Seconds seconds() const;
 
  private:
-  void read_mesh(const CaseFile& file, GeneratedMeshes* generated);
+  void read_mesh(const CaseFile& file);
   void build_water(const CaseFile& file);
   void read_pump(const Table& root);
   void build_rags(const CaseFile& file);
@@ -112,7 +112,8 @@ class Simulation {
   StartSettings start_settings_;
   std::filesystem::path start_folder_;
   Stored stored_;
-  RunCache* store_;
+  FlowCache* store_;
+  Prepared* prepared_;
   CachedFlow* cached_flow_ = nullptr;  // of the store, for frozen water
   std::string mesh_key_;               // of the store
   std::optional<PrescribedFlow> prescribed_;

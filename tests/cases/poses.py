@@ -42,6 +42,20 @@ class Poses(harness.CaseTest):
         self.assertEqual(as_made, stored.read_text())
         self.assertEqual(two.summary["rags"], resumed.summary["rags"])
 
+    def test_runs_of_a_study_share_it(self):
+        """A pose is made once for all runs with the same cloth and seed, and each run is what it is by itself."""
+        file = self.case(SHEET.format(pose=CONFINED))
+        (self.work / "study.toml").write_text('[study]\ncase = "case.toml"\nresults = ["rags.0.particles"]\n[[vary]]\nkey = "rag.0.seed"\nvalues = [1, 2]\n'
+                                              '[[vary]]\nkey = "time.end_ms"\nvalues = [3, 4]\n')
+        study = harness.snag(["study", self.work / "study.toml", "--out", self.work / "study"], 2, self.work / "study")
+        self.assertEqual(study.code, 0, study.tail())
+        self.assertEqual(study.stdout.count("making the pose"), 2, study.stdout)
+        logs = [(self.work / "study" / f"seed-{seed}_end_ms-{end}" / "log.txt").read_text() for seed in (1, 2) for end in (3, 4)]
+        self.assertEqual(["as made for an earlier run" in log for log in logs], [False, True, False, True])
+        alone = self.run_case(file, 2, "--set", "rag.0.seed=2", "--set", "time.end_ms=4", out="alone")
+        shared = harness.Run(self.work / "study" / "seed-2_end_ms-4", 0, "", "")
+        self.assert_equal_to_the_bit(alone, shared, lambda run: [run.folder / "rags" / "pose_0.csv"])
+
     def test_errors(self):
         file = self.case(SHEET.format(pose='pose = "confined"\nconfine_radius_mm = 6'))
         self.assertIn("confine_radius", self.run_case(file, 2, code=2).stderr)

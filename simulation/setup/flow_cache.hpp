@@ -1,6 +1,6 @@
 #pragma once
-// Meshes, frozen water and poses that many runs of one process share, as those of a diagnosis do: read, started and made once, not at
-// every run. Runs that share are made one after another.
+// Meshes and frozen water that many runs of one process share, as those of a diagnosis do: read and started once, not at every run.
+// Runs that share are made one after another.
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,7 +8,6 @@
 
 #include "mesh/mesh.hpp"
 #include "mesh/quality.hpp"
-#include "simulation/setup/rag_poses.hpp"
 #include "solver/flow_solver.hpp"
 
 namespace snag {
@@ -24,10 +23,9 @@ struct CachedFlow {
 };
 
 /// By all that decides about them, as text.
-struct RunCache {
+struct FlowCache {
   std::map<std::string, CachedMesh> meshes;
   std::map<std::string, CachedFlow> flows;
-  MadePoses poses;
 };
 
 }  // namespace snag
