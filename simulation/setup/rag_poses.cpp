@@ -93,12 +93,13 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
                    const std::string& text) {
   // The ranks that build a run must agree on what was made before: those that build runs for themselves have made others.
   const auto key = [&](std::size_t n) { return joined({words(size_of(comm)), words(n), text}); };
+  const auto is_stored = [&](std::size_t n) { return stored && stored->has(name_in_checkpoint(n)); };
   std::vector<std::string> reused;
   std::vector<std::size_t> model(pieces.size());  // the first piece of the same pose
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     model[n] = first_alike(pieces, n);
     if (!pieces[n].plan.crumpled() || model[n] != n) continue;
-    if (stored && stored->has(name_in_checkpoint(n)))
+    if (is_stored(n))
       pieces[n].poses = as_poses(stored->shared(name_in_checkpoint(n)));
     else if (made && made->contains(key(n)))
       pieces[n].poses = made->at(key(n)), reused.push_back("pose of " + pieces[n].rag.name + ": as made for an earlier run");
@@ -114,7 +115,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
   for (std::size_t n = 0; n < pieces.size(); ++n) {
     if (model[n] == n) {
       pieces[n] = std::move(*next++);
-      if (made && pieces[n].plan.crumpled()) made->emplace(key(n), pieces[n].poses);
+      if (made && pieces[n].plan.crumpled() && !is_stored(n)) made->emplace(key(n), pieces[n].poses);
     } else {
       pieces[n].poses = pieces[model[n]].poses;
     }
