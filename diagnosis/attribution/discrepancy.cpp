@@ -27,7 +27,7 @@ class GaussianProcess {
       const PointSummary& point = model.points()[training[p]];
       const int g = point.n_gaussian, n = static_cast<int>(point.rows.size());
       Block block{
-          &point, Eigen::MatrixXd::Identity(n, n), {}, Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(at.by_nuisance.size())), {}};
+          &point, Eigen::MatrixXd::Identity(n, n), {}, Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(at.by_nuisance.size())), {}, {}};
       block.covariance.topLeftCorner(g, g) = model_covariance(point, at.responses[p], at.numerical_error[p], {});
       // Gaussian rows in their own units, the others as deviance residuals of unit variance.
       const Eigen::LLT<Eigen::MatrixXd> none(Eigen::MatrixXd::Identity(g, g));
@@ -38,6 +38,7 @@ class GaussianProcess {
       }
       block.difference = residual(point, at.responses[p], none) - block.nuisances * expanded_at_;
       block.range = ranges(point, base.responses[p]);
+      for (const DiscrepancyShape& shape : discrepancy_shapes) block.correlation.push_back(discrepancy_correlation(point, shape));
       n_gaussian_ += g;
       log_ratio_ += log_variance_ratio(point, at.responses[p]);
       blocks_.push_back(std::move(block));
@@ -78,16 +79,14 @@ class GaussianProcess {
     best.log_evidence = -std::numeric_limits<double>::infinity();
     const auto better_of = [&](const Discrepancy& tried) {
       const Marginal found = marginal(tried);
-      if (found.log_evidence > best.log_evidence)
-        best = {found.log_evidence, tried.length, tried.growing, tried.amplitude, found.nuisances};
+      if (found.log_evidence > best.log_evidence) best = {found.log_evidence, tried.shape, tried.amplitude, found.nuisances};
     };
-    for (const double length : discrepancy_lengths)
-      for (const bool growing : {false, true})
-        for (std::size_t a = 1; a < amplitudes.size(); ++a) {
-          std::vector<double> amplitude(n_parts_, amplitudes[a]);
-          amplitude.back() = 0;
-          better_of({0, length, growing, amplitude});
-        }
+    for (std::size_t shape = 0; shape < discrepancy_shapes.size(); ++shape)
+      for (std::size_t a = 1; a < amplitudes.size(); ++a) {
+        std::vector<double> amplitude(n_parts_, amplitudes[a]);
+        amplitude.back() = 0;
+        better_of({0, shape, amplitude});
+      }
     // Then each observable may choose its own amplitude.
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (int o = 0; o < n_parts_; ++o)
@@ -97,7 +96,7 @@ class GaussianProcess {
     // Each choice of the grid has its share of the prior; what the others bring is taken one choice at a time.
     double log_evidence = best.log_evidence;
     for (int o = 0; o < n_parts_; ++o) log_evidence += log_mean(with_other_amplitude(best, o), choices(o).size(), best);
-    best.log_evidence = log_evidence + log_mean(with_other_shape(best), 2 * discrepancy_lengths.size(), best);
+    best.log_evidence = log_evidence + log_mean(with_other_shape(best), discrepancy_shapes.size(), best);
     return best;
   }
 
@@ -107,7 +106,8 @@ class GaussianProcess {
     Eigen::MatrixXd covariance;
     Eigen::VectorXd difference;
     Eigen::MatrixXd nuisances;
-    std::vector<double> range;  // by row
+    std::vector<double> range;                 // by row
+    std::vector<Eigen::MatrixXd> correlation;  // by shape, between the Gaussian rows
   };
 
   // How far quantities of one unit move in the base model, the same for all of them; a pure number or an angle: 1.
@@ -148,11 +148,10 @@ class GaussianProcess {
   }
   static std::vector<Discrepancy> with_other_shape(const Discrepancy& best) {
     std::vector<Discrepancy> others;
-    for (const double length : discrepancy_lengths)
-      for (const bool growing : {false, true}) {
-        others.push_back(best);
-        others.back().length = length, others.back().growing = growing;
-      }
+    for (std::size_t shape = 0; shape < discrepancy_shapes.size(); ++shape) {
+      others.push_back(best);
+      others.back().shape = shape;
+    }
     return others;
   }
   /// log of the mean over n choices of exp(evidence), over that of the best.
@@ -174,7 +173,7 @@ class GaussianProcess {
       if (!is_gaussian(rows[i])) continue;
       for (int j = 0; j < block.point->n_gaussian; ++j) {
         const double s = amplitude[rows[i].observable];
-        K(i, j) += s * block.range[i] * s * block.range[j] * discrepancy_correlation(*block.point, i, j, {process.length, process.growing});
+        K(i, j) += s * block.range[i] * s * block.range[j] * block.correlation[process.shape](i, j);
       }
     }
     return K;

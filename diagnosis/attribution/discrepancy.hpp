@@ -12,8 +12,7 @@ namespace snag {
 
 struct Discrepancy {
   double log_evidence = 0;
-  double length = 0;                // s over the duration
-  bool growing = false;             // g = t/T
+  std::size_t shape = 0;            // index in discrepancy_shapes
   std::vector<double> amplitude{};  // by observable, relative to its range, and of all spreads between replicates; 0: nothing there
   Eigen::VectorXd nuisances{};      // the likeliest, in standard uncertainties
 };

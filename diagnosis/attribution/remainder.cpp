@@ -25,15 +25,16 @@ class RemainderFit {
     Remainder result;
     std::vector<double> gains;
     double best = -std::numeric_limits<double>::infinity();
-    DiscrepancyShape best_shape;
+    DiscrepancyShape best_shape = discrepancy_shapes.front();
     double best_amplitude = 0;
-    const double without = evidence(0, {});
-    for (const double length : discrepancy_lengths)
-      for (const bool growing : {false, true})
-        for (const double amplitude : amplitudes) {
-          gains.push_back(evidence(amplitude, {length, growing}) - without);
-          if (gains.back() > best) best = gains.back(), best_shape = {length, growing}, best_amplitude = amplitude;
-        }
+    const double without = solve(linear_).log_evidence;
+    for (const DiscrepancyShape& shape : discrepancy_shapes) {
+      const std::vector<Eigen::MatrixXd> process = whitened_process(shape);
+      for (const double amplitude : amplitudes) {
+        gains.push_back(evidence(amplitude, process) - without);
+        if (gains.back() > best) best = gains.back(), best_shape = shape, best_amplitude = amplitude;
+      }
+    }
     result.log_evidence = log_sum_exp(gains) - std::log(static_cast<double>(gains.size()));
     result.gain = log_sum_exp(std::array{0.0, result.log_evidence}) - std::numbers::ln2;
     find_shares(result, best_amplitude, best_shape);
@@ -58,31 +59,26 @@ class RemainderFit {
     return scales;
   }
 
-  Eigen::MatrixXd process(std::size_t p, double amplitude, const DiscrepancyShape& shape) const {
-    const int g = point(p).n_gaussian;
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(g, g);
-    for (int i = 0; i < g; ++i)
-      for (int j = 0; j < g; ++j)
-        K(i, j) = amplitude * scales_[p][i] * amplitude * scales_[p][j] * discrepancy_correlation(point(p), i, j, shape);
-    return K;
-  }
-
-  // Whitened with C, the process is L^-1 K L^-T beside unit noise.
-  Eigen::MatrixXd whitened_process(std::size_t p, double amplitude, const DiscrepancyShape& shape) const {
-    const auto L = fit_.whitening.factor[p].matrixL();
-    const Eigen::MatrixXd half = L.solve(process(p, amplitude, shape));
-    return L.solve(half.transpose());
+  // At an amplitude of one, by training point. Whitened with C, the process is L^-1 K L^-T beside unit noise.
+  std::vector<Eigen::MatrixXd> whitened_process(const DiscrepancyShape& shape) const {
+    std::vector<Eigen::MatrixXd> all;
+    for (std::size_t p = 0; p < scales_.size(); ++p) {
+      const auto L = fit_.whitening.factor[p].matrixL();
+      const Eigen::MatrixXd K = discrepancy_correlation(point(p), shape).cwiseProduct(scales_[p] * scales_[p].transpose());
+      const Eigen::MatrixXd half = L.solve(K);
+      all.push_back(L.solve(half.transpose()));
+    }
+    return all;
   }
 
   // Of the linear model at the fit, without the terms of C that are common to all processes.
-  double evidence(double amplitude, const DiscrepancyShape& shape) {
-    if (amplitude == 0) return solve(linear_).log_evidence;
+  double evidence(double amplitude, const std::vector<Eigen::MatrixXd>& process) {
     LinearModel whitened = linear_;
     double log_determinant = 0;
     for (std::size_t p = 0; p < scales_.size(); ++p) {
       const int g = point(p).n_gaussian, begin = fit_.first_row[p];
       if (g == 0) continue;
-      const Eigen::LLT<Eigen::MatrixXd> factor(whitened_process(p, amplitude, shape) + Eigen::MatrixXd::Identity(g, g));
+      const Eigen::LLT<Eigen::MatrixXd> factor(amplitude * amplitude * process[p] + Eigen::MatrixXd::Identity(g, g));
       whitened.rho.segment(begin, g) = factor.matrixL().solve(linear_.rho.segment(begin, g));
       whitened.J.middleRows(begin, g) = factor.matrixL().solve(linear_.J.middleRows(begin, g));
       const Eigen::MatrixXd& L = factor.matrixLLT();
@@ -94,7 +90,8 @@ class RemainderFit {
 
   void find_shares(Remainder& result, double amplitude, const DiscrepancyShape& shape) {
     const bool has_process = result.log_evidence > 0;
-    if (has_process) evidence(amplitude, shape);  // its solution
+    const std::vector<Eigen::MatrixXd> process = whitened_process(shape);
+    if (has_process) evidence(amplitude, process);  // its solution
     const Eigen::VectorXd residual = linear_.rho + linear_.J * (has_process ? solution_.d : fit_.solution.d);
     const std::size_t n = fit_.at.parts.size();
     std::vector<Eigen::VectorXd> parts(n + 1, Eigen::VectorXd::Zero(linear_.rho.size()));  // the process last
@@ -103,7 +100,7 @@ class RemainderFit {
       const auto L = fit_.whitening.factor[p].matrixL();
       for (std::size_t e = 0; e < n && g > 0; ++e) parts[e].segment(begin, g) = L.solve(fit_.at.parts[e][p].head(g));
       if (!has_process || g == 0) continue;
-      const Eigen::MatrixXd K = whitened_process(p, amplitude, shape);
+      const Eigen::MatrixXd K = amplitude * amplitude * process[p];
       parts[n].segment(begin, g) = K * (K + Eigen::MatrixXd::Identity(g, g)).llt().solve(residual.segment(begin, g));
     }
     Eigen::VectorXd gap = Eigen::VectorXd::Zero(linear_.rho.size());

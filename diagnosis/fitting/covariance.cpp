@@ -34,15 +34,27 @@ Eigen::VectorXd envelope(const PointSummary& point, const Eigen::VectorXd& part)
 
 double time_of(const Row& row) { return 0.5 * (row.begin + row.end); }
 
-void add_form_error(const PointSummary& point, const Eigen::VectorXd& part, double form_error, Eigen::MatrixXd& C) {
-  const Eigen::VectorXd size = form_error * envelope(point, part);
+// Of errors of form between the rows of one observable.
+Eigen::MatrixXd form_correlation(const PointSummary& point) {
   const double duration = std::max(point.duration, 1e-300);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(point.n_gaussian, point.n_gaussian);
   for (int i = 0; i < point.n_gaussian; ++i) {
-    for (int j = 0; j < point.n_gaussian; ++j) {
+    for (int j = 0; j <= i; ++j) {
       if (point.rows[i].observable != point.rows[j].observable) continue;
       const double apart = i == j ? 0 : std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / duration;
-      for (const FormLength& form : form_lengths) C(i, j) += size[i] * size[j] * form.share * matern(apart / form.length);
+      for (const FormLength& form : form_lengths) R(i, j) += form.share * matern(apart / form.length);
+      R(j, i) = R(i, j);
     }
+  }
+  return R;
+}
+
+void add_form_error(const PointSummary& point, const std::vector<const Eigen::VectorXd*>& parts, double form_error, Eigen::MatrixXd& C) {
+  if (form_error == 0 || parts.empty()) return;
+  const Eigen::MatrixXd R = form_correlation(point);
+  for (const Eigen::VectorXd* part : parts) {
+    const Eigen::VectorXd size = form_error * envelope(point, *part);
+    C += R.cwiseProduct(size * size.transpose());
   }
 }
 
@@ -83,7 +95,7 @@ Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& resp
   C += e * e.transpose();
   C.diagonal() += (0.1 * e).cwiseAbs2();
   if (response.paths.cols() > 1) add_scatter(point, response, C);
-  for (const Eigen::VectorXd* part : parts) add_form_error(point, *part, form_error, C);
+  add_form_error(point, parts, form_error, C);
   // Row by row: rows have units of their own.
   C.diagonal() = (1 + 1e-9) * C.diagonal().array() + 1e-300;
   return C;

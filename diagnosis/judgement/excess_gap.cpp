@@ -1,6 +1,7 @@
 #include "diagnosis/judgement/excess_gap.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,29 +28,27 @@ WithheldError without_noise(WithheldError gap) {
   return gap;
 }
 
-WithheldError at_points(const WithheldError& gap, const std::vector<int>& points) {
-  WithheldError chosen;
-  chosen.strength_factor = gap.strength_factor;
-  for (const int point : points) {
-    const auto p = static_cast<std::size_t>(point);
-    chosen.error.push_back(gap.error[p]), chosen.covariance.push_back(gap.covariance[p]), chosen.noise.push_back(gap.noise[p]);
-    chosen.by_strength.push_back(gap.by_strength[p]);
-  }
-  return chosen;
-}
-
-/// Another strength within its posterior, and a realisation of noise and inputs for each point (one that was drawn twice has two), the same
-/// before and after.
-void perturb(WithheldError& before, WithheldError& after, NormalNumbers& random) {
+/// The excess before and after at these points with another strength within its posterior, and a realisation of noise and inputs for each
+/// point (one that was drawn twice has two), the same before and after.
+std::array<double, 2> drawn_excess(const WithheldError& before, const WithheldError& after, const std::vector<int>& points,
+                                   NormalNumbers& random) {
   Eigen::VectorXd strength(after.strength_factor.cols());
   for (double& v : strength) v = random();
   strength = after.strength_factor * strength;
-  for (std::size_t p = 0; p < after.error.size(); ++p) {
+  double sum_before = 0, sum_after = 0;
+  Eigen::Index n = 0;
+  for (const int point : points) {
+    const auto p = static_cast<std::size_t>(point);
     Eigen::VectorXd noise(after.error[p].size());
     for (double& v : noise) v = random();
-    if (strength.size() > 0) after.error[p] += after.by_strength[p] * strength;
-    after.error[p] += after.noise[p] * noise, before.error[p] += before.noise[p] * noise;
+    Eigen::VectorXd drawn = after.error[p] + after.noise[p] * noise;
+    if (strength.size() > 0) drawn += after.by_strength[p] * strength;
+    sum_after += drawn.squaredNorm() - after.covariance[p].trace();
+    sum_before += (before.error[p] + before.noise[p] * noise).squaredNorm() - before.covariance[p].trace();
+    n += noise.size();
   }
+  const double count = static_cast<double>(n);
+  return {std::max(0.0, sum_before / count), std::max(0.0, sum_after / count)};
 }
 
 }  // namespace
@@ -96,10 +95,8 @@ Shrinkage shrinkage(const WithheldError& before, const WithheldError& after, std
   for (int k = 0; k < n_resamples; ++k) {
     std::vector<int> points(before.error.size());
     for (int& p : points) p = random.index(n);
-    WithheldError b = at_points(clean_before, points), a = at_points(clean_after, points);
-    perturb(b, a, random);
-    const double own = excess_gap(b);
-    if (own > rounding) draws.push_back(1 - excess_gap(a) / own);
+    const auto [own, left] = drawn_excess(clean_before, clean_after, points, random);
+    if (own > rounding) draws.push_back(1 - left / own);
   }
   std::sort(draws.begin(), draws.end());
   if (draws.empty() || std::isnan(result.mean)) return {result.mean, result.mean, result.mean};
