@@ -163,7 +163,7 @@ class Faults(harness.CaseTest):
 
     @harness.parallel
     def test_runs_on_ranks(self):
-        for ranks in set(self.of_runs) - {1}:
+        for ranks in sorted(set(self.of_runs) - {1}):
             self.runs_on(ranks)
 
     # programs that write one file
