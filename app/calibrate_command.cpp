@@ -41,18 +41,18 @@ std::vector<double> radii_of(const CalibrateOptions& options) {
 void tell_result(const TextileTests& tests, const Calibration& c) {
   for (int d = 0; d < 2; ++d) {
     const BondProperties& bond = c.bond[d];
-    std::string line = std::string(direction_name[d]) + ": S_n " + words(bond.normal_stiffness) + " N/m3, critical stress " +
-                       words(bond.normal_strength) + " Pa, S_nb " + words(bond.bending_stiffness) + " N/m3, S_t " +
-                       words(bond.tangential_stiffness) + " N/m3";
+    std::string line = std::string(direction_name[d]) + ": S_n " + number_text(bond.normal_stiffness) + " N/m3, critical stress " +
+                       number_text(bond.normal_strength) + " Pa, S_nb " + number_text(bond.bending_stiffness) + " N/m3, S_t " +
+                       number_text(bond.tangential_stiffness) + " N/m3";
     for (const PublishedBond& p : tests.published)
       if (p.direction == d && std::abs(p.radius - c.settings.radius) < 1e-9 && p.bond.bending_stiffness > 0)
-        line += "; S_nb over the published one " + words(bond.bending_stiffness / p.bond.bending_stiffness);
+        line += "; S_nb over the published one " + number_text(bond.bending_stiffness / p.bond.bending_stiffness);
     log::info(line);
   }
   const DrapePoint& drape = c.drapes[c.chosen];
-  log::info("drape, mean of " + std::to_string(drape.samples.size()) + " seeds: area " + words(100 * (drape.area / tests.drape.area - 1)) +
-            " % from the measured mean, wave size " + words(100 * (drape.wave_size / tests.drape.wave_size - 1)) + " %, " +
-            words(drape.wave_count) + " waves");
+  log::info("drape, mean of " + std::to_string(drape.samples.size()) + " seeds: area " +
+            number_text(100 * (drape.area / tests.drape.area - 1)) + " % from the measured mean, wave size " +
+            number_text(100 * (drape.wave_size / tests.drape.wave_size - 1)) + " %, " + number_text(drape.wave_count) + " waves");
   if (!c.tangential_range.given())
     log::warning(
         "no tangential stiffness brings the drape's area within 7 % and its wave size within 3 % of the measured means; the "
@@ -88,7 +88,7 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
   const std::filesystem::path out = options.out.empty() ? "results/calibrate-" + tests_file.stem().string() : options.out;
   std::vector<Calibration> calibrations;
   for (const double radius : radii) {
-    log::info("calibration of " + tests.name + " at a particle radius of " + words(1e3 * radius) + " mm");
+    log::info("calibration of " + tests.name + " at a particle radius of " + number_text(1e3 * radius) + " mm");
     CalibrationSettings settings{.radius = radius, .as_published = options.as_published, .n_seeds = options.n_seeds};
     settings.report_progress = [](const std::string& line) { log::info(line); };
     calibrations.push_back(calibrate(MPI_COMM_WORLD, tests, settings));
@@ -102,7 +102,8 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
   write({});
   if (options.independence) {
     const Calibration& calibration = calibrations[calibrations.size() / 2];
-    log::info("independence of particle radius, step, dashpots and friction about " + words(1e3 * calibration.settings.radius) + " mm");
+    log::info("independence of particle radius, step, dashpots and friction about " + number_text(1e3 * calibration.settings.radius) +
+              " mm");
     IndependencePart part{calibration.settings.radius, independence(MPI_COMM_WORLD, tests, calibration), {}};
     part.drawings = independence_drawings(tests, part.found);
     write(part);

@@ -17,7 +17,7 @@ constexpr int pictures_per_second = 24;  // of a film
 void log_film(const Film& film, const std::string& folder) {
   if (film.n_pictures > 0)
     log::info("film: " + std::to_string(film.n_pictures) + " pictures, " + folder + "/pictures/film_0001.png and on; " +
-              words(static_cast<double>(film.n_pictures) / pictures_per_second) + " s at " + std::to_string(pictures_per_second) +
+              number_text(static_cast<double>(film.n_pictures) / pictures_per_second) + " s at " + std::to_string(pictures_per_second) +
               " pictures a second. A video of them: ffmpeg -framerate " + std::to_string(pictures_per_second) + " -i " + folder +
               "/pictures/film_%04d.png -pix_fmt yuv420p " + folder + "/film.mp4");
   if (!film.problem.empty()) log::warning("film: pictures are missing: " + film.problem);

@@ -17,7 +17,7 @@ std::optional<std::string> file_text(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, failure)) return {};  // a device or a pipe may never end
   if (const auto size = std::filesystem::file_size(file, failure); !failure && static_cast<double>(size) > physical_memory() / 2)
     throw Error(ExitCode::io, file.string() + ": has " + std::to_string(size) + " bytes, a file must fit into half of the memory of " +
-                                  words(physical_memory()) + " bytes; is it the right one?");
+                                  number_text(physical_memory()) + " bytes; is it the right one?");
   std::ifstream in(file, std::ios::binary);
   if (!in) return {};
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

@@ -14,7 +14,7 @@ Error explained(const std::exception& failure) {
   const std::string text = shortened(failure.what());
   if (dynamic_cast<const std::bad_alloc*>(&failure) || dynamic_cast<const std::length_error*>(&failure))
     return {ExitCode::io,
-            "the memory of this machine (" + words(physical_memory() / 1e9) +
+            "the memory of this machine (" + number_text(physical_memory() / 1e9) +
                 " GB) does not hold what the input asks for; take a smaller mesh, fewer particles or smaller pictures, or more "
                 "machines (" +
                 text + ")"};

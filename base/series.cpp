@@ -68,7 +68,7 @@ Series::Series(const std::filesystem::path& file, std::vector<std::string> colum
   std::string kept = header + "\n";
   const bool found_before = std::filesystem::exists(file);
   if (resume && from_time > 0 && !found_before)
-    log::warning(file.string() + ": does not exist, so records up to " + words(from_time) + " s are lost; a new file is started");
+    log::warning(file.string() + ": does not exist, so records up to " + number_text(from_time) + " s are lost; a new file is started");
   if (resume && found_before) {
     const auto found = for_each_record(file, [&](const std::string& line, const std::vector<double>& values) {
       if (!is_later(values[0], from_time)) kept += line + "\n";

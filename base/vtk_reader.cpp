@@ -144,7 +144,8 @@ class Reader {
 std::vector<std::int64_t> whole(const std::vector<double>& values, const std::filesystem::path& file) {
   constexpr double largest = 9007199254740992;  // 2^53, up to which a double counts
   for (const double value : values)
-    if (!(std::abs(value) <= largest)) fail(file, "a polygon refers to point " + words(value) + ", which is not the number of a point");
+    if (!(std::abs(value) <= largest))
+      fail(file, "a polygon refers to point " + number_text(value) + ", which is not the number of a point");
   return {values.begin(), values.end()};
 }
 

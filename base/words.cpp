@@ -5,7 +5,7 @@
 
 namespace snag {
 
-std::string words(double value) {
+std::string number_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
@@ -17,7 +17,7 @@ std::string rounded(double value) {
   return text;
 }
 
-std::string place(const Vec3& x) { return "(" + words(x.x) + ", " + words(x.y) + ", " + words(x.z) + ") m"; }
+std::string point_text(const Vec3& x) { return "(" + number_text(x.x) + ", " + number_text(x.y) + ", " + number_text(x.z) + ") m"; }
 
 std::string counted(std::int64_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers, places and lists in words, for messages and files; and the way back.
+// Numbers, points and lists as text, for messages and files; and the way back.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,11 +10,11 @@
 namespace snag {
 
 /// Six significant digits: "0.001", "1.2e-06".
-std::string words(double value);
+std::string number_text(double value);
 /// Three significant digits: "0.00123", "1.2e-06".
 std::string rounded(double value);
 /// "(0.1, 0.2, 1e-05) m".
-std::string place(const Vec3& x);
+std::string point_text(const Vec3& x);
 /// "a, b, c".
 std::string joined(const std::vector<std::string>& words);
 /// The parts between the separators, empty ones included; at least one.

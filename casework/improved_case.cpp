@@ -47,7 +47,7 @@ std::vector<std::string> effects_of_case(const CaseSimulator& simulator, const R
   return names;
 }
 
-std::string with_sign(double value) { return (value > 0 ? "+" : "") + words(value); }
+std::string with_sign(double value) { return (value > 0 ? "+" : "") + number_text(value); }
 
 std::string heading(const CaseSimulator& simulator, const OperatingPoint& point, const Verdict& verdict, const RunRequest& run,
                     const std::vector<std::string>& of_case) {
@@ -55,8 +55,8 @@ std::string heading(const CaseSimulator& simulator, const OperatingPoint& point,
                      "): " + point.case_file.filename().string() + " with what the verdict adds.\n";
   for (const std::string& name : of_case) {
     const auto fitted = verdict.parameters.find(name);
-    text += "#   " + name + ": strength " + words(run.effects.at(name));
-    if (fitted != verdict.parameters.end() && fitted->second.sd > 0) text += ", standard deviation " + words(fitted->second.sd);
+    text += "#   " + name + ": strength " + number_text(run.effects.at(name));
+    if (fitted != verdict.parameters.end() && fitted->second.sd > 0) text += ", standard deviation " + number_text(fitted->second.sd);
     text += "\n";
   }
   for (const auto& [name, deviation] : run.nuisances)

@@ -14,7 +14,7 @@ std::vector<Nuisance> input_nuisances(const std::vector<const PointCase*>& bases
   for (std::size_t p = 0; p < bases.size(); ++p)
     for (const auto& [key, u] : input_u[p]) {
       if (u <= 0) continue;
-      std::string same = key + "|" + words(u) + "|" + bases[p]->value_of(key);
+      std::string same = key + "|" + number_text(u) + "|" + bases[p]->value_of(key);
       const bool set_point =
           key.starts_with("flow.") && key.find("viscosity") == std::string::npos && key.find("density") == std::string::npos;
       if (set_point || key == drag_law_uncertainty_per_point) same += "|" + std::to_string(p);

@@ -114,9 +114,9 @@ void CoupledSolver::warn_of_packing() {
   warned_of_packing_ = true;
   const double width = coupling_.kernel_width(rags_.rags());
   const std::string kernel =
-      coupling_.shape->support_radius(width) > 0 ? "kernel_width is " + words(1e3 * width) + " mm" : "kernel is \"cell\"";
-  log::warning("coupling: the particles fill " + words(report_.max_solid_fraction) + " of a cell at " + words(rags_.time()) +
-               " s, more than the " + words(densest_packing) + " of a dense packing; " + kernel +
+      coupling_.shape->support_radius(width) > 0 ? "kernel_width is " + number_text(1e3 * width) + " mm" : "kernel is \"cell\"";
+  log::warning("coupling: the particles fill " + number_text(report_.max_solid_fraction) + " of a cell at " + number_text(rags_.time()) +
+               " s, more than the " + number_text(densest_packing) + " of a dense packing; " + kernel +
                ": widen it until monitors/coupling.csv stays below (said once)");
 }
 

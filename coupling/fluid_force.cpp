@@ -106,7 +106,7 @@ ReferenceCase drag_at(double Re, double drag_coefficient, double tolerance, cons
   const double d = state.diameter, rho = state.fluid_density;
   const double speed = Re * state.dynamic_viscosity / (rho * d);
   state.velocity = {-speed, 0, 0};
-  return {.what = "sphere at Re = " + words(Re),
+  return {.what = "sphere at Re = " + number_text(Re),
           .source = source,
           .state = state,
           .force = {0.5 * rho * drag_coefficient * std::numbers::pi / 4 * d * d * speed * speed, 0, 0},

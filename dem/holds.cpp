@@ -34,7 +34,7 @@ Range range_of(const std::vector<double>& given, const char* key, int n, const R
   const auto is_place = [&](double place) { return place >= 0 && place < n && place == std::floor(place); };
   if (given.size() != 2 || !is_place(given[0]) || !is_place(given[1]) || given[0] > given[1]) {
     std::string text;
-    for (const double value : given) text += (text.empty() ? "" : ", ") + words(value);
+    for (const double value : given) text += (text.empty() ? "" : ", ") + number_text(value);
     throw Error(ExitCode::usage, where + " " + key + " = [" + shortened(text) + "] of " + rag.name +
                                      ": must be the first and the last of whole numbers from 0 to " + std::to_string(n - 1) +
                                      "; correct it, or name another piece in `rag`");
@@ -73,7 +73,7 @@ std::vector<int> chosen_places(const HoldSettings& hold, const RagPiece& piece, 
   std::vector<int> places;
   for (const double given : hold.particles) {
     if (given < 0 || given >= n || given != std::floor(given))
-      throw Error(ExitCode::usage, where + " particles: " + words(given) + " is not a particle of " + rag.name +
+      throw Error(ExitCode::usage, where + " particles: " + number_text(given) + " is not a particle of " + rag.name +
                                        ", must be a whole number from 0 to " + std::to_string(n - 1) + ", row * " +
                                        std::to_string(rag.n_columns) + " + column; correct it, or name another piece in `rag`");
     places.push_back(static_cast<int>(given));
@@ -107,8 +107,8 @@ void check(const HoldSettings& hold, const Table& table, const std::string& wher
   if (table.has("box_lower") != table.has("box_upper")) refuse(": box_lower and box_upper need each other; give both");
   for (int c = 0; c < 3 && hold.has_box; ++c)
     if (hold.box_lower[c] > hold.box_upper[c])
-      refuse(": box_lower (" + words(hold.box_lower[c]) + " m) is above box_upper (" + words(hold.box_upper[c]) + " m) along axis " +
-             std::to_string(c) + "; exchange or correct them");
+      refuse(": box_lower (" + number_text(hold.box_lower[c]) + " m) is above box_upper (" + number_text(hold.box_upper[c]) +
+             " m) along axis " + std::to_string(c) + "; exchange or correct them");
   if ((hold.kind == HoldKind::hinge) != (norm_squared(hold.hinge_axis) > 0))
     refuse(hold.kind == HoldKind::hinge
                ? " kind = \"hinge\" without hinge_axis, the direction about which its particles turn freely; give it"
@@ -332,7 +332,7 @@ double Holds::largest_speed() const {
 }
 
 std::vector<std::string> Holds::lines() const {
-  const auto vector = [](const Vec3& v) { return "(" + words(v.x) + ", " + words(v.y) + ", " + words(v.z) + ")"; };
+  const auto vector = [](const Vec3& v) { return "(" + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + ")"; };
   std::vector<std::string> all;
   for (const Place& place : places_) {
     const HoldSettings& hold = settings_[static_cast<std::size_t>(place.hold)];
@@ -343,9 +343,10 @@ std::vector<std::string> Holds::lines() const {
                                          : " hinged about " + vector(unit(hold.hinge_axis));
     line += ", mean position " + vector(place.point) + " m";
     if (norm_squared(motion.velocity) > 0) line += ", moves with " + vector(motion.velocity) + " m/s";
-    if (motion.rotation_speed != 0) line += ", turns at " + words(motion.rotation_speed) + " rad/s about " + vector(unit(motion.axis));
-    if (motion.frequency > 0) line += ", oscillates by " + vector(motion.amplitude) + " m at " + words(motion.frequency) + " Hz";
-    if (hold.release_time) line += ", until " + words(*hold.release_time) + " s";
+    if (motion.rotation_speed != 0)
+      line += ", turns at " + number_text(motion.rotation_speed) + " rad/s about " + vector(unit(motion.axis));
+    if (motion.frequency > 0) line += ", oscillates by " + vector(motion.amplitude) + " m at " + number_text(motion.frequency) + " Hz";
+    if (hold.release_time) line += ", until " + number_text(*hold.release_time) + " s";
     all.push_back(line);
   }
   return all;

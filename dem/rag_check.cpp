@@ -68,7 +68,7 @@ std::vector<BondCount> RagSystem::check() const {
 
   if (first_bad != none)
     throw Error(ExitCode::diverged, "rags: particle " + std::to_string(first_bad) +
-                                        " has a position or velocity that is not a number at t = " + words(time_) +
+                                        " has a position or velocity that is not a number at t = " + number_text(time_) +
                                         " s; use a shorter [time] step or a softer force, or [dem] step or safety where contacts throw it");
   for (std::size_t t = 0; t < owner_.size(); ++t) {
     if (count[n_counts * n_rags + t] == (owner_[t] >= 0 ? 1 : 0)) continue;

@@ -119,8 +119,9 @@ void RagSystem::set_limit() {
   const bool can_touch = contacts_ && (n_particles() > 1 || !contacts_->wall_touches().empty());
   if (can_touch && contacts_->stable_step() < limit_.step) limit_ = {contacts_->stable_step(), contacts_->stable_step_reason()};
   if (settings_.step && *settings_.step > limit_.step)
-    throw Error(ExitCode::usage, "[dem] step: " + words(*settings_.step) + " s is above the stable step of " + words(limit_.step) +
-                                     " s, set by " + limit_.reason + "; give a shorter step, or none to let Snag choose");
+    throw Error(ExitCode::usage, "[dem] step: " + number_text(*settings_.step) + " s is above the stable step of " +
+                                     number_text(limit_.step) + " s, set by " + limit_.reason +
+                                     "; give a shorter step, or none to let Snag choose");
 }
 
 double RagSystem::stable_step() const { return settings_.step ? *settings_.step : settings_.safety * limit_.step; }
@@ -181,8 +182,8 @@ void RagSystem::evaluate_contacts(double step, const Box* moved, bool with_limit
   if (settings_.step && *settings_.step > pressed_limit_ && !warned_of_step_) {
     warned_of_step_ = true;
     if (rank_of(comm_) == 0)
-      log::warning("[dem] step of " + words(*settings_.step) + " s is above the stable step of " + words(pressed_limit_) +
-                   " s at t = " + words(time_) +
+      log::warning("[dem] step of " + number_text(*settings_.step) + " s is above the stable step of " + number_text(pressed_limit_) +
+                   " s at t = " + number_text(time_) +
                    " s, where particles are pressed by several contacts at once: the rags may heat up; leave the key out, "
                    "or give a shorter step");
   }

@@ -56,8 +56,8 @@ void note_noise(const Experiment& experiment, Verdict& verdict) {
     if (noise.nats == 0) continue;
     const std::string& id = experiment.observables[o].id;
     verdict.noise[id] = {noise.factor, noise.correlation_time, noise.nats};
-    verdict.notes.push_back("The repeats of " + id + " scatter " + words(noise.factor) + " times as much as noise_u says" +
-                            (noise.correlation_time > 0 ? ", and their noise lasts " + words(noise.correlation_time) + " s" : "") +
+    verdict.notes.push_back("The repeats of " + id + " scatter " + number_text(noise.factor) + " times as much as noise_u says" +
+                            (noise.correlation_time > 0 ? ", and their noise lasts " + number_text(noise.correlation_time) + " s" : "") +
                             "; this noise is used. Correct noise_u, or find what the repeats differ by.");
   }
 }
@@ -81,7 +81,7 @@ void note_outliers(const Experiment& given, const std::vector<OutliersFound>& al
       found.rows.push_back({d.line, given.points[static_cast<std::size_t>(d.point)].id, d.replicate, d.time});
     }
     std::stable_sort(found.rows.begin(), found.rows.end(), [](const OutlierRow& a, const OutlierRow& b) { return a.line < b.line; });
-    verdict.notes.push_back(counted(std::ssize(found.rows), "row") + " of " + id + " (" + words(100 * found.share) +
+    verdict.notes.push_back(counted(std::ssize(found.rows), "row") + " of " + id + " (" + number_text(100 * found.share) +
                             " %) lie where no noise brings them, by " + rounded(found.nats) + " nats; they are left out: line" +
                             (found.rows.size() > 1 ? "s " : " ") + lines_of(found.rows) + " of the data. Look at them.");
   }

@@ -192,7 +192,8 @@ void count(const Mesh& mesh, const std::vector<int>& cells, std::int64_t& n, dou
 
 void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
   const auto fail = [&](const std::string& what, double value, const Worst& where, const std::string& rule) {
-    q.failures.push_back(what + " (" + words(value) + ") of cell " + std::to_string(where.id) + " at " + place(where.place) + ", " + rule);
+    q.failures.push_back(what + " (" + number_text(value) + ") of cell " + std::to_string(where.id) + " at " + point_text(where.place) +
+                         ", " + rule);
   };
   const Vec3 box = bounding_box(mesh).size();
   const double rule_volume = least_volume * box.x * box.y * box.z;
@@ -209,7 +210,7 @@ void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
 }
 
 /// Round-off depends on the ranks, the table must not.
-std::string words_above_round_off(double value) { return value < 1e-12 ? "below 1e-12" : words(value); }
+std::string words_above_round_off(double value) { return value < 1e-12 ? "below 1e-12" : number_text(value); }
 
 }  // namespace
 
@@ -246,30 +247,31 @@ std::string quality_table(const Mesh& mesh, const MeshQuality& q) {
   line("cells", std::to_string(q.n_cells));
   line("faces, interior and boundary", std::to_string(q.n_interior) + "  " + std::to_string(q.n_boundary));
   line("unconnected regions", std::to_string(q.n_regions));
-  line("volume, m3", words(q.volume));
-  line("cell volume, least and largest, m3", words(q.min_volume) + "  " + words(q.max_volume));
-  line("least distance of centres, mm", words(1e3 * q.min_spacing));
-  line("quality, least and mean", words(q.min_quality) + "  " + words(q.mean_quality));
-  line("non-orthogonality, max and mean", words(q.max_non_orthogonality_deg) + "  " + words(q.mean_non_orthogonality_deg) + " deg");
+  line("volume, m3", number_text(q.volume));
+  line("cell volume, least and largest, m3", number_text(q.min_volume) + "  " + number_text(q.max_volume));
+  line("least distance of centres, mm", number_text(1e3 * q.min_spacing));
+  line("quality, least and mean", number_text(q.min_quality) + "  " + number_text(q.mean_quality));
+  line("non-orthogonality, max and mean",
+       number_text(q.max_non_orthogonality_deg) + "  " + number_text(q.mean_non_orthogonality_deg) + " deg");
   line("skewness, max", words_above_round_off(q.max_skewness));
   if (q.n_skew_cells > 0)
-    line("skew cells (a face by over " + words(skew_from) + ")",
-         std::to_string(q.n_skew_cells) + ", " + words(100 * q.skew_volume / q.volume) + " % of the volume");
+    line("skew cells (a face by over " + number_text(skew_from) + ")",
+         std::to_string(q.n_skew_cells) + ", " + number_text(100 * q.skew_volume / q.volume) + " % of the volume");
   if (q.n_corner_cells > 0)
     line("cells in corners (few neighbours)",
-         std::to_string(q.n_corner_cells) + ", " + words(100 * q.corner_volume / q.volume) + " % of the volume");
+         std::to_string(q.n_corner_cells) + ", " + number_text(100 * q.corner_volume / q.volume) + " % of the volume");
   line("closure, max", words_above_round_off(q.closure));
   for (std::size_t zone = 0; zone < mesh.zones.size(); ++zone) {
     std::vector<double> volume;
     for (int c = 0; c < mesh.n_cells; ++c)
       if (mesh.cell_zone[c] == static_cast<int>(zone)) volume.push_back(mesh.cell_volume[c]);
     const std::int64_t n = sum(mesh.comm, static_cast<std::int64_t>(volume.size()));
-    line("zone " + mesh.zones[zone], std::to_string(n) + " cells, " + words(sum(mesh.comm, volume)) + " m3");
+    line("zone " + mesh.zones[zone], std::to_string(n) + " cells, " + number_text(sum(mesh.comm, volume)) + " m3");
   }
   for (const Patch& patch : mesh.patches) {
     std::vector<double> area;
     for (int f = patch.first; f < patch.end(); ++f) area.push_back(norm(mesh.face_vector[f]));
-    line("patch " + patch.name, std::to_string(patch.count_global) + " faces, " + words(sum(mesh.comm, area)) + " m2");
+    line("patch " + patch.name, std::to_string(patch.count_global) + " faces, " + number_text(sum(mesh.comm, area)) + " m2");
   }
   for (const std::string& failure : q.failures) table.append("BAD: ").append(failure).append("\n");
   return table;

@@ -29,7 +29,7 @@ double mean_axis(const std::vector<double>& values) {
 double checked(double value, const Repeats& repeats, const Repeats::Row& row, std::size_t o, const std::string& where) {
   if (std::isfinite(value)) return value;
   throw Error(ExitCode::usage, where + ": " + shortened(repeats.quantities[o].name) + " of group \"" +
-                                   shortened(repeats.groups[row.group]) + "\" is " + words(value) +
+                                   shortened(repeats.groups[row.group]) + "\" is " + number_text(value) +
                                    ", must be a finite number; leave out rows without one");
 }
 
@@ -58,8 +58,8 @@ GroupComparison compare(const Repeats& repeats, std::size_t o, const std::string
   // What differs by round-off alone is constant.
   const double largest = std::abs(*std::max_element(all.begin(), all.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (std::all_of(deviations.begin(), deviations.end(), [&](double deviation) { return deviation <= 1e-12 * largest; }))
-    throw Error(ExitCode::usage, where + ": " + shortened(result.quantity.name) + " does not vary within any group (" + words(means[0]) +
-                                     " in \"" + shortened(repeats.groups[0]) +
+    throw Error(ExitCode::usage, where + ": " + shortened(result.quantity.name) + " does not vary within any group (" +
+                                     number_text(means[0]) + " in \"" + shortened(repeats.groups[0]) +
                                      "\"), so that there is no scatter to compare with; leave it out");
   result.by_count = anova(means, deviations, counts);
   const IndependentSamples independent = independent_samples(samples, static_cast<int>(repeats.groups.size()));

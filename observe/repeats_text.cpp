@@ -90,7 +90,7 @@ class Reading {
     double number = 0;
     const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), number);
     if (code != std::errc() || end != field.data() + field.size() || !(std::abs(number) <= largest_measured))
-      refuse(shortened(column) + " \"" + shortened(field) + "\" must be a finite number of at most " + words(largest_measured) +
+      refuse(shortened(column) + " \"" + shortened(field) + "\" must be a finite number of at most " + number_text(largest_measured) +
              " in size; leave out rows without one");
     return number;
   }
@@ -155,12 +155,13 @@ std::string words_of(const std::vector<GroupComparison>& comparisons) {
   for (const GroupComparison& c : comparisons) {
     double n = 0, n_independent = 0;
     for (const auto& group : c.groups) n += group.n, n_independent += group.n_independent;
-    text += (text.empty() ? "" : "\n") + c.quantity.name + ": p " + words(c.by_count.p) + " (F " + words(c.by_count.F) + ") as if all " +
-            words(n) + " samples were independent; ";
+    text += (text.empty() ? "" : "\n") + c.quantity.name + ": p " + number_text(c.by_count.p) + " (F " + number_text(c.by_count.F) +
+            ") as if all " + number_text(n) + " samples were independent; ";
     if (c.by_independent)
-      text += "p " + words(c.by_independent->p) + " (F " + words(c.by_independent->F) + ") with the " + words(n_independent) + " that are";
+      text += "p " + number_text(c.by_independent->p) + " (F " + number_text(c.by_independent->F) + ") with the " +
+              number_text(n_independent) + " that are";
     else
-      text += "no p with the " + words(n_independent) + " that are: too few";
+      text += "no p with the " + number_text(n_independent) + " that are: too few";
   }
   return text;
 }

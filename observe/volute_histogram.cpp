@@ -96,7 +96,7 @@ std::string VoluteHistogram::csv() const {
 }
 
 std::string VoluteHistogram::words() const {
-  std::string text = std::to_string(n_rags()) + (n_rags() == 1 ? " rag, " : " rags, ") + snag::words(time()) + " s";
+  std::string text = std::to_string(n_rags()) + (n_rags() == 1 ? " rag, " : " rags, ") + snag::number_text(time()) + " s";
   for (std::size_t e = 0; e < events.size(); ++e) {
     int n = 0;
     for (const int in_bin : n_events_[e]) n += in_bin;

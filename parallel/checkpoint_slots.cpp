@@ -30,7 +30,7 @@ CheckpointSlot inspected(const std::filesystem::path& file) {
     slot.valid = true;
     slot.sequence = *sequence;
     slot.stamp = {*hash, static_cast<int>(*ranks), *time_step, *time};
-    slot.state = "complete, time step " + std::to_string(*time_step) + " at " + words(*time) + " s";
+    slot.state = "complete, time step " + std::to_string(*time_step) + " at " + number_text(*time) + " s";
   }
   return slot;
 }

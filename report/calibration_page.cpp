@@ -18,7 +18,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr const char* cloth_colour = "#0072B2";
 
-std::string stem(const Calibration& c) { return "r" + words(1e3 * c.settings.radius) + "mm"; }
+std::string stem(const Calibration& c) { return "r" + number_text(1e3 * c.settings.radius) + "mm"; }
 
 std::string range_text(const MeasuredRange& range, double scale) {
   return range.given() ? html::number(scale * range.low) + " to " + html::number(scale * range.high) : "";
@@ -31,7 +31,7 @@ NamedDrawing strip_drawing(const TextileTests& tests, const Calibration& c, int 
   add_strip(tests, d, c.bending[d].shape, cloth_colour, drawing);
   return {"strip_" + std::string(direction_key[d]) + "_" + stem(c) + ".svg",
           std::string("Strip ") + direction_name[d] + ", " + millimetres(tests.bending[d].overhang) +
-              " over the edge; dashed: the plane at " + words(std::round(1800 / pi * tests.plane_angle) / 10) + " degrees",
+              " over the edge; dashed: the plane at " + number_text(std::round(1800 / pi * tests.plane_angle) / 10) + " degrees",
           drawing.svg()};
 }
 
@@ -171,9 +171,10 @@ std::string properties_section(const TextileTests& tests, const Calibration& c) 
           row[2] = html::number(p.bond.*line.value), row[3] = html::number(value / (p.bond.*line.value));
       rows.push_back(row);
     }
-  return html::table({"", "calibrated", "published", "ratio"}, rows) + "<p>The contact radius of " + words(tests.contact_radius_ratio) +
-         " r_p lies between " + html::number(c.contact_radius.low) + ", which the largest strain asks for, and " +
-         html::number(c.contact_radius.high) + ", above which particles that are no neighbours would be bonded.</p>\n";
+  return html::table({"", "calibrated", "published", "ratio"}, rows) + "<p>The contact radius of " +
+         number_text(tests.contact_radius_ratio) + " r_p lies between " + html::number(c.contact_radius.low) +
+         ", which the largest strain asks for, and " + html::number(c.contact_radius.high) +
+         ", above which particles that are no neighbours would be bonded.</p>\n";
 }
 
 }  // namespace

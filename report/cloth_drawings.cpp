@@ -24,7 +24,7 @@ std::string line_colour(std::size_t k) {
   return colours[k % std::size(colours)];
 }
 
-std::string millimetres(double length) { return words(std::round(1e4 * length) / 10) + " mm"; }
+std::string millimetres(double length) { return number_text(std::round(1e4 * length) / 10) + " mm"; }
 
 std::string percent(double ratio) {
   char text[32];

@@ -28,7 +28,7 @@ NamedDrawing outlines(const TextileTests& tests, const std::vector<DampingPoint>
   std::string values;
   for (std::size_t i = 0; i < points.size(); ++i) {
     add_outline(points[i].outline, line_colour(i), drawing);
-    values += (i ? ", " : "") + words(name(points[i]));
+    values += (i ? ", " : "") + number_text(name(points[i]));
   }
   return {file, what + " " + values + " (blue, green, pink, orange), from the same laying", drawing.svg()};
 }
@@ -69,7 +69,7 @@ template <class Name>
 std::string drape_table(const TextileTests& tests, const std::vector<DampingPoint>& points, const std::string& what, const Name& name) {
   std::vector<std::vector<std::string>> rows;
   for (const DampingPoint& point : points)
-    rows.push_back({words(name(point)),
+    rows.push_back({number_text(name(point)),
                     html::number(1e4 * point.outline.area) + " (" + percent(point.outline.area / tests.drape.area - 1) + ")",
                     html::number(1e3 * point.outline.mean_wave_size()) + " (" +
                         percent(point.outline.mean_wave_size() / tests.drape.wave_size - 1) + ")",
@@ -105,7 +105,7 @@ std::string independence_section(const TextileTests& tests, const IndependencePa
   return "<p>Particle radius: bonds calibrated anew for each, the tangential stiffness kept times the radius squared.</p>\n" +
          side_by_side(plots) + side_by_side(drawings[0]) + radius_tables(tests, found) + "<p>Time step, at " + millimetres(part.radius) +
          ".</p>\n" + step_table(tests, found) + "<p>Dashpots and rotation friction of the bonds, at " + millimetres(part.radius) +
-         ": the cloth falls for " + words(drape_duration) + " s from the same laying.</p>\n" + side_by_side(drawings[1]) +
+         ": the cloth falls for " + number_text(drape_duration) + " s from the same laying.</p>\n" + side_by_side(drawings[1]) +
          drape_table(tests, found.dampings, "Damping ratio", damping_of) +
          drape_table(tests, found.frictions, "Rotation friction", friction_of);
 }

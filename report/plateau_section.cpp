@@ -20,9 +20,9 @@ std::string percent(double share) {
   return text;
 }
 
-std::string with_unit(double value, const KeyWords& x) { return words(value) + (x.unit.empty() ? "" : " " + x.unit); }
+std::string with_unit(double value, const KeyWords& x) { return number_text(value) + (x.unit.empty() ? "" : " " + x.unit); }
 
-std::string range(const PlateauWindow& window, const KeyWords& x) { return words(window.from) + " to " + with_unit(window.to, x); }
+std::string range(const PlateauWindow& window, const KeyWords& x) { return number_text(window.from) + " to " + with_unit(window.to, x); }
 
 double recommended(const PlateauQuestion& question, const PlateauWindow& window) {
   const std::string& which = question.settings.recommend;

@@ -99,7 +99,7 @@ std::string side_by_side(const Study& study, const std::vector<Row>& rows) {
     columns.push_back({row.run.name});
     for (const std::string& key : study.settings.results) {
       const json value = value_of(study, row, key);
-      columns.back().push_back(value.is_null() ? "-" : value.is_number_float() ? words(value.get<double>()) : text_of(value));
+      columns.back().push_back(value.is_null() ? "-" : value.is_number_float() ? number_text(value.get<double>()) : text_of(value));
     }
   }
   std::string text;

@@ -34,11 +34,11 @@ std::string bars(const std::vector<Bar>& all) {
   double y = 2;
   for (const Bar& bar : all) {
     const double length = longest > 0 && std::isfinite(bar.length) ? (width - left - right) * bar.length / longest : 0;
-    const std::string middle = words(y + 0.66 * height);
-    svg += "<text x=\"" + words(left - 8) + "\" y=\"" + middle + "\" text-anchor=\"end\">" + escaped(bar.label) + "</text><rect x=\"" +
-           words(left) + "\" y=\"" + words(y + 3) + "\" width=\"" + words(length) + "\" height=\"" + words(height - 6) + "\" fill=\"" +
-           (bar.strong ? "#0072b2" : "#a9b7c6") + "\"/><text x=\"" + words(left + length + 6) + "\" y=\"" + middle + "\">" + bar.text +
-           "</text>\n";
+    const std::string middle = number_text(y + 0.66 * height);
+    svg += "<text x=\"" + number_text(left - 8) + "\" y=\"" + middle + "\" text-anchor=\"end\">" + escaped(bar.label) +
+           "</text><rect x=\"" + number_text(left) + "\" y=\"" + number_text(y + 3) + "\" width=\"" + number_text(length) + "\" height=\"" +
+           number_text(height - 6) + "\" fill=\"" + (bar.strong ? "#0072b2" : "#a9b7c6") + "\"/><text x=\"" +
+           number_text(left + length + 6) + "\" y=\"" + middle + "\">" + bar.text + "</text>\n";
     y += height;
   }
   return svg + "</svg>\n";
@@ -155,20 +155,21 @@ std::string map_of_gap(const Verdict& v) {
     const double x = left + width * place(points, c.point), y = top + height * place(rows, row);
     char z[32];
     std::snprintf(z, sizeof z, std::abs(c.z) < 9.95 ? "%.1f" : "%.0f", c.z);
-    cells += "<rect x=\"" + words(x) + "\" y=\"" + words(y) + "\" width=\"" + words(width - 2) + "\" height=\"" + words(height - 2) +
-             "\" fill=\"" + heat(c.z) + "\"" + (c.origin == GapOrigin::born ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" +
-             words(x + width / 2 - 1) + "\" y=\"" + words(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
+    cells += "<rect x=\"" + number_text(x) + "\" y=\"" + number_text(y) + "\" width=\"" + number_text(width - 2) + "\" height=\"" +
+             number_text(height - 2) + "\" fill=\"" + heat(c.z) + "\"" +
+             (c.origin == GapOrigin::born ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" + number_text(x + width / 2 - 1) +
+             "\" y=\"" + number_text(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
              (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
   }
   std::string labels;
   for (std::size_t i = 0; i < points.size(); ++i)
-    labels += "<text x=\"" + words(left + width * (static_cast<double>(i) + 0.5) - 1) + "\" y=\"18\" text-anchor=\"middle\">" +
+    labels += "<text x=\"" + number_text(left + width * (static_cast<double>(i) + 0.5) - 1) + "\" y=\"18\" text-anchor=\"middle\">" +
               escaped(points[i]) + "</text>\n";
   for (std::size_t i = 0; i < rows.size(); ++i)
-    labels += "<text x=\"" + words(left - 8) + "\" y=\"" + words(top + height * (static_cast<double>(i) + 0.66)) +
+    labels += "<text x=\"" + number_text(left - 8) + "\" y=\"" + number_text(top + height * (static_cast<double>(i) + 0.66)) +
               "\" text-anchor=\"end\">" + escaped(rows[i]) + "</text>\n";
   const double all_width = std::max(760.0, left + width * static_cast<double>(points.size()));
-  return "<svg viewBox=\"0 0 " + words(all_width) + " " + words(top + height * static_cast<double>(rows.size()) + 4) +
+  return "<svg viewBox=\"0 0 " + number_text(all_width) + " " + number_text(top + height * static_cast<double>(rows.size()) + 4) +
          "\" role=\"img\">\n" + labels + cells + "</svg>\n";
 }
 
@@ -227,26 +228,27 @@ std::string map_of_ways(const Verdict& v) {
     std::string line;
     for (const auto& [begin, place] : way) {
       if (!place.at.contains(axes[0]) || !place.at.contains(axes[1])) continue;
-      const std::string x = words(across(place.at.at(axes[0]))), y = words(up(place.at.at(axes[1])));
+      const std::string x = number_text(across(place.at.at(axes[0]))), y = number_text(up(place.at.at(axes[1])));
       line += x + "," + y + " ";
       dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"8\" fill=\"" + heat(place.z) + "\" stroke=\"#596575\"/>";
       if (begin == way.rbegin()->first)
-        dots += "<text x=\"" + words(across(place.at.at(axes[0])) + 12) + "\" y=\"" + y + "\">" + escaped(point) + "</text>\n";
+        dots += "<text x=\"" + number_text(across(place.at.at(axes[0])) + 12) + "\" y=\"" + y + "\">" + escaped(point) + "</text>\n";
     }
     lines += "<polyline points=\"" + line + "\" fill=\"none\" stroke=\"#a9b7c6\"/>\n";
   }
   const auto ends = [&](const std::string& axis, double low_x, double low_y, double high_x, double high_y, const char* anchor) {
-    return "<text x=\"" + words(low_x) + "\" y=\"" + words(low_y) + "\" text-anchor=\"" + anchor + "\">" + html::number(ranges[axis][0]) +
-           "</text><text x=\"" + words(high_x) + "\" y=\"" + words(high_y) + "\" text-anchor=\"" + anchor + "\">" +
-           html::number(ranges[axis][1]) + "</text>\n";
+    return "<text x=\"" + number_text(low_x) + "\" y=\"" + number_text(low_y) + "\" text-anchor=\"" + anchor + "\">" +
+           html::number(ranges[axis][0]) + "</text><text x=\"" + number_text(high_x) + "\" y=\"" + number_text(high_y) +
+           "\" text-anchor=\"" + anchor + "\">" + html::number(ranges[axis][1]) + "</text>\n";
   };
-  return "<svg viewBox=\"0 0 " + words(width) + " " + words(height) + "\" role=\"img\" aria-label=\"Ways\">\n<rect x=\"" +
-         words(left - 16) + "\" y=\"" + words(top - 12) + "\" width=\"" + words(width - left - right + 50) + "\" height=\"" +
-         words(height - top - bottom + 24) + "\" fill=\"none\" stroke=\"#dde3ea\"/>\n" + lines + dots +
+  return "<svg viewBox=\"0 0 " + number_text(width) + " " + number_text(height) + "\" role=\"img\" aria-label=\"Ways\">\n<rect x=\"" +
+         number_text(left - 16) + "\" y=\"" + number_text(top - 12) + "\" width=\"" + number_text(width - left - right + 50) +
+         "\" height=\"" + number_text(height - top - bottom + 24) + "\" fill=\"none\" stroke=\"#dde3ea\"/>\n" + lines + dots +
          ends(axes[0], left, height - 14, width - right, height - 14, "middle") +
-         ends(axes[1], left - 22, height - bottom, left - 22, top + 8, "end") + "<text x=\"" + words(0.5 * (left + width - right)) +
-         "\" y=\"" + words(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
-         words(0.5 * height) + "\" transform=\"rotate(-90 14 " + words(0.5 * height) + ")\" text-anchor=\"middle\">measured " + axes[1] +
+         ends(axes[1], left - 22, height - bottom, left - 22, top + 8, "end") + "<text x=\"" + number_text(0.5 * (left + width - right)) +
+         "\" y=\"" + number_text(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
+         number_text(0.5 * height) + "\" transform=\"rotate(-90 14 " + number_text(0.5 * height) + ")\" text-anchor=\"middle\">measured " +
+         axes[1] +
          " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest difference of a "
          "coordinate over its "
          "uncertainty there.</p>\n";

@@ -48,7 +48,7 @@ std::string probability_in_words(double p) {
 }
 
 std::string window_in_words(const GapCell& cell) {
-  return std::isnan(cell.window[0]) ? "whole run" : words(cell.window[0]) + " to " + words(cell.window[1]) + " s";
+  return std::isnan(cell.window[0]) ? "whole run" : number_text(cell.window[0]) + " to " + number_text(cell.window[1]) + " s";
 }
 
 std::string condition_in_words(const NewCondition& condition) {

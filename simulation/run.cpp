@@ -63,7 +63,7 @@ struct Run {
     }
     if (rank_of(world) == 0) progress.finish();  // said to be done only when the disk has it
     if (simulation.rags_have_left())
-      log::info("all rags have left at " + words(*simulation.passage->all_exited_at()) + " s: the run ends here");
+      log::info("all rags have left at " + number_text(*simulation.passage->all_exited_at()) + " s: the run ends here");
     return ExitCode::ok;
   }
 };
@@ -90,7 +90,7 @@ bool has_ended_before(const std::filesystem::path& folder, const CaseFile& file,
   MPI_Bcast(&complete, 1, MPI_INT, 0, world);
   if (complete == 0) return false;
   if (!reader.fallback().empty()) log::warning(reader.fallback());
-  log::info(folder.string() + ": the run ended at " + words(reader.stamp().time) +
+  log::info(folder.string() + ": the run ended at " + number_text(reader.stamp().time) +
             " s; there is nothing to resume and nothing is changed; a later [time] end extends it, --overwrite starts it again");
   return true;
 }
@@ -99,8 +99,8 @@ void load(Simulation& simulation, CheckpointReader& checkpoint) {
   if (!checkpoint.fallback().empty()) log::warning(checkpoint.fallback());
   simulation.load(checkpoint);
   if (simulation.time_step() > simulation.time_settings.n_steps())
-    throw Error(ExitCode::usage, "[time] end_s = " + words(simulation.time_settings.end) + " lies before the checkpoint, at " +
-                                     words(simulation.time()) + " s; give a later end");
+    throw Error(ExitCode::usage, "[time] end_s = " + number_text(simulation.time_settings.end) + " lies before the checkpoint, at " +
+                                     number_text(simulation.time()) + " s; give a later end");
 }
 
 /// What a run does before its first step, and what it refuses there. Collective; throws Error(usage).
@@ -114,7 +114,7 @@ std::string last_checkpoint(const std::filesystem::path& folder) {
   const auto slots = checkpoint_slots(world, folder / "checkpoint");
   const int slot = newest(slots);
   if (slot < 0) return "; no checkpoint was written before";
-  return "; the last checkpoint is that of t = " + words(slots[static_cast<std::size_t>(slot)].stamp.time) + " s, " +
+  return "; the last checkpoint is that of t = " + number_text(slots[static_cast<std::size_t>(slot)].stamp.time) + " s, " +
          slots[static_cast<std::size_t>(slot)].file.string() + ": a case with other settings takes its water by [initial_flow] from = \"" +
          folder.string() + "\"";
 }
@@ -152,7 +152,7 @@ ExitCode run_case(const RunOptions& options) {
   Outputs outputs(folder, file, simulation, options.resume, begun);
   if (reader) {
     outputs.load(*reader);
-    log::info("resumed at " + words(simulation.time()) + " s");
+    log::info("resumed at " + number_text(simulation.time()) + " s");
     reader.reset();
   } else {
     outputs.initial();

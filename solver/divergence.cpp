@@ -231,7 +231,7 @@ std::string DivergenceWatch::backflow(const Flow& flow, const BoundarySet& bound
 std::string DivergenceWatch::cell_in_words(const Finding& found) const {
   const CellQuality shape = quality_of_cell(mesh_, found.cell);
   const std::string zone = mesh_.zones.empty() ? "" : ", zone \"" + mesh_.zones[mesh_.cell_zone[found.cell]] + "\"";
-  return "cell " + std::to_string(found.id) + " at " + place(found.place) + zone + ", quality " + rounded(shape.quality) +
+  return "cell " + std::to_string(found.id) + " at " + point_text(found.place) + zone + ", quality " + rounded(shape.quality) +
          " (1 is a regular cell), non-orthogonality " + rounded(shape.non_orthogonality_deg) + " degrees, skewness " +
          rounded(shape.skewness);
 }
@@ -273,7 +273,7 @@ void DivergenceWatch::throw_at(const Flow& flow, const BoundarySet& boundary, do
   const std::string outlet = backflow(flow, boundary, found);
   on_all_ranks(mesh_.comm, [&] {
     if (rank_of(mesh_.comm) != found.rank) return;
-    throw Error(ExitCode::diverged, "the water diverged in step " + std::to_string(found.step) + " (t = " + words(found.time) +
+    throw Error(ExitCode::diverged, "the water diverged in step " + std::to_string(found.step) + " (t = " + number_text(found.time) +
                                         " s): " + what + " in " + cell_in_words(found) + "; the case has a speed of " + rounded(speed_) +
                                         " m/s (" + source_ + "); " + (outlet.empty() ? "" : outlet + "; also, ") + advice(flow, found, dt));
   });

@@ -45,8 +45,8 @@ const bool flow_table = add_case_table<FlowSettings>(50);
 
 double FlowSettings::viscosity() const {
   if (dynamic_viscosity && kinematic_viscosity)
-    throw Error(ExitCode::usage, "[flow]: dynamic_viscosity (" + words(*dynamic_viscosity) + " Pa s) and kinematic_viscosity (" +
-                                     words(*kinematic_viscosity) + " m2/s) are both given; give one of them");
+    throw Error(ExitCode::usage, "[flow]: dynamic_viscosity (" + number_text(*dynamic_viscosity) + " Pa s) and kinematic_viscosity (" +
+                                     number_text(*kinematic_viscosity) + " m2/s) are both given; give one of them");
   if (dynamic_viscosity) return *dynamic_viscosity;
   return kinematic_viscosity ? *kinematic_viscosity * density : water_viscosity;
 }

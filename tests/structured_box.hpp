@@ -109,7 +109,7 @@ inline Mesh meshed(MPI_Comm comm, Box box, std::array<bool, 3> periodic) {
   for (int axis = 0; axis < 3; ++axis)
     if (n[static_cast<std::size_t>(axis)] < 1 || !(width[axis] > 0))
       throw Error(ExitCode::mesh, "structured box: axis " + std::to_string(axis) + " has " +
-                                      std::to_string(n[static_cast<std::size_t>(axis)]) + " cells over " + words(width[axis]) +
+                                      std::to_string(n[static_cast<std::size_t>(axis)]) + " cells over " + number_text(width[axis]) +
                                       " m, at least one cell and a positive width are needed; correct the box");
   MeshParts parts;
   parts.comm = comm;

@@ -110,9 +110,9 @@ void DrapeFit::run(const std::vector<Job>& jobs) {
   for (const DrapePoint& point : points_)
     if (std::any_of(jobs.begin(), jobs.end(),
                     [&](const Job& job) { return job.point == static_cast<std::size_t>(&point - points_.data()); }))
-      settings_.report_progress("drape, S_t = " + words(point.tangential_stiffness()) + " N/m3, " + std::to_string(point.samples.size()) +
-                                " seeds: area " + words(1e4 * point.area) + " cm2, " + words(point.wave_count) + " waves of " +
-                                words(1e3 * point.wave_size) + " mm");
+      settings_.report_progress("drape, S_t = " + number_text(point.tangential_stiffness()) + " N/m3, " +
+                                std::to_string(point.samples.size()) + " seeds: area " + number_text(1e4 * point.area) + " cm2, " +
+                                number_text(point.wave_count) + " waves of " + number_text(1e3 * point.wave_size) + " mm");
 }
 
 void DrapeFit::average(DrapePoint& point) const {
@@ -191,9 +191,9 @@ Calibration calibrate(MPI_Comm comm, const TextileTests& tests, const Calibratio
     bending.shape = hanging_strip(strip_of(tests, d, settings.radius, bond));
     bending.height = height_above_plane(bending.shape.tip, tests.plane_angle);
     bending.stiffness = bending_range(tests, d, settings.radius, bond);
-    settings.report_progress(std::string(direction_name[d]) + ": simulated grab test " + words(result.grab[d].max_force) +
-                             " N at a strain of " + words(result.grab[d].strain_at_max) + "; tip " + words(1e3 * bending.height) +
-                             " mm above the plane");
+    settings.report_progress(std::string(direction_name[d]) + ": simulated grab test " + number_text(result.grab[d].max_force) +
+                             " N at a strain of " + number_text(result.grab[d].strain_at_max) + "; tip " +
+                             number_text(1e3 * bending.height) + " mm above the plane");
   }
   return result;
 }

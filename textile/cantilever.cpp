@@ -50,8 +50,9 @@ struct StripCells {
     n = static_cast<int>(std::ceil(cells - 0.5 - 1e-9));
     share = cells - n + 0.5;
     if (n < 1)
-      throw Error(ExitCode::usage, "bending test: an overhang of " + words(strip.overhang) + " m is too short for a particle of radius " +
-                                       words(strip.radius) + " m, it must be longer than the radius; use a smaller --radius");
+      throw Error(ExitCode::usage, "bending test: an overhang of " + number_text(strip.overhang) +
+                                       " m is too short for a particle of radius " + number_text(strip.radius) +
+                                       " m, it must be longer than the radius; use a smaller --radius");
   }
 };
 
@@ -137,8 +138,9 @@ double bending_stiffness_to_plane(Strip strip, double angle) {
     evaluations = most_evaluations;
   }
   if (evaluations >= most_evaluations)
-    throw Error(ExitCode::usage, "bending test: the tip of a strip of " + words(strip.overhang) + " m and " + words(strip.mass_per_area) +
-                                     " kg/m2 does not reach the plane at " + words(angle * 180 / std::numbers::pi) +
+    throw Error(ExitCode::usage, "bending test: the tip of a strip of " + number_text(strip.overhang) + " m and " +
+                                     number_text(strip.mass_per_area) + " kg/m2 does not reach the plane at " +
+                                     number_text(angle * 180 / std::numbers::pi) +
                                      " degrees with any bending stiffness; check overhang, mass_per_area and plane_angle of [bending]");
   return 0.5 * (bracket.first + bracket.second);
 }

@@ -57,18 +57,18 @@ Independence independence_of_size_and_step(const TextileTests& tests, const Cali
   for (const double ratio : radius_ratios) {
     found.radii.push_back(at_radius(tests, c, ratio * radius));
     const RadiusPoint& point = found.radii.back();
-    c.settings.report_progress("radius " + words(1e3 * point.radius) + " mm: grab test " + words(point.grab[0].max_force) +
-                               " N at a strain of " + words(point.grab[0].strain_at_max) + " lengthwise, " +
-                               words(point.grab[1].max_force) + " N at " + words(point.grab[1].strain_at_max) + " crosswise");
+    c.settings.report_progress("radius " + number_text(1e3 * point.radius) + " mm: grab test " + number_text(point.grab[0].max_force) +
+                               " N at a strain of " + number_text(point.grab[0].strain_at_max) + " lengthwise, " +
+                               number_text(point.grab[1].max_force) + " N at " + number_text(point.grab[1].strain_at_max) + " crosswise");
   }
   for (const double share : step_shares) {
     const Strip strip = strip_of(tests, 0, radius, c.bond[0]);
     found.steps.push_back({share, simulated_grab_test(tests, 0, radius, {c.bond[0], c.bond[1]}, share),
                            moved_strip(strip, tests.bond_damping, strip_duration, strip_air, share)});
     const StepPoint& point = found.steps.back();
-    c.settings.report_progress("step of " + words(share) + " of the stable one: grab test " + words(point.grab.max_force) +
-                               " N at a strain of " + words(point.grab.strain_at_max) + ", tip of the strip " +
-                               words(1e3 * height_above_plane(point.strip.tip, tests.plane_angle)) + " mm above the plane");
+    c.settings.report_progress("step of " + number_text(share) + " of the stable one: grab test " + number_text(point.grab.max_force) +
+                               " N at a strain of " + number_text(point.grab.strain_at_max) + ", tip of the strip " +
+                               number_text(1e3 * height_above_plane(point.strip.tip, tests.plane_angle)) + " mm above the plane");
   }
   return found;
 }
@@ -89,10 +89,10 @@ Independence independence(MPI_Comm comm, const TextileTests& tests, const Calibr
   });
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i]->outline = samples[i].outline;
-    c.settings.report_progress("drape with damping " + words(points[i]->bond_damping) + " and rotation friction " +
-                               words(points[i]->rotation_friction) + ": area " + words(1e4 * samples[i].outline.area) + " cm2, " +
-                               std::to_string(samples[i].outline.waves.size()) + " waves of " +
-                               words(1e3 * samples[i].outline.mean_wave_size()) + " mm");
+    c.settings.report_progress("drape with damping " + number_text(points[i]->bond_damping) + " and rotation friction " +
+                               number_text(points[i]->rotation_friction) + ": area " + number_text(1e4 * samples[i].outline.area) +
+                               " cm2, " + std::to_string(samples[i].outline.waves.size()) + " waves of " +
+                               number_text(1e3 * samples[i].outline.mean_wave_size()) + " mm");
   }
   return found;
 }

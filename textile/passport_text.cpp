@@ -10,10 +10,10 @@ namespace snag {
 
 namespace {
 
-std::string line(const std::string& key, double value) { return key + " = " + words(value) + "\n"; }
+std::string line(const std::string& key, double value) { return key + " = " + number_text(value) + "\n"; }
 
 std::string range(const std::string& key, const MeasuredRange& range) {
-  return range.given() ? key + " = [" + words(range.low) + ", " + words(range.high) + "]\n" : "";
+  return range.given() ? key + " = [" + number_text(range.low) + ", " + number_text(range.high) + "]\n" : "";
 }
 
 /// What the scatter of a measured force makes of a property in proportion to it.

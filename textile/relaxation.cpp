@@ -64,9 +64,9 @@ RelaxationCost relax(RagSystem& rags, const Relaxation& settings, TileForce* for
     }
     before = now.energy < before ? 0 : now.energy;
     if (rags.time() - begun > settings.longest_time)
-      throw Error(ExitCode::diverged, "relaxation: " + rags.rags()[0].name + " is not at rest after " + words(settings.longest_time) +
-                                          " s of motion, kinetic energy " + words(now.energy) + " J, wanted " + words(per_mass * now.mass) +
-                                          "; use a larger particle radius or stiffer bonds");
+      throw Error(ExitCode::diverged, "relaxation: " + rags.rags()[0].name + " is not at rest after " + number_text(settings.longest_time) +
+                                          " s of motion, kinetic energy " + number_text(now.energy) + " J, wanted " +
+                                          number_text(per_mass * now.mass) + "; use a larger particle radius or stiffer bonds");
   }
   cost.time = rags.time() - begun, cost.n_steps = rags.n_sub_steps() - steps_before;
   return cost;

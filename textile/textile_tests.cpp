@@ -49,8 +49,8 @@ MeasuredRange checked_range(const Table& table, const Parameter& range, double m
   const std::vector<double>& values = *std::get<std::vector<double>*>(range.target);
   if (values.empty()) return {};
   if (values.size() != 2 || values[0] > mean || mean > values[1])
-    throw Error(ExitCode::usage, table.where() + " " + range.key + ": must be a range about the mean of " + words(mean) + " " + range.unit +
-                                     "; give [smallest, largest]");
+    throw Error(ExitCode::usage, table.where() + " " + range.key + ": must be a range about the mean of " + number_text(mean) + " " +
+                                     range.unit + "; give [smallest, largest]");
   return {values[0], values[1]};
 }
 
@@ -232,9 +232,9 @@ void read_elongation(const Table& root, TextileTests& t) {
     r.force_range = checked_range(table, range_of("max_force_range", &keys.force_range, "N"), r.max_force);
     constexpr double rounding = 0.01;  // of a table
     if (keys.elongation > 0 && std::abs(keys.elongation / t.gauge_length / r.max_strain - 1) > rounding)
-      throw Error(ExitCode::usage, table.where() + " max_elongation: is " + words(keys.elongation) + " m, but max_strain of " +
-                                       words(r.max_strain) + " on a gauge length of " + words(t.gauge_length) + " m is " +
-                                       words(r.max_strain * t.gauge_length) + " m; correct one of them");
+      throw Error(ExitCode::usage, table.where() + " max_elongation: is " + number_text(keys.elongation) + " m, but max_strain of " +
+                                       number_text(r.max_strain) + " on a gauge length of " + number_text(t.gauge_length) + " m is " +
+                                       number_text(r.max_strain * t.gauge_length) + " m; correct one of them");
     t.elongation[d] = r;
   }
 }
@@ -250,8 +250,8 @@ void read_bending(const Table& root, TextileTests& t) {
     table.read(keys.section(d).parameters);
     r.overhang_range = checked_range(table, range_of("overhang_range", &keys.overhang_range, "m"), r.overhang);
     if (procedure.length > 0 && r.overhang > procedure.length)
-      throw Error(ExitCode::usage, table.where() + " overhang_mean: is " + words(r.overhang) + " m, longer than the strip of " +
-                                       words(procedure.length) + " m: the rag cannot reach the plane; correct one of them");
+      throw Error(ExitCode::usage, table.where() + " overhang_mean: is " + number_text(r.overhang) + " m, longer than the strip of " +
+                                       number_text(procedure.length) + " m: the rag cannot reach the plane; correct one of them");
     t.bending[d] = r;
   }
 }
@@ -264,13 +264,14 @@ void read_drape(const Table& root, TextileTests& t) {
   r.wave_size_range = checked_range(test, range_of("wave_size_range", &keys.wave_size_range, "m"), r.wave_size);
   const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, test.where() + " " + what); };
   const double disc = r.disc_diameter, sample = r.sample_diameter;
-  if (disc >= sample) refuse("disc_diameter: is " + words(disc) + " m, must be smaller than the sample of " + words(sample) + " m");
+  if (disc >= sample)
+    refuse("disc_diameter: is " + number_text(disc) + " m, must be smaller than the sample of " + number_text(sample) + " m");
   constexpr double quarter_pi = 0.785398163397448;
   if (r.area < quarter_pi * disc * disc || r.area > quarter_pi * sample * sample)
-    refuse("area_mean: is " + words(r.area) + " m2, must lie between that of the disc and of the flat sample, " +
-           words(quarter_pi * disc * disc) + " and " + words(quarter_pi * sample * sample) + " m2");
+    refuse("area_mean: is " + number_text(r.area) + " m2, must lie between that of the disc and of the flat sample, " +
+           number_text(quarter_pi * disc * disc) + " and " + number_text(quarter_pi * sample * sample) + " m2");
   if (r.wave_size > sample / 2)
-    refuse("wave_size_mean: is " + words(r.wave_size) + " m, must be below the sample's radius of " + words(sample / 2) + " m");
+    refuse("wave_size_mean: is " + number_text(r.wave_size) + " m, must be below the sample's radius of " + number_text(sample / 2) + " m");
   t.drape = r;
 }
 
@@ -291,16 +292,18 @@ void check_contact_radius(const std::string& file, const TextileTests& t) {
     const ContactRadiusBounds bounds = contact_radius_bounds(t.elongation[d].max_strain);
     const double ratio = t.contact_radius_ratio;
     if (ratio < bounds.low)
-      throw Error(ExitCode::usage,
-                  file + ": [elongation." + direction_key[d] + "] max_strain: is " + words(t.elongation[d].max_strain) +
-                      ", beyond the contact radius of " + words(ratio) + " r_p, with which bonds reach a strain of " +
-                      words((ratio - 1) / 2) +
-                      (bounds.low <= bounds.high
-                           ? "; give [particles] contact_radius_over_radius between " + words(bounds.low) + " and " + words(bounds.high)
-                           : "; a lattice allows strains up to " + words((bounds.high - 1) / 2) + ", correct the strain"));
+      throw Error(
+          ExitCode::usage,
+          file + ": [elongation." + direction_key[d] + "] max_strain: is " + number_text(t.elongation[d].max_strain) +
+              ", beyond the contact radius of " + number_text(ratio) + " r_p, with which bonds reach a strain of " +
+              number_text((ratio - 1) / 2) +
+              (bounds.low <= bounds.high
+                   ? "; give [particles] contact_radius_over_radius between " + number_text(bounds.low) + " and " + number_text(bounds.high)
+                   : "; a lattice allows strains up to " + number_text((bounds.high - 1) / 2) + ", correct the strain"));
     if (ratio > bounds.high)
-      throw Error(ExitCode::usage, file + ": [particles] contact_radius_over_radius: is " + words(ratio) + ", must be at most sqrt(5) = " +
-                                       words(bounds.high) + ", or particles that are no neighbours are bonded; give a smaller one");
+      throw Error(ExitCode::usage, file + ": [particles] contact_radius_over_radius: is " + number_text(ratio) +
+                                       ", must be at most sqrt(5) = " + number_text(bounds.high) +
+                                       ", or particles that are no neighbours are bonded; give a smaller one");
   }
 }
 

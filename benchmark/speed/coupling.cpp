@@ -103,9 +103,9 @@ class Findings {
 
   void add_kernel(const std::string& name, const Timed& t) {
     add(name + "_step", t.step, "s",
-        "coupled step: water of " + words(t.n_cells) + " cells, rag of " + words(t.n_particles) + " particles");
+        "coupled step: water of " + number_text(t.n_cells) + " cells, rag of " + number_text(t.n_particles) + " particles");
     add(name + "_flow", t.flow, "s", "of it the water");
-    add(name + "_rags", t.rags, "s", "of it the cloth with its drag, " + words(t.n_sub_steps) + " sub-steps");
+    add(name + "_rags", t.rags, "s", "of it the cloth with its drag, " + number_text(t.n_sub_steps) + " sub-steps");
     add(name + "_coupling", t.coupling, "s", "of it the coupling");
     add(name + "_share", t.coupling / t.step, "1", "of the coupling in the step");
     add(name + "_per_particle", 1e6 * t.coupling / t.n_particles, "us", "coupling, a particle and step");

@@ -42,10 +42,10 @@ const char* const compared =
 
 std::string case_text(const std::filesystem::path& mesh, const std::string& motion, double step, double ramp) {
   std::string text = "[case]\nname = \"bench-flow\"\n[mesh]\nfile = \"" + mesh.string() + "\"\n";
-  text += "[rotating_zone]\nzone = \"rotor\"\nrotation_speed_rpm = " + words(speed_rpm) + "\nramp_s = " + words(ramp) + "\nmotion = \"" +
-          motion + "\"\n";
-  text += "[time]\nend_s = 1\nstep_s = " + words(step) + "\n";
-  text += "[flow]\nkinematic_viscosity_m2_s = " + words(kinematic_viscosity) + R"(
+  text += "[rotating_zone]\nzone = \"rotor\"\nrotation_speed_rpm = " + number_text(speed_rpm) + "\nramp_s = " + number_text(ramp) +
+          "\nmotion = \"" + motion + "\"\n";
+  text += "[time]\nend_s = 1\nstep_s = " + number_text(step) + "\n";
+  text += "[flow]\nkinematic_viscosity_m2_s = " + number_text(kinematic_viscosity) + R"(
 n_outer_correctors = 2
 n_non_orthogonal_correctors = 1
 momentum_tolerance = 3e-6
@@ -59,7 +59,7 @@ initial_epsilon_m2_s3 = 0.21
 patch = "inlet"
 kind = "flow_rate_inlet"
 flow_rate_m3_s = )" +
-          words(flow_rate) + "\nramp_s = " + words(ramp) + R"(
+          number_text(flow_rate) + "\nramp_s = " + number_text(ramp) + R"(
 [[boundary]]
 patch = "outlet"
 kind = "pressure_outlet"

@@ -32,7 +32,8 @@ std::vector<double> radii(const std::vector<Rag>& rags) {
 void check_rag(const Rag& rag) {
   const auto demand = [&](bool holds, const char* what, double value, const char* rule) {
     if (!holds)
-      throw Error(ExitCode::usage, "rag \"" + rag.name + "\": " + what + " = " + words(value) + ", contacts need " + rule + "; correct it");
+      throw Error(ExitCode::usage,
+                  "rag \"" + rag.name + "\": " + what + " = " + number_text(value) + ", contacts need " + rule + "; correct it");
   };
   demand(rag.radius > 0, "radius", rag.radius, "a positive one");
   demand(rag.mass > 0, "mass", rag.mass, "a positive one");
@@ -178,9 +179,9 @@ StepLimit step_limit(const std::vector<Rag>& rags, const std::vector<ContactPair
   StepLimit limit;
   for (const Rag& rag : rags)
     limit.lower(rayleigh_fraction * rayleigh_time(rag), "Rayleigh time of the particles of rag \"" + rag.name + "\"");
-  const std::string impact = " at impact_speed = " + words(speed) + " m/s";
+  const std::string impact = " at impact_speed = " + number_text(speed) + " m/s";
   for (const ContactPair& pair : pairs)
-    limit.lower(pair.law->stable_step(speed), "contact of particles of radius " + words(pair.smaller_radius) + " m" + impact);
+    limit.lower(pair.law->stable_step(speed), "contact of particles of radius " + number_text(pair.smaller_radius) + " m" + impact);
   for (std::size_t i = 0; i < walls.size(); ++i)
     limit.lower(walls[i].law->stable_step(speed), "contact of rag \"" + rags[i].name + "\" with a wall" + impact);
   return limit;

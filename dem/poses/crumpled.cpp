@@ -56,8 +56,9 @@ void check_plan(const RagPiece& piece) {
   const double length = plan.confine_length > 0 ? plan.confine_length : 2 * r * std::hypot(rag.n_columns, rag.n_rows);
   const double smallest = std::max(3 * r, std::sqrt(spheres / (largest_volume_share * pi * length)));
   if (plan.confine_radius < smallest)
-    refuse(plan, "confine_radius of " + words(plan.confine_radius) + " m is too small for the cloth, whose spheres fill " + words(spheres) +
-                     " m3; over a length of " + words(length) + " m it must be at least " + words(smallest) + " m");
+    refuse(plan, "confine_radius of " + number_text(plan.confine_radius) + " m is too small for the cloth, whose spheres fill " +
+                     number_text(spheres) + " m3; over a length of " + number_text(length) + " m it must be at least " +
+                     number_text(smallest) + " m");
 }
 
 /// A number in [0, 1) that depends on the seed and its own number only.
@@ -201,7 +202,7 @@ void Crumpling::advance(double dt) {
   energy_ = rag_states(rags_)[0].kinetic_energy;
   largest_energy_ = std::max(largest_energy_, energy_);
   const double overlap = std::max(rags_.contacts()->measures().max_overlap_over_radius, wall_.max_overlap() / piece_.rag.radius);
-  if (overlap > crushing_overlap) refuse_crushed("overlap over radius of " + words(overlap));
+  if (overlap > crushing_overlap) refuse_crushed("overlap over radius of " + number_text(overlap));
   rags_.contacts()->reset_measures(), wall_.reset_overlap();
 }
 
@@ -226,8 +227,8 @@ void Crumpling::rest() {
   wall_.set_rate(rest_rate);
   for (double waited = 0; energy_ > rest_share * largest_energy_; waited += interval) {
     if (waited > longest_rest)
-      refuse(piece_.plan, "the sheet does not come to rest in the pipe, kinetic energy " + words(energy_ / largest_energy_) +
-                              " of the largest after " + words(longest_rest) + " s; give a larger confine_radius or another seed");
+      refuse(piece_.plan, "the sheet does not come to rest in the pipe, kinetic energy " + number_text(energy_ / largest_energy_) +
+                              " of the largest after " + number_text(longest_rest) + " s; give a larger confine_radius or another seed");
     advance(interval);
   }
 }
@@ -237,8 +238,8 @@ void Crumpling::fall() {
   rags_.set_gravity(gravity * wall_.shape().axis);
   for (double depth = -infinity; depth < piece_.rag.radius;) {
     if (rags_.time() > longest_fall)
-      refuse(piece_.plan, "the sheet is stuck in the hopper, its last particle " + words(-depth) + " m above the pipe after " +
-                              words(longest_fall) + " s; give a larger confine_radius, a smaller hopper_angle or another seed");
+      refuse(piece_.plan, "the sheet is stuck in the hopper, its last particle " + number_text(-depth) + " m above the pipe after " +
+                              number_text(longest_fall) + " s; give a larger confine_radius, a smaller hopper_angle or another seed");
     advance(interval);
     depth = infinity;
     for_all([&](const Tile& tile, int k, int, int) { depth = std::min(depth, dot(tile.vector(Tile::x, k), wall_.shape().axis)); });
@@ -265,10 +266,11 @@ CrumpledPose Crumpling::result() {
   pose.overlap_over_radius = rags_.contacts()->measures().max_overlap_over_radius;
   pose.strain_p99 = std::max(bond_strain_quantile(rags_, 0, 0.99), -bond_strain_quantile(rags_, 0, 0.01));
   pose.duration = rags_.time();
-  if (piece_.plan.kind == PosePlan::Kind::confined && outside > 0) refuse_crushed("particles are left " + words(outside) + " m outside");
+  if (piece_.plan.kind == PosePlan::Kind::confined && outside > 0)
+    refuse_crushed("particles are left " + number_text(outside) + " m outside");
   if (pose.strain_p99 > largest_strain || pose.overlap_over_radius > largest_overlap)
-    refuse_crushed("strain of the bonds (p99) " + words(pose.strain_p99) + ", must be below " + words(largest_strain) +
-                   ", overlap over radius " + words(pose.overlap_over_radius) + ", must be below " + words(largest_overlap));
+    refuse_crushed("strain of the bonds (p99) " + number_text(pose.strain_p99) + ", must be below " + number_text(largest_strain) +
+                   ", overlap over radius " + number_text(pose.overlap_over_radius) + ", must be below " + number_text(largest_overlap));
   return pose;
 }
 
@@ -286,7 +288,7 @@ CrumpledPose crumple(const RagPiece& piece, const ContactSettings& contacts) {
       if (failure.code != ExitCode::usage) throw;
       if (attempt == most_attempts)
         throw Error(failure.code, std::string(failure.what()) + " (in the last of " + std::to_string(attempt) +
-                                      " attempts, with walls that close at " + words(speed) + " m/s)");
+                                      " attempts, with walls that close at " + number_text(speed) + " m/s)");
     }
 }
 

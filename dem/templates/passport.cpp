@@ -29,7 +29,7 @@ BondProperties between(const BondProperties& a, const BondProperties& b, double 
           .shear_strength = between(a.shear_strength, b.shear_strength, t)};
 }
 
-std::string millimetres(double length) { return words(1e3 * length); }
+std::string millimetres(double length) { return number_text(1e3 * length); }
 
 /// One [[bond]]; keys beside the properties are the record of the calibration.
 void read_bond(const Table& table, Passport& passport, std::array<std::vector<double>, 2>& seen) {

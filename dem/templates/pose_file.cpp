@@ -34,7 +34,7 @@ std::vector<ParticlePose> read_pose_file(const std::filesystem::path& file, cons
     const double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, length = std::sqrt(square);
     if (id < 0 || static_cast<std::size_t>(id) >= n || given[id])
       fail(number, "id " + std::to_string(id) + " is out of 0 .. " + std::to_string(n - 1) + " or given twice");
-    if (!(std::abs(length - 1) < 1e-3)) fail(number, "quaternion of length " + words(length) + ", a unit quaternion is needed");
+    if (!(std::abs(length - 1) < 1e-3)) fail(number, "quaternion of length " + number_text(length) + ", a unit quaternion is needed");
     // What was written at full length keeps its bits.
     const double scale = std::abs(square - 1) < 1e-14 ? 1 : 1 / length;
     poses[id] = {x, {scale * q.w, scale * q.x, scale * q.y, scale * q.z}};

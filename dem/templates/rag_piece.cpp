@@ -41,9 +41,9 @@ void check_size(const RagSettings& s, const std::string& where) {
   if (s.shape == Shape::disc) n = s.diameter * s.diameter / (4 * s.radius * s.radius);
   if (s.shape == Shape::fibre) n = s.n_points > 0 ? s.n_points : s.length / (2 * s.radius);
   if (n > most_particles())
-    throw Error(ExitCode::usage, where + ": is a lattice of " + words(n) + " particles of radius " + words(s.radius) +
-                                     " m, must be at most " + words(most_particles()) + " in the " + words(physical_memory() / 1e9) +
-                                     " GB of this machine; give a larger radius or a smaller piece");
+    throw Error(ExitCode::usage, where + ": is a lattice of " + number_text(n) + " particles of radius " + number_text(s.radius) +
+                                     " m, must be at most " + number_text(most_particles()) + " in the " +
+                                     number_text(physical_memory() / 1e9) + " GB of this machine; give a larger radius or a smaller piece");
 }
 
 int whole_particles(double length, double radius) { return std::max(1, static_cast<int>(std::lround(length / (2 * radius)))); }
@@ -69,8 +69,8 @@ void set_thickness(const RagSettings& s, const std::string& where, Rag& rag) {
   for (const auto& [key, given, target] : {std::tuple{"contact_thickness", s.contact_thickness, &rag.contact_thickness},
                                            std::tuple{"layer_thickness", s.layer_thickness, &rag.layer_thickness}}) {
     if (given && *given > largest * (1 + 1e-12))
-      throw Error(ExitCode::usage, where + ": " + key + " = " + words(*given) + " m, must be at most the lattice spacing, 2 r_p = " +
-                                       words(largest) + " m; give a smaller one, or a larger radius");
+      throw Error(ExitCode::usage, where + ": " + key + " = " + number_text(*given) + " m, must be at most the lattice spacing, 2 r_p = " +
+                                       number_text(largest) + " m; give a smaller one, or a larger radius");
     *target = given ? std::min(*given, largest) : 0;
   }
 }

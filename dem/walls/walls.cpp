@@ -67,8 +67,9 @@ void WallSet::add_plane(const std::string& name, const Vec3& point, const Vec3& 
 void WallSet::add_box(const std::string& name, const Vec3& lower, const Vec3& upper, const WallMotion& motion) {
   for (int d = 0; d < 3; ++d)
     if (!(lower[d] < upper[d]))
-      throw Error(ExitCode::usage, "wall \"" + name + "\": lower (" + words(lower[d]) + " m) is not below upper (" + words(upper[d]) +
-                                       " m) along axis " + std::to_string(d) + ", a box needs an inside; exchange or correct them");
+      throw Error(ExitCode::usage, "wall \"" + name + "\": lower (" + number_text(lower[d]) + " m) is not below upper (" +
+                                       number_text(upper[d]) + " m) along axis " + std::to_string(d) +
+                                       ", a box needs an inside; exchange or correct them");
   check_motion(name, motion);
   WallBody body{name, motion, {}, {}};
   for (int d = 0; d < 3; ++d) {

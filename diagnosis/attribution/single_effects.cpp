@@ -103,7 +103,7 @@ void Attributor::identify(const Screening& screening) {
     const std::string& name = model_.effects()[a].name;
     i.detectability[name] = screening.detectability(a);
     if (i.detectability[name] < blind_detectability)
-      i.blind[name] = "its expected signature is " + words(i.detectability[name]) + " standard uncertainties, below 3";
+      i.blind[name] = "its expected signature is " + number_text(i.detectability[name]) + " standard uncertainties, below 3";
     for (const int b : candidates_)
       if (a != b) i.cosines[name][model_.effects()[b].name] = screening.cosine(a, b);
   }

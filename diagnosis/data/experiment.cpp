@@ -111,7 +111,7 @@ OperatingPoint read_point(const Table& table, const CaseFile& file) {
   for (const auto& [key, u] : point.input_u) {
     if (!std::isfinite(u) || u < 0)
       throw Error(ExitCode::usage,
-                  table.where() + " input_u \"" + key + "\" is " + words(u) + "; it is a relative standard uncertainty, 0 or more");
+                  table.where() + " input_u \"" + key + "\" is " + number_text(u) + "; it is a relative standard uncertainty, 0 or more");
   }
   return point;
 }
@@ -154,7 +154,8 @@ void convert(DatumRow& row, const Observable& observable, const std::string& fil
   const double factor = parse_unit(observable.unit)->factor;
   d.value *= factor, row.sd *= factor;
   const auto wrong = [&](const std::string& rule) {
-    return Error(ExitCode::usage, file + ":" + std::to_string(row.line) + ": " + observable.id + " is " + words(d.value) + ", but " + rule);
+    return Error(ExitCode::usage,
+                 file + ":" + std::to_string(row.line) + ": " + observable.id + " is " + number_text(d.value) + ", but " + rule);
   };
   if (observable.kind == Kind::lognormal && d.value <= 0) throw wrong("a lognormal quantity is positive");
   const bool several = row.n > 1;
@@ -203,7 +204,7 @@ void check_columns(const Experiment& experiment, const std::string& file) {
     if (!continuous || observable.noise_u > 0) continue;
     if (minimum == maximum)
       throw Error(ExitCode::usage,
-                  where + " is constant (" + words(minimum) + " SI) and has no noise_u: its uncertainty is unknown; give noise_u");
+                  where + " is constant (" + number_text(minimum) + " SI) and has no noise_u: its uncertainty is unknown; give noise_u");
     for (const auto& [p, column] : columns[o]) {
       if (column.replicates.size() < 2)
         throw Error(ExitCode::usage, where + " has one replicate at point \"" + experiment.points[p].id +

@@ -122,7 +122,7 @@ class Reading {
     const auto value = number<double>(field(4));
     if (!value || !(std::abs(*value) <= largest_measured))
       throw wrong("value \"" + shortened(field(4)) + "\" of " + shortened(field(3)) + " must be a finite number of at most " +
-                  words(largest_measured) + " in size; leave out rows without one");
+                  number_text(largest_measured) + " in size; leave out rows without one");
     d.value = *value;
     const std::string_view censored = field(5);
     if (censored == "1" || censored == "true")
@@ -142,7 +142,7 @@ class Reading {
     if (field(7).empty()) return;
     const auto sd = number<double>(field(7));
     if (!sd || !(*sd >= 0 && *sd <= largest_measured))
-      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 to " + words(largest_measured));
+      throw wrong("sd \"" + shortened(field(7)) + "\" must be a standard deviation between repeats, 0 to " + number_text(largest_measured));
     if (row.n == 1) throw wrong("sd is given for one repeat, which has none; give their number n, or leave sd empty");
     row.sd = *sd;
   }

@@ -210,7 +210,7 @@ std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::s
   for (const double factor : {1e-3, 1e-2, 0.1, 10.0, 1e2, 1e3, degree, 1 / degree, inch, 1 / inch, 60.0, 1 / 60.0}) {
     if (!(ratio > 0) || std::abs(std::log(ratio / factor)) > near) continue;
     Mistake mistake{.kind = Mistake::Kind::unit,
-                    .effect = fixed_effect("unit:" + unit, "data that are " + words(factor) + " times the true numbers"),
+                    .effect = fixed_effect("unit:" + unit, "data that are " + number_text(factor) + " times the true numbers"),
                     .factor = factor};
     for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o)
       if (experiment.observables[static_cast<std::size_t>(o)].unit == unit) mistake.observables.push_back(o);

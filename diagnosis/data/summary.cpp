@@ -68,7 +68,8 @@ class PointSummarizer {
     const auto found = slots_.find(key(observable, time));
     if (found == slots_.end())
       throw Error(ExitCode::usage, "point \"" + experiment_.points[result_.point].id + "\": no run can provide " +
-                                       experiment_.observables[observable].id + (std::isnan(time) ? "" : " at t = " + words(time) + " s") +
+                                       experiment_.observables[observable].id +
+                                       (std::isnan(time) ? "" : " at t = " + number_text(time) + " s") +
                                        "; remove it from the data, or extend the run of the case");
     return found->second;
   }

@@ -341,9 +341,9 @@ void Responses::note_rows_left_out(std::size_t point, const Response& answer) {
   for (const auto& [observable, left] : all) {
     if (left.n == 0) continue;
     notes_.push_back(experiment_.observables[static_cast<std::size_t>(observable)].id + " at point " + experiment_.points[point].id + ": " +
-                     std::to_string(left.n) + " of " + std::to_string(left.of) + " rows, from " + words(left.from) +
+                     std::to_string(left.n) + " of " + std::to_string(left.of) + " rows, from " + number_text(left.from) +
                      " s on, are not compared, for the runs have no number there" +
-                     (left.from > end ? "; they end at " + words(end) + " s: raise [time] end_s of the case." : "."));
+                     (left.from > end ? "; they end at " + number_text(end) + " s: raise [time] end_s of the case." : "."));
   }
 }
 

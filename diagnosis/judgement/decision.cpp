@@ -138,7 +138,7 @@ class Judge {
     for (const PredictiveCheck& check : v_.checks) {
       if (check.p >= check_limit) continue;
       v_.notes.push_back("Data like these are not expected under " + a_.names[static_cast<std::size_t>(first)] + ": " + check.name +
-                         " is " + words(check.value) + ", p = " + words(check.p) + ".");
+                         " is " + number_text(check.value) + ", p = " + number_text(check.p) + ".");
       return;
     }
   }
@@ -216,8 +216,8 @@ class Judge {
     const std::vector<std::string> acting = split(likeliest->first, '+');
     const auto acts = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
     if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
-    v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + words(v_.probability.at(a_.names[first])) + ") is " +
-                       likeliest->first + " (" + words(likeliest->second) +
+    v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + number_text(v_.probability.at(a_.names[first])) + ") is " +
+                       likeliest->first + " (" + number_text(likeliest->second) +
                        "), but an effect beyond the first is named only where it brings 6 nats and has a cell of its own.");
   }
 
@@ -256,16 +256,17 @@ class Judge {
     for (std::size_t e = 0; e < all.size(); ++e) {
       const std::string& name = v_.effects[e];
       if (all[e].absorbing)
-        v_.notes.push_back("The strength of " + name + ", " + words(all[e].mean) +
+        v_.notes.push_back("The strength of " + name + ", " + number_text(all[e].mean) +
                            ", is more than 3 standard deviations from its expected value: it may be compensating for another error."),
             hold = false;
       if (all[e].cochran_p < constancy_limit)
-        v_.notes.push_back("The strength of " + name + " differs between operating points (Cochran p = " + words(all[e].cochran_p) + ")."),
+        v_.notes.push_back("The strength of " + name + " differs between operating points (Cochran p = " + number_text(all[e].cochran_p) +
+                           ")."),
             hold = false;
     }
     constexpr double working_false_rate = 0.2;
     if (a_.placebo_rate > working_false_rate)
-      v_.notes.push_back("Placebo effects would be chosen in " + words(100 * a_.placebo_rate) +
+      v_.notes.push_back("Placebo effects would be chosen in " + number_text(100 * a_.placebo_rate) +
                          " % of the cases: the screening cannot distinguish an effect from chance here."),
           hold = false;
     return hold;

@@ -138,9 +138,9 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
   if (replicates > most_replicates)
     return "No number of repeats of these measurements would distinguish " + both + "; that needs another operating point or observable.";
   return "To distinguish " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
-         (std::isnan(best.time) ? "" : ", especially near t = " + words(best.time) + " s") + ": there their predictions differ most, by " +
-         two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
-         (replicates > 1 ? words(replicates) + " more repeats are enough." : "One more repeat is enough.");
+         (std::isnan(best.time) ? "" : ", especially near t = " + number_text(best.time) + " s") +
+         ": there their predictions differ most, by " + two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
+         (replicates > 1 ? number_text(replicates) + " more repeats are enough." : "One more repeat is enough.");
 }
 
 }  // namespace snag

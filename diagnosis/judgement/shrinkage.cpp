@@ -150,8 +150,9 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
   verdict.gap.floor = noise_floor(before);
   const std::uint64_t seed = model.experiment().seed;
   if (const double noise = excess_of_noise(before, seed); chosen > 0 && verdict.gap.before <= noise)
-    verdict.notes.push_back("The withheld points show no gap (excess " + words(verdict.gap.before) + ", noise alone makes up to " +
-                            words(noise) + "): the shrinkage cannot be estimated from them. Withhold points where the effect is larger.");
+    verdict.notes.push_back("The withheld points show no gap (excess " + number_text(verdict.gap.before) + ", noise alone makes up to " +
+                            number_text(noise) +
+                            "): the shrinkage cannot be estimated from them. Withhold points where the effect is larger.");
   // The chosen one first: without it there is no gap after.
   std::vector<int> order;
   if (chosen > 0) order.push_back(chosen);

@@ -39,7 +39,7 @@ bool names_one_of(const ScoreRow& row) {
 
 template <class Of, class Is>
 Score score(const std::vector<ScoreRow>& rows, std::string name, bool at_least, double limit, const Of& of, const Is& is) {
-  Score s{.name = std::move(name), .target = (at_least ? ">= " : "<= ") + words(limit), .at_least = at_least, .limit = limit};
+  Score s{.name = std::move(name), .target = (at_least ? ">= " : "<= ") + number_text(limit), .at_least = at_least, .limit = limit};
   for (const ScoreRow& row : rows)
     if (of(row)) ++s.n, s.hits += is(row);
   if (s.n > 0) s.interval = clopper_pearson(s.hits, s.n);

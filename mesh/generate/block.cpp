@@ -55,7 +55,7 @@ Expectation named(const Block& block, int volume) {
 int face_at(int volume, int axis, double place) {
   for (const Face& face : faces_of({volume}))
     if (face.lies_at(axis, place)) return face.tag;
-  throw Error(ExitCode::mesh, "snag-mesh: a block has no face at " + words(place) + " m; make the block longer than 0.1 mm");
+  throw Error(ExitCode::mesh, "snag-mesh: a block has no face at " + number_text(place) + " m; make the block longer than 0.1 mm");
 }
 
 }  // namespace

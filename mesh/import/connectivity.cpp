@@ -91,7 +91,8 @@ Vec3 middle(const MeshParts& parts, const std::array<int, 4>& key) {
 }
 
 [[noreturn]] void throw_overlap(const MeshParts& parts, const Side& side, std::ptrdiff_t n_cells) {
-  throw Error(ExitCode::mesh, parts.source + ": a face at " + place(middle(parts, side.key)) + " belongs to " + std::to_string(n_cells) +
+  throw Error(ExitCode::mesh, parts.source + ": a face at " + point_text(middle(parts, side.key)) + " belongs to " +
+                                  std::to_string(n_cells) +
                                   " cells, at most two may share it; mesh the volumes without overlap and without duplicate cells");
 }
 
@@ -110,8 +111,8 @@ LocalFace face_of(const MeshParts& parts, std::span<const Side> group) {
   } else if (first_cell != group.begin()) {
     face.patch = group.front().index;
     if (first_cell[-1].index != face.patch)
-      throw Error(ExitCode::mesh, parts.source + ": the boundary face at " + place(middle(parts, group[0].key)) + " has two names, \"" +
-                                      parts.patches[face.patch] + "\" and \"" + parts.patches[first_cell[-1].index] +
+      throw Error(ExitCode::mesh, parts.source + ": the boundary face at " + point_text(middle(parts, group[0].key)) +
+                                      " has two names, \"" + parts.patches[face.patch] + "\" and \"" + parts.patches[first_cell[-1].index] +
                                       "\"; give every surface one physical name");
   }
   face.owner = owner.cell;
@@ -127,7 +128,7 @@ void require_distinct_nodes(const MeshParts& parts) {
     const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
     if (twice == sorted.end()) continue;
     throw Error(ExitCode::mesh, parts.source + ": cell " + std::to_string(c + 1) + " of the file has the node at " +
-                                    place(parts.node[*twice]) + " twice, all corners of a cell must differ; mesh that volume again");
+                                    point_text(parts.node[*twice]) + " twice, all corners of a cell must differ; mesh that volume again");
   }
 }
 
@@ -145,14 +146,14 @@ void require_fitting_sides(const MeshParts& parts, std::span<const Side> group) 
   const Side& side = group[0];
   if (n_cells == 0)
     throw Error(ExitCode::mesh,
-                parts.source + ": a face of the surface \"" + parts.patches[side.index] + "\" at " + place(middle(parts, side.key)) +
+                parts.source + ": a face of the surface \"" + parts.patches[side.index] + "\" at " + point_text(middle(parts, side.key)) +
                     " is not a face of a cell, it must be one; a cell is missing there or has its corners in a wrong order: mesh "
                     "surfaces and volumes together");
   if (n_cells > 2) throw_overlap(parts, side, n_cells);
   if (n_cells == 2 && side.key[3] != none && opposite_node(parts, first_cell[0]) != opposite_node(parts, first_cell[1]))
     throw Error(ExitCode::mesh,
                 parts.source + ": the face between cells " + std::to_string(first_cell[0].cell + 1) + " and " +
-                    std::to_string(first_cell[1].cell + 1) + " of the file at " + place(middle(parts, side.key)) +
+                    std::to_string(first_cell[1].cell + 1) + " of the file at " + point_text(middle(parts, side.key)) +
                     " has its corners in another cycle in each; one of the cells is twisted: write its corners in gmsh's order");
 }
 
@@ -165,7 +166,7 @@ void require_names(const MeshParts& parts, const std::vector<LocalFace>& faces) 
   Vec3 where;
   for (int i = 0; i < first->n_nodes; ++i) where += parts.node[first->node[i]];
   throw Error(ExitCode::mesh, parts.source + ": " + std::to_string(n_unnamed) + " boundary faces of a rank have no name, the first at " +
-                                  place(where / first->n_nodes) +
+                                  point_text(where / first->n_nodes) +
                                   "; every surface of the boundary needs a name (gmsh: Physical Surface(\"wall\") = {...})");
 }
 

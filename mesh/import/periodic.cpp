@@ -75,10 +75,11 @@ std::vector<Record> sorted_records(const MeshParts& parts, const std::vector<Loc
 
 [[noreturn]] void throw_unmatched(const MeshParts& parts, const Record& record, const std::string& reason) {
   const PeriodicPair& pair = parts.periodic[record.pair];
-  throw Error(ExitCode::mesh, parts.source + ": the face at " + place(record.centre) + " of periodic patch \"" +
+  throw Error(ExitCode::mesh, parts.source + ": the face at " + point_text(record.centre) + " of periodic patch \"" +
                                   (record.side == 0 ? pair.first : pair.second) + "\" " + reason + " on \"" +
                                   (record.side == 0 ? pair.second : pair.first) +
-                                  "\", faces must coincide within 1e-6 of their size after the translation " + place(pair.translation) +
+                                  "\", faces must coincide within 1e-6 of their size after the translation " +
+                                  point_text(pair.translation) +
                                   "; mesh the second patch as a copy of the first (gmsh: Periodic Surface) and check the translation");
 }
 
@@ -99,7 +100,7 @@ std::vector<int> partners(const MeshParts& parts, std::span<const Record> first,
     double distance_squared = 0;
     tree->knnSearch(&target.x, 1, &nearest, &distance_squared);
     if (std::sqrt(distance_squared) > tolerance * first[i].size)
-      throw_unmatched(parts, first[i], "has no partner (the nearest is " + words(std::sqrt(distance_squared)) + " m off)");
+      throw_unmatched(parts, first[i], "has no partner (the nearest is " + number_text(std::sqrt(distance_squared)) + " m off)");
     if (is_taken[nearest]++) throw_unmatched(parts, first[i], "shares its partner with another face");
     partner[i] = static_cast<int>(nearest);
   }

@@ -41,12 +41,13 @@ std::string extent(std::vector<std::pair<double, double>> arcs, const Vec3& zero
     reached = std::max(reached, start + length);
   }
   if (widest < 1e-6) return "all round the axis";
-  return words(std::round(begin / degree)) + " deg to " + words(std::round((begin + turn - widest) / degree)) +
-         " deg about the axis from (" + words(zero.x) + ", " + words(zero.y) + ", " + words(zero.z) + ")";
+  return number_text(std::round(begin / degree)) + " deg to " + number_text(std::round((begin + turn - widest) / degree)) +
+         " deg about the axis from (" + number_text(zero.x) + ", " + number_text(zero.y) + ", " + number_text(zero.z) + ")";
 }
 
 std::string extent(double lowest, double highest) {
-  return highest - lowest < 1e-6 * std::abs(highest) ? words(highest) + " m" : words(lowest) + " m to " + words(highest) + " m";
+  return highest - lowest < 1e-6 * std::abs(highest) ? number_text(highest) + " m"
+                                                     : number_text(lowest) + " m to " + number_text(highest) + " m";
 }
 
 /// How many faces of a side are open, and where.
@@ -79,8 +80,8 @@ std::string worst_of(const std::vector<OpenSide>& sides, const AxisFrame& frame)
   const RevolvedFace& face = side->side.face[worst];
   Vec3 middle;
   for (const int n : side->nodes_of(worst)) middle += side->side.node[n].position(side->turn) / face.n_nodes;
-  return std::string("the face of the ") + side->name + " side at " + place(frame.point_from(middle)) + " (" + words(face.area) +
-         " m2, cell " + std::to_string(face.cell_id) + ") is covered by the other side to " + words(100 * side->share[worst]) + " %";
+  return std::string("the face of the ") + side->name + " side at " + point_text(frame.point_from(middle)) + " (" + number_text(face.area) +
+         " m2, cell " + std::to_string(face.cell_id) + ") is covered by the other side to " + number_text(100 * side->share[worst]) + " %";
 }
 
 void draw(const std::vector<OpenSide>& sides, const AxisFrame& frame, const std::filesystem::path& file) {

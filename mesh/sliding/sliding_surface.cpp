@@ -117,7 +117,7 @@ class SurfaceBuilder {
   [[noreturn]] void fail(const SentFace& face, const std::string& what) const {
     Vec3 centre;
     for (int i = 0; i < face.n_nodes; ++i) centre += face.position[RawSide::corner(i)] / face.n_nodes;
-    throw Error(ExitCode::mesh, "sliding interface: the face at " + place(surface_.frame.point_from(centre)) + " " + what);
+    throw Error(ExitCode::mesh, "sliding interface: the face at " + point_text(surface_.frame.point_from(centre)) + " " + what);
   }
 
   void classify(RawSide& side) const {
@@ -130,8 +130,8 @@ class SurfaceBuilder {
       }
       const bool is_disc = high_z - low_z <= tolerance_;
       if (!is_disc && high_r - low_r > tolerance_)
-        fail(face, "lies on neither a cylinder nor a disc about the axis (r " + words(low_r) + " to " + words(high_r) + " m, z " +
-                       words(low_z) + " to " + words(high_z) +
+        fail(face, "lies on neither a cylinder nor a disc about the axis (r " + number_text(low_r) + " to " + number_text(high_r) +
+                       " m, z " + number_text(low_z) + " to " + number_text(high_z) +
                        " m); both sides must be made of these: correct the mesh, the axis or its origin");
       side.is_disc.push_back(is_disc);
     }
@@ -237,7 +237,7 @@ class SurfaceBuilder {
       if ((!face.is_disc || face.is_arc[RawSide::corner(i)]) && std::abs(radians(a.angle, b.angle)) > 2 * std::numbers::pi / 3 + 1e-9)
         fail(sent, "is wider than a third of a turn; refine the interface");
       if (face.inner_rim > 0 && !face.is_arc[RawSide::corner(i)] && distance_to_axis(a, b) < face.inner_rim - tolerance_)
-        fail(sent, "has an edge that cuts the circle of the inner rim (r " + words(face.inner_rim) + " m); refine the rim");
+        fail(sent, "has an edge that cuts the circle of the inner rim (r " + number_text(face.inner_rim) + " m); refine the rim");
     }
   }
 
@@ -256,13 +256,13 @@ void require_separate(const Mesh& mesh, const SlidingDescription& description) {
   const auto turns = [&](int cell) { return mesh.cell_zone[cell] == rotor; };
   for (int f = 0; f < mesh.n_interior; ++f)
     if (turns(mesh.owner[f]) != turns(mesh.neighbour[f]))
-      throw Error(ExitCode::mesh, "sliding interface: the turning and the stationary zone share the face at " + place(mesh.face_centre[f]) +
-                                      "; they must be meshed apart, with a patch on each side");
+      throw Error(ExitCode::mesh, "sliding interface: the turning and the stationary zone share the face at " +
+                                      point_text(mesh.face_centre[f]) + "; they must be meshed apart, with a patch on each side");
   for (const bool of_rotor : {true, false}) {
     const Patch& patch = mesh.patches[mesh.patch_index(of_rotor ? description.rotor_patch : description.stator_patch)];
     for (int f = patch.first; f < patch.end(); ++f)
       if (turns(mesh.owner[f]) != of_rotor)
-        throw Error(ExitCode::mesh, "sliding interface: patch \"" + patch.name + "\" at " + place(mesh.face_centre[f]) +
+        throw Error(ExitCode::mesh, "sliding interface: patch \"" + patch.name + "\" at " + point_text(mesh.face_centre[f]) +
                                         " belongs to zone \"" + mesh.zones[mesh.cell_zone[mesh.owner[f]]] + "\"; it must be the " +
                                         (of_rotor ? "turning" : "stationary") + " side");
   }

@@ -115,7 +115,7 @@ TurningMesh::TurningMesh(Mesh& mesh, const SlidingDescription& description, doub
   if (const std::int64_t n = n_bounded_global(); n > 0)
     log::warning("sliding interface: " + std::to_string(n) + " of " + std::to_string(n_facets_global()) +
                  " facets lie near or beyond the centre of one of their cells; their interpolation weights are limited to " +
-                 words(least_weight) + " and " + words(1 - least_weight) + "; smaller cells at the interface avoid it");
+                 number_text(least_weight) + " and " + number_text(1 - least_weight) + "; smaller cells at the interface avoid it");
 }
 
 /// Takes the faces of both patches out of the boundary; the patches go.

@@ -66,7 +66,7 @@ PassageGeometry::PassageGeometry(const PassageSettings& s, const Vec3& origin, c
     : origin_(origin), tongue_(s.tongue), tongue_reach_(s.tongue_reach), impeller_radius_(s.impeller_radius) {
   for (const auto& [value, key] :
        {std::pair{s.inlet_radius, "inlet_radius"}, {s.outlet_radius, "outlet_radius"}, {s.impeller_radius, "impeller_radius"}})
-    if (value <= 0) throw Error(ExitCode::usage, where + ": " + key + " = " + words(value) + " m must be above 0; give the radius");
+    if (value <= 0) throw Error(ExitCode::usage, where + ": " + key + " = " + number_text(value) + " m must be above 0; give the radius");
   const Vec3 into = direction_of(s.inlet_normal, where, "inlet_normal"), out = direction_of(s.outlet_normal, where, "outlet_normal");
   if (std::abs(dot(into, axis)) < least_part)
     throw Error(ExitCode::usage, where +
@@ -77,7 +77,7 @@ PassageGeometry::PassageGeometry(const PassageSettings& s, const Vec3& origin, c
   outlet_ = {"outlet", s.outlet_flange, out, s.outlet_radius, true};
   const Vec3 arm = across(s.tongue - origin, up_);
   if (norm(arm) < least_part * s.impeller_radius)
-    throw Error(ExitCode::usage, where + ": tongue = " + place(s.tongue) +
+    throw Error(ExitCode::usage, where + ": tongue = " + point_text(s.tongue) +
                                      " lies on the axis of [rotating_zone], where no angle begins; "
                                      "give the middle of its nose");
   first_ = unit(arm), second_ = cross(up_, first_);

@@ -279,7 +279,7 @@ std::vector<std::string> summary_keys() {
 }
 
 std::string results_in_words(const Summary& summary) {
-  const auto seconds = [](const std::optional<double>& time) { return time ? words(*time) + " s" : std::string("-"); };
+  const auto seconds = [](const std::optional<double>& time) { return time ? number_text(*time) + " s" : std::string("-"); };
   std::string text;
   for (const RagSummary& rag : summary.rags) {
     const PassageResult& verdict = rag.verdict;
@@ -294,7 +294,8 @@ std::string results_in_words(const Summary& summary) {
       text += ", head " + signed_percent(*head) + " and shaft power " + signed_percent(*power) + " while it passed";
   }
   if (summary.pump)
-    text += (text.empty() ? "" : "\n") + ("pump: head " + words(summary.pump->head) + " m at " + words(1e3 * summary.pump->flow) + " L/s");
+    text += (text.empty() ? "" : "\n") +
+            ("pump: head " + number_text(summary.pump->head) + " m at " + number_text(1e3 * summary.pump->flow) + " L/s");
   return text;
 }
 

@@ -79,8 +79,8 @@ std::vector<CheckedValue> checked(const json& summary) {
 }
 
 std::string failure_in_words(const CheckedValue& failed) {
-  return failed.check.meaning + ": " + words(failed.value.value_or(NAN)) + ", must not exceed " + words(failed.check.limit) + "; " +
-         failed.check.remedy;
+  return failed.check.meaning + ": " + number_text(failed.value.value_or(NAN)) + ", must not exceed " + number_text(failed.check.limit) +
+         "; " + failed.check.remedy;
 }
 
 }  // namespace snag

@@ -135,7 +135,7 @@ Forecast forecast(const Simulation& simulation) {
 void check_turn(const FlowSolver& water, double step) {
   const double turn = degrees_a_step(water, step);
   if (turn > largest_turn)
-    throw Error(ExitCode::usage, "[time] step = " + words(step) + " s: the rotor turns " + rounded(turn) +
+    throw Error(ExitCode::usage, "[time] step = " + number_text(step) + " s: the rotor turns " + rounded(turn) +
                                      " degrees in it, must not exceed " + rounded(largest_turn) +
                                      "; step_ms = " + rounded(1e3 * step * good_turn / turn) + " gives " + rounded(good_turn));
 }

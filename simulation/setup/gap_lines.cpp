@@ -54,7 +54,7 @@ std::vector<std::string> gap_lines(const WallSet& walls, const std::vector<Rag>&
     if (rag->contact_thickness <= 0) continue;
     const double deepest = wall_pair(*rag, contacts).law->deepest_overlap(contacts.impact_speed), half = rag->wall_reach();
     if (deepest > half)
-      lines.push_back("an impact at [contact] impact_speed = " + words(contacts.impact_speed) + " m/s presses " + rag->name +
+      lines.push_back("an impact at [contact] impact_speed = " + number_text(contacts.impact_speed) + " m/s presses " + rag->name +
                       " into a wall by " + mm(deepest) + ", more than half its contact_thickness, " + mm(half) +
                       ": raise [contact] wall_stiffness_factor");
   }

@@ -32,9 +32,10 @@ std::string bonds_of_another_cloth(const RagSettings& rag, const RagSettings& st
   const bool same_mass = rag.mass_per_area == standard.mass_per_area || rag.has_published_density(),
              same_thickness = rag.thickness == standard.thickness;
   if (same_mass && same_thickness) return "";
-  std::string text = name + " has mass_per_area = " + words(rag.mass_per_area) + " kg/m2 and thickness = " + words(1e3 * rag.thickness) +
-                     " mm, but the bonds of the wet dust cloth of Jensen (2018), which has " + words(standard.mass_per_area) +
-                     " kg/m2 and " + words(1e3 * standard.thickness) + " mm";
+  std::string text = name + " has mass_per_area = " + number_text(rag.mass_per_area) +
+                     " kg/m2 and thickness = " + number_text(1e3 * rag.thickness) +
+                     " mm, but the bonds of the wet dust cloth of Jensen (2018), which has " + number_text(standard.mass_per_area) +
+                     " kg/m2 and " + number_text(1e3 * standard.thickness) + " mm";
   if (same_mass != same_thickness && !rag.has_published_density())
     text += std::string("; its ") + (same_mass ? "mass" : "thickness") + " is the default one, too";
   return text + ". Give passport, or properties = \"custom\", for the bonds of another cloth";
@@ -45,9 +46,9 @@ std::string mass_of_another_liquid(const RagSettings& rag, const RagSettings& st
   if (rag.has_published_density() || rag.mass_per_area != standard.mass_per_area ||
       std::abs(liquid - water_density) <= noticeable * water_density)
     return "";
-  return name + " has mass_per_area = " + words(rag.mass_per_area) + " kg/m2, that of a cloth soaked with water of " +
-         words(water_density) + " kg/m3; soaked with this liquid of " + words(liquid) + " kg/m3 it has " +
-         words(soaked_mass(rag.thickness, liquid)) + " kg/m2. Give mass_per_area";
+  return name + " has mass_per_area = " + number_text(rag.mass_per_area) + " kg/m2, that of a cloth soaked with water of " +
+         number_text(water_density) + " kg/m3; soaked with this liquid of " + number_text(liquid) + " kg/m3 it has " +
+         number_text(soaked_mass(rag.thickness, liquid)) + " kg/m2. Give mass_per_area";
 }
 
 /// A line for each assumption; none for the cloth as it stands, soaked with water. `root`: of a case that has been read.
@@ -73,8 +74,8 @@ std::vector<std::string> rag_assumptions(const Table& root) {
 /// The sub-step of the rags and what limits it.
 std::string sub_step_words(const RagSystem& rags) {
   const double step = rags.stable_step(), limit = rags.step_limit().step;
-  return (std::isfinite(step) ? "sub-step " + words(step) + " s" : "no sub-steps") +
-         (std::isfinite(limit) ? " (limit " + words(limit) + " s by " + rags.step_limit().reason + ")"
+  return (std::isfinite(step) ? "sub-step " + number_text(step) + " s" : "no sub-steps") +
+         (std::isfinite(limit) ? " (limit " + number_text(limit) + " s by " + rags.step_limit().reason + ")"
                                : " (neither bonds nor contacts limit the step)");
 }
 

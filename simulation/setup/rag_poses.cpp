@@ -92,7 +92,7 @@ std::size_t first_alike(const std::vector<RagPiece>& pieces, std::size_t n) {
 RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSettings& contacts, CheckpointReader* stored, MadePoses* made,
                    const std::string& text) {
   // The ranks that build a run must agree on what was made before: those that build runs for themselves have made others.
-  const auto key = [&](std::size_t n) { return joined({words(size_of(comm)), words(n), text}); };
+  const auto key = [&](std::size_t n) { return joined({number_text(size_of(comm)), number_text(n), text}); };
   const auto is_stored = [&](std::size_t n) { return stored && stored->has(name_in_checkpoint(n)); };
   std::vector<std::string> reused;
   std::vector<std::size_t> model(pieces.size());  // the first piece of the same pose

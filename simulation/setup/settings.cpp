@@ -59,12 +59,13 @@ const bool time_table = add_case_table<TimeSettings>(40);
 
 std::int64_t TimeSettings::n_steps() const {
   if (run_on > 0 && !end_when_rags_left)
-    throw Error(ExitCode::usage, "[time] run_on = " + words(run_on) + " s has no effect without end_when_rags_left = true; give both");
+    throw Error(ExitCode::usage,
+                "[time] run_on = " + number_text(run_on) + " s has no effect without end_when_rags_left = true; give both");
   const double steps = end / step;
   const auto n = std::llround(steps);
   if (std::abs(steps - static_cast<double>(n)) > 1e-6)
-    throw Error(ExitCode::usage, "[time] end_s = " + words(end) + " is " + std::to_string(steps) + " steps of step_s = " + words(step) +
-                                     ", but must be a whole number of them; change one of the two");
+    throw Error(ExitCode::usage, "[time] end_s = " + number_text(end) + " is " + std::to_string(steps) + " steps of step_s = " +
+                                     number_text(step) + ", but must be a whole number of them; change one of the two");
   return n;
 }
 

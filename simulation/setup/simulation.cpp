@@ -67,7 +67,7 @@ void Simulation::read_mesh(const CaseFile& file) {
   }
   // Only standing meshes are shared: a turning one is left at some angle by the run before.
   mesh_key_ = joined({file.path(mesh_settings_.file).string(), file.path(mesh_settings_.parameters).string(), mesh_settings_.geometry,
-                      words(mesh_settings_.scale)});
+                      number_text(mesh_settings_.scale)});
   CachedMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
   if (!kept || !kept->mesh) {
     GeneratedMeshes of_this_run;
@@ -110,8 +110,9 @@ void Simulation::build_water(const CaseFile& file) {
   if (store_ && start_settings_.frozen) {
     std::string conditions;
     for (const Table& table : file.root().tables("boundary")) conditions += table.resolved();
-    const auto key = joined({mesh_key_, start_folder_.string(), words(start_settings_.map_nearest_cell), words(settings.density),
-                             words(settings.viscosity()), words(turbulence != nullptr), conditions});
+    const auto key =
+        joined({mesh_key_, start_folder_.string(), number_text(start_settings_.map_nearest_cell), number_text(settings.density),
+                number_text(settings.viscosity()), number_text(turbulence != nullptr), conditions});
     cached_flow_ = &store_->flows[key];
     water = cached_flow_->solver;
   }
@@ -230,7 +231,7 @@ void Simulation::remove_rags() {
     const Rag& rag = rags->rags()[static_cast<std::size_t>(r)];
     if (rags->presence(r) != RagSystem::Presence::present || passage->n_out()[r] < rag.n_particles) continue;
     rags->remove(r);
-    log::info(rag.name + ": left the mesh as a whole at " + words(time()) + " s, taken out of the run");
+    log::info(rag.name + ": left the mesh as a whole at " + number_text(time()) + " s, taken out of the run");
   }
 }
 
@@ -254,7 +255,7 @@ void Simulation::insert_rags() {
     rags->insert(r);
     fresh.push_back(r);
     if (piece.match_flow_velocity) add_flow_velocity(r);
-    if (time_step_ > 0) log::info(piece.rag.name + ": put in at " + words(time()) + " s");
+    if (time_step_ > 0) log::info(piece.rag.name + ": put in at " + number_text(time()) + " s");
   }
   check_start(*this, fresh, crowding);
 }
@@ -273,7 +274,7 @@ void Simulation::check_inside() {
   std::int64_t n = coupled->report().particles_outside;
   for (const std::int64_t out : passage->n_out()) n -= out;
   if (n <= 0) return;
-  const std::string found = "rags: " + std::to_string(n) + " particles are outside the mesh at t = " + words(time()) +
+  const std::string found = "rags: " + std::to_string(n) + " particles are outside the mesh at t = " + number_text(time()) +
                             " s and did not leave by a pressure outlet";
   if (periodic_)
     throw Error(ExitCode::invariant,

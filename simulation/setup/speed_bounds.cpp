@@ -56,8 +56,9 @@ SpeedBound SpeedBounds::at(double time, const FlowSolver* water, const Prescribe
   if (prescribed) now.widen(prescribed_speed(*prescribed, rags), "prescribed flow");
   const double speed = DivergenceBounds::speed * now.speed_;
   if (speed < impact_speed_) return {.speed = impact_speed_, .reason = "[contact] impact_speed, that of the fastest contact"};
-  return {.speed = speed,
-          .reason = words(DivergenceBounds::speed) + " times the speed of the case, " + words(now.speed_) + " m/s: " + now.source_};
+  return {
+      .speed = speed,
+      .reason = number_text(DivergenceBounds::speed) + " times the speed of the case, " + number_text(now.speed_) + " m/s: " + now.source_};
 }
 
 namespace {
@@ -90,8 +91,8 @@ void check_speeds(const RagSystem& rags, const SpeedBound& bound, const Coupling
   const std::string remedy = coupling_remedy(coupling);
   throw Error(ExitCode::diverged,
               rags.rags()[static_cast<std::size_t>(found.rag)].name + " diverged: particle " + std::to_string(found.id) + " moves with " +
-                  words(found.speed) + " m/s at " + place(found.place) + ", t = " + words(rags.time()) + " s, must not exceed " +
-                  words(bound.speed) + " m/s (" + bound.reason + "); " +
+                  number_text(found.speed) + " m/s at " + point_text(found.place) + ", t = " + number_text(rags.time()) +
+                  " s, must not exceed " + number_text(bound.speed) + " m/s (" + bound.reason + "); " +
                   (remedy.empty() ? "use a shorter [time] step, or [dem] step or safety where contacts throw it" : remedy));
 }
 

@@ -46,8 +46,8 @@ void check_in_water(const RagSystem& rags, const std::vector<int>& which, const 
 
 void check_overlap(const Rag& rag, double overlap_over_radius, const char* with) {
   if (overlap_over_radius <= largest_overlap_over_radius) return;
-  throw refused(rag, std::string("overlaps ") + with + " by " + words(overlap_over_radius) + " of a particle's radius",
-                "must not exceed " + words(largest_overlap_over_radius) + "; give the pieces other places");
+  throw refused(rag, std::string("overlaps ") + with + " by " + number_text(overlap_over_radius) + " of a particle's radius",
+                "must not exceed " + number_text(largest_overlap_over_radius) + "; give the pieces other places");
 }
 
 void check_contacts(RagSystem& rags, const std::vector<int>& which, double crowding) {
@@ -125,8 +125,8 @@ void check_waiting(const Simulation& simulation, int rag) {
   const RagPiece& piece = simulation.rags->pieces()[static_cast<std::size_t>(rag)];
   const Rag& properties = simulation.rags->rags()[static_cast<std::size_t>(rag)];
   if (piece.insert_time >= simulation.time_settings.end)
-    throw refused(properties, "insert_time is " + words(piece.insert_time) + " s",
-                  "must be before the end of the run at " + words(simulation.time_settings.end) + " s; correct one of them");
+    throw refused(properties, "insert_time is " + number_text(piece.insert_time) + " s",
+                  "must be before the end of the run at " + number_text(simulation.time_settings.end) + " s; correct one of them");
   if (!simulation.mesh) return;
   const MPI_Comm comm = simulation.mesh->comm;
   std::vector<Vec3> centres;
@@ -143,7 +143,7 @@ void check_waiting(const Simulation& simulation, int rag) {
     throw refused(properties, found, "all must start in the water; correct its place or size, or [mesh] scale");
   log::warning("start of " + properties.name + ": " + found +
                " at the angle of the rotor at the start; the run stops with an error if this is still true at t = " +
-               words(piece.insert_time) + " s");
+               number_text(piece.insert_time) + " s");
 }
 
 double overlap_of_particles(RagSystem& rags) {

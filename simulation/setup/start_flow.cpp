@@ -52,7 +52,7 @@ void check_same_mesh(CheckpointReader& reader, const Mesh& mesh, const std::stri
   for (int c = 0; c < mesh.n_cells; ++c) off = std::max(off, norm(centres[c] - mesh.cell_centre[c]) / std::cbrt(mesh.cell_volume[c]));
   off = maximum(mesh.comm, off);
   if (off > same_place)
-    throw Error(ExitCode::usage, where + ": the cells of that run have other positions, by up to " + words(off) +
+    throw Error(ExitCode::usage, where + ": the cells of that run have other positions, by up to " + number_text(off) +
                                      " of a cell's width: it is another mesh, or its rotor is at another angle" + remedy);
 }
 
@@ -147,13 +147,13 @@ StartedFlow start_flow(FlowSolver& water, const StartSettings& settings, const s
   CheckpointReader reader(mesh.comm, folder / "checkpoint");
   if (!reader.has(velocity_name)) throw Error(ExitCode::usage, where + ": that run has no water; name the output folder of one that has");
   const double time = reader.stamp().time;
-  std::string log_message = "start: water of " + folder.string() + " at " + words(time) + " s";
+  std::string log_message = "start: water of " + folder.string() + " at " + number_text(time) + " s";
   if (!reader.fallback().empty()) log_message += "; " + reader.fallback();
   std::vector<std::int64_t> ids(owned_ids(mesh).begin(), owned_ids(mesh).end());
   if (settings.map_nearest_cell) {
     double farthest = 0;
     ids = nearest_ids(reader, mesh, where, farthest);
-    log_message += ", from the nearest cells, " + words(farthest) + " m away or less";
+    log_message += ", from the nearest cells, " + number_text(farthest) + " m away or less";
   } else {
     check_same_mesh(reader, mesh, where);
     if (!settings.frozen && water.go_on_from(reader)) return {.log_message = log_message, .time = time};

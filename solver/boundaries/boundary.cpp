@@ -218,7 +218,7 @@ void BoundarySet::carry_off_the_rest() {
 void BoundarySet::check_net_flux() const {
   const auto [net, carried] = net_flux();
   if (std::abs(net) > net_flux_tolerance * carried)
-    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + words(net) +
+    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + number_text(net) +
                                      " m3/s) must be zero where no patch fixes the pressure; give one patch kind = \"pressure_outlet\"");
 }
 

@@ -23,7 +23,8 @@ void TimeCourse::check(const std::string& where) const {
   if (ramp > 0 && !times.empty()) throw Error(ExitCode::usage, where + ": ramp and times are both given; keep one of them");
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1]))
-      throw Error(ExitCode::usage, where + ": times must increase, but " + words(times[i]) + " s follows " + words(times[i - 1]) + " s");
+      throw Error(ExitCode::usage,
+                  where + ": times must increase, but " + number_text(times[i]) + " s follows " + number_text(times[i - 1]) + " s");
 }
 
 double TimeCourse::at(double time) const {

@@ -245,8 +245,8 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   }
   if (stopped)
     throw Error(ExitCode::diverged, "pressure equation: conjugate gradients stopped after " + std::to_string(report.iterations) +
-                                        " iterations (" + stopped + ", residual " + words(report.final) + ", wanted " + words(target) +
-                                        "); check the mesh (snag mesh --info), or take smaller steps");
+                                        " iterations (" + stopped + ", residual " + number_text(report.final) + ", wanted " +
+                                        number_text(target) + "); check the mesh (snag mesh --info), or take smaller steps");
   const double decades = report.final > 0 && report.initial > report.final ? std::log10(report.initial / report.final) : 0;
   if (decades > 0.5) {
     const double cost = report.iterations / decades;

@@ -32,7 +32,7 @@ int TurbulenceReport::sweeps() const {
 void Turbulence::refuse_rough_walls(const Flow& flow, const BoundarySet& boundary) {
   for (int p = 0; p < static_cast<int>(flow.mesh.patches.size()); ++p)
     if (boundary.roughness(p) > 0)
-      throw Error(ExitCode::usage, boundary.where(p) + ": roughness_height = " + words(boundary.roughness(p)) + " m at patch \"" +
+      throw Error(ExitCode::usage, boundary.where(p) + ": roughness_height = " + number_text(boundary.roughness(p)) + " m at patch \"" +
                                        flow.mesh.patches[p].name + "\", but the turbulence model \"" + section().name +
                                        "\" has no law for rough walls; take k_epsilon or realizable_k_epsilon, or a height of 0");
 }

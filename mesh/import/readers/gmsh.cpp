@@ -135,8 +135,8 @@ void GmshFile::read_format() {
   const bool is_binary = reader_.number<int>() == 1;
   is_41_ = std::abs(version - 4.1) < 0.01;
   if (!is_41_ && !(std::abs(version - 2.2) < 0.01))
-    throw Error(ExitCode::mesh,
-                reader_.name() + ": gmsh format " + words(version) + " is not read, 2.2 and 4.1 are; save with Mesh.MshFileVersion = 4.1");
+    throw Error(ExitCode::mesh, reader_.name() + ": gmsh format " + number_text(version) +
+                                    " is not read, 2.2 and 4.1 are; save with Mesh.MshFileVersion = 4.1");
   reader_.number<int>();
   reader_.skip_line();
   if (!is_binary) return;

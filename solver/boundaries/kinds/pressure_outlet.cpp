@@ -70,8 +70,8 @@ struct PressureOutlet final : Boundary {
     const double response = response_time.value_or(usual_response * dt);
     // A hair's breadth for the rounding of time.
     if (response < shortest_response * dt * (1 - 1e-6))
-      throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": response_time (" + words(response) + " s) must be at least " +
-                                       words(shortest_response) + " time steps of " + words(dt) +
+      throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": response_time (" + number_text(response) +
+                                       " s) must be at least " + number_text(shortest_response) + " time steps of " + number_text(dt) +
                                        " s; make it longer or the steps shorter");
     const double now = through(flow, patch, flow.flux_old), before = through(flow, patch, flow.flux);
     control->advance({.flow = now, .flow_before = before, .dt = dt, .dt_before = flow.time_step > 0 ? flow.time_step_size : 0},

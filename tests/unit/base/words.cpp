@@ -10,11 +10,11 @@ using namespace snag;
 
 // Small numbers keep their digits in messages, and are not printed as 0.000000.
 TEST(Words, SmallNumbersKeepTheirDigits) {
-  EXPECT_EQ(words(1.003e-6), "1.003e-06");
-  EXPECT_EQ(words(0.25), "0.25");
+  EXPECT_EQ(number_text(1.003e-6), "1.003e-06");
+  EXPECT_EQ(number_text(0.25), "0.25");
   EXPECT_EQ(rounded(0.0012345), "0.00123");
   EXPECT_EQ(rounded(1234567), "1.23e+06");
-  EXPECT_EQ(place({0.1, 0, -2e-7}), "(0.1, 0, -2e-07) m");
+  EXPECT_EQ(point_text({0.1, 0, -2e-7}), "(0.1, 0, -2e-07) m");
 }
 
 // Splitting keeps empty parts, so that a missing column does not go unnoticed.
