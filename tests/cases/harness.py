@@ -157,9 +157,16 @@ def program_processes(process):
 
 
 def wait_for_the_end_of(process, timeout=20):
-    """Return once a process that is no child of this one is gone."""
+    """Return once a process that is not a child of this one has ended: its files and locks are closed, even if nobody has asked for its exit code."""
+    def runs():
+        try:
+            state = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+            return state not in "ZX" or len(os.listdir(f"/proc/{process}/task")) > 1
+        except (FileNotFoundError, ProcessLookupError):
+            return False
+
     begun = time.monotonic()
-    while pathlib.Path(f"/proc/{process}").exists():
+    while runs():
         if time.monotonic() - begun > timeout:
             raise AssertionError(f"process {process} is still there after {timeout} s")
         time.sleep(0.02)

@@ -166,6 +166,8 @@ class Pile(PileTest):
 
 
 class PileOnRanks(PileTest):
+    layers = 4
+
     @harness.parallel
     def test_the_same_on_three_ranks(self):
         """The fall and the impacts, one rank's rags among those of the others."""
