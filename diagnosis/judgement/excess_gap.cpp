@@ -86,8 +86,12 @@ double excess_of_noise(const WithheldError& error, std::uint64_t seed) {
 
 Shrinkage shrinkage(const WithheldError& before, const WithheldError& after, std::uint64_t seed) {
   const double G_before = excess_gap(before);
+  if (G_before <= excess_of_noise(before, seed)) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {none, none, none};
+  }
   Shrinkage result;
-  result.mean = G_before > excess_of_noise(before, seed) ? 1 - excess_gap(after) / G_before : std::numeric_limits<double>::quiet_NaN();
+  result.mean = 1 - excess_gap(after) / G_before;
   const WithheldError clean_before = without_noise(before), clean_after = without_noise(after);
   NormalNumbers random(seed + 17);
   std::vector<double> draws;
@@ -99,7 +103,7 @@ Shrinkage shrinkage(const WithheldError& before, const WithheldError& after, std
     if (own > rounding) draws.push_back(1 - left / own);
   }
   std::sort(draws.begin(), draws.end());
-  if (draws.empty() || std::isnan(result.mean)) return {result.mean, result.mean, result.mean};
+  if (draws.empty()) return {result.mean, result.mean, result.mean};
   result.low = std::min(result.mean, draws[static_cast<std::size_t>(0.025 * static_cast<double>(draws.size() - 1))]);
   result.high = std::max(result.mean, draws[static_cast<std::size_t>(0.975 * static_cast<double>(draws.size() - 1))]);
   return result;
