@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/words.hpp"
+#include "parallel/session.hpp"
 
 namespace snag {
 
 namespace {
 
-constexpr int coarse_seeds = 2;
+constexpr int first_seed = 1, coarse_seeds = 2;
 constexpr double first_share = 0.12;  // S_t of the scan's first point over the mean of the two S_nb: torsion and bending of a bond alike
 constexpr double scan_factor = 2;
 constexpr int scan_points = 3;
@@ -37,7 +39,7 @@ class DrapeFit {
            points_.begin();
   }
   std::vector<DrapePoint>& points() { return points_; }
-  RagSheet sheet(std::size_t point);
+  RagSheet sheet(std::size_t point) const;
 
  private:
   void add(const std::vector<double>& stiffnesses);
@@ -48,6 +50,7 @@ class DrapeFit {
   const TextileTests& tests_;
   const CalibrationSettings& settings_;
   std::vector<DrapePoint> points_;
+  std::map<double, RagSheet> sheets_;  // of the first seed, by S_t: those that this rank has run
 };
 
 void DrapeFit::scan() {
@@ -90,7 +93,7 @@ void DrapeFit::complete() {
 void DrapeFit::add(const std::vector<double>& stiffnesses) {
   std::vector<Job> jobs;
   for (const double stiffness : stiffnesses) {
-    for (int seed = 1; seed <= coarse_seeds; ++seed) jobs.push_back({points_.size(), seed});
+    for (int seed = first_seed; seed <= coarse_seeds; ++seed) jobs.push_back({points_.size(), seed});
     points_.push_back({});
     points_.back().bond = bonds_at(tests_, settings_, stiffness);
   }
@@ -102,8 +105,10 @@ void DrapeFit::add(const std::vector<double>& stiffnesses) {
 void DrapeFit::run(const std::vector<Job>& jobs) {
   const std::vector<DrapeSample> samples = drape_samples(comm_, jobs.size(), [&](std::size_t j) {
     const DrapePoint& point = points_[jobs[j].point];
-    const Drape drape = relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, point.bond), jobs[j].seed);
-    return DrapeSample{jobs[j].seed, outline_from_above(drape.sheet, settings_.radius), drape.cost};
+    Drape drape = relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, point.bond), jobs[j].seed);
+    const DrapeSample sample{jobs[j].seed, outline_from_above(drape.sheet, settings_.radius), drape.cost};
+    if (jobs[j].seed == first_seed) sheets_[point.tangential_stiffness()] = std::move(drape.sheet);
+    return sample;
   });
   for (std::size_t j = 0; j < jobs.size(); ++j) points_[jobs[j].point].samples.push_back(samples[j]);
   for (const Job& job : jobs) average(points_[job.point]);
@@ -134,10 +139,11 @@ void DrapeFit::average(DrapePoint& point) const {
                  square((point.wave_count - measured.wave_count) / wave_count_tolerance);
 }
 
-/// The first seed once more: its sheet was not kept on the rank that had it.
-RagSheet DrapeFit::sheet(std::size_t point) {
-  return relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, points_[point].bond), points_[point].samples[0].seed)
-      .sheet;
+/// Of the first seed; run once more where another rank had it.
+RagSheet DrapeFit::sheet(std::size_t point) const {
+  const auto kept = sheets_.find(points_[point].tangential_stiffness());
+  if (kept != sheets_.end()) return kept->second;
+  return relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, points_[point].bond), first_seed).sheet;
 }
 
 /// S_nb at the ends of the measured overhangs: it rises with the overhang.
@@ -175,7 +181,9 @@ Calibration calibrate(MPI_Comm comm, const TextileTests& tests, const Calibratio
   DrapeFit fit(comm, tests, settings);
   fit.scan(), fit.refine(), fit.complete();
   result.chosen = fit.best();
-  result.sheet = fit.sheet(result.chosen);
+  on_all_ranks(comm, [&] {
+    if (rank_of(comm) == 0) result.sheet = fit.sheet(result.chosen);
+  });
   result.drapes = std::move(fit.points());
   result.bond = result.drapes[result.chosen].bond;
   for (const DrapePoint& point : result.drapes)

@@ -50,7 +50,7 @@ struct Calibration {
   std::vector<DrapePoint> drapes;  // rising in S_t
   std::size_t chosen = 0;
   MeasuredRange tangential_range;  // S_t whose drapes are within the tolerances, N/m3
-  RagSheet sheet;                  // the first seed of the chosen drape
+  RagSheet sheet;                  // the first seed of the chosen drape; rank 0 only
 };
 
 /// Deviations of a drape that a fit accepts (those of the published one), from the measured mean.

@@ -139,7 +139,7 @@ void all_ranks(Findings& findings, const Limits& limit, bool quick) {
 }  // namespace
 
 ExitCode bench_dem(const DemBenchOptions& options) {
-  Findings findings(options.quick ? 5e5 : 2e6);
+  Findings findings(options.quick ? 1.5e5 : 2e6);
   std::optional<PeerSheet> lammps;
   Limits limit;
   const double bandwidth = triad_bandwidth(MPI_COMM_WORLD), n = size_of(world), rate = multiply_add_rate();
