@@ -106,7 +106,7 @@ void DrapeFit::run(const std::vector<Job>& jobs) {
   const std::vector<DrapeSample> samples = drape_samples(comm_, jobs.size(), [&](std::size_t j) {
     const DrapePoint& point = points_[jobs[j].point];
     Drape drape = relaxed_drape(drape_test(tests_), drape_cloth(tests_, settings_.radius, point.bond), jobs[j].seed);
-    const DrapeSample sample{jobs[j].seed, outline_from_above(drape.sheet, settings_.radius), drape.cost};
+    DrapeSample sample{jobs[j].seed, outline_from_above(drape.sheet, settings_.radius), drape.cost};
     if (jobs[j].seed == first_seed) sheets_[point.tangential_stiffness()] = std::move(drape.sheet);
     return sample;
   });

@@ -39,6 +39,9 @@ class StripWeight : public TileForce {
 constexpr double strip_tolerance = 2e-6;  // m, of the places at rest
 constexpr double bracket_share = 2e-4;    // of S_nb: moves the tip by a few thousandths of a millimetre
 constexpr std::uintmax_t most_evaluations = 60;
+// Of S_nb from Peirce's, either way: further off the strip bends by something else, such as the shear of a bond as long as the overhang,
+// and the steps of ever stiffer strips become ever smaller.
+constexpr double largest_factor = 1e4;
 
 /// Particles beyond the edge, and what the last stands for.
 struct StripCells {
@@ -125,7 +128,9 @@ StripShape moved_strip(const Strip& strip, double bond_damping, double duration,
 double height_above_plane(const Vec3& tip, double angle) { return tip.x * std::sin(angle) + tip.z * std::cos(angle); }
 
 double bending_stiffness_to_plane(Strip strip, double angle) {
+  const double guess = stiffness_of_peirce(strip, angle);
   const auto height = [&](double stiffness) {
+    if (stiffness > largest_factor * guess || stiffness < guess / largest_factor) throw boost::math::evaluation_error("no root");
     strip.bond.bending_stiffness = stiffness;
     return height_above_plane(hanging_strip(strip).tip, angle);
   };
@@ -133,15 +138,17 @@ double bending_stiffness_to_plane(Strip strip, double angle) {
   std::uintmax_t evaluations = most_evaluations;
   std::pair<double, double> bracket;
   try {
-    bracket = boost::math::tools::bracket_and_solve_root(height, stiffness_of_peirce(strip, angle), 1.5, true, close, evaluations);
+    bracket = boost::math::tools::bracket_and_solve_root(height, guess, 1.5, true, close, evaluations);
   } catch (const boost::math::evaluation_error&) {
     evaluations = most_evaluations;
   }
   if (evaluations >= most_evaluations)
-    throw Error(ExitCode::usage, "bending test: the tip of a strip of " + number_text(strip.overhang) + " m and " +
-                                     number_text(strip.mass_per_area) + " kg/m2 does not reach the plane at " +
-                                     number_text(angle * 180 / std::numbers::pi) +
-                                     " degrees with any bending stiffness; check overhang, mass_per_area and plane_angle of [bending]");
+    throw Error(ExitCode::usage,
+                "bending test: the tip of a strip of " + number_text(strip.overhang) + " m and " + number_text(strip.mass_per_area) +
+                    " kg/m2 does not reach the plane at " + number_text(angle * 180 / std::numbers::pi) +
+                    " degrees with any bending stiffness; check overhang, mass_per_area and plane_angle of [bending], or use a "
+                    "smaller --radius (" +
+                    number_text(strip.radius) + " m now)");
   return 0.5 * (bracket.first + bracket.second);
 }
 

@@ -161,7 +161,9 @@ void write(const Request& request, const CaseFile& parameters) {
                  request.out.string() + ": cannot be written (" + why + "), the folder must exist and have room; choose another --out");
   };
   try {
-    OpenFile(partial, O_WRONLY | O_CREAT | O_TRUNC);  // gmsh does not say why it cannot
+    {
+      const OpenFile created(partial, O_WRONLY | O_CREAT | O_TRUNC);  // gmsh does not say why it cannot
+    }
     gmsh::write(partial.string());
     check_written(partial);
     std::filesystem::rename(partial, request.out);

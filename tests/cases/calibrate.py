@@ -57,6 +57,10 @@ class Calibrate(harness.CaseTest):
     def test_overhang_below_a_particle(self):
         self.refused(["overhang", "radius", "--radius"], "overhang_mean_m = 0.021                 # Fig. 2.8 text: mean 21.5 mm\noverhang_range_m = [0.020, 0.024]", "overhang_mean_m = 0.004", "--radius", "5mm")
 
+    def test_radius_near_the_overhang(self):
+        """The strip shears at its one bond: no bending stiffness lifts it to the plane."""
+        self.refused(["overhang", "--radius", "0.0075"], "", "", "--radius", "7.5mm")
+
     def test_misspelt_key(self):
         self.refused(["max_elongtion", "max_elongation"], "max_elongation_m = 0.0179", "max_elongtion_m = 0.0179")
 
