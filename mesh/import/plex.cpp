@@ -71,8 +71,8 @@ PetscInt common_support(DM dm, const std::vector<PetscInt>& points, PetscInt con
   return common;
 }
 
-/// The face of these vertices, which go around it. By its edges: DMPlexGetFullJoin visits all cells at each vertex, which takes half of an
-/// import.
+/// The face of these vertices, which go around it. By its edges: DMPlexGetFullJoin visits all cells at each vertex, which took a fifth of
+/// an import.
 PetscInt face_of(DM dm, const std::vector<PetscInt>& vertices) {
   const std::size_t n = vertices.size();
   std::vector<PetscInt> edges;
