@@ -200,6 +200,20 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
   return warnings;
 }
 
+std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_walls, bool water_has_walls) {
+  std::vector<std::string> warnings;
+  if (rags_know_walls) return warnings;
+  for (const auto& force : coupling.forces) {
+    const ForceDescription description = force->description();
+    if (description.samples.wall && (water_has_walls || description.role == Role::drag_modifier))
+      warnings.push_back(
+          "[coupling] forces: " + description.name +
+          " looks for the nearest wall, but the case has no [[wall]], so that it takes the particles to be far from walls; add "
+          "[[wall]] with kind = \"patches\"");
+  }
+  return warnings;
+}
+
 std::vector<std::string> left_out_added_mass(const Coupling& coupling, const std::vector<Rag>& rags) {
   std::vector<std::string> lines;
   if (coupling.settings.mode != CouplingSettings::Mode::one_way) return lines;

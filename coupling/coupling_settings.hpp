@@ -56,6 +56,10 @@ std::vector<Section> coupling_sections();
 std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh,
                                          std::span<const Vec3> places);
 
+/// A remark for each force that looks for the nearest wall where the rags know none, though the water has walls (`water_has_walls`) or the
+/// force is nothing without.
+std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_walls, bool water_has_walls);
+
 /// What a one-way case leaves out of the inertia of its cloth, a line for each piece that is a sheet: a flat plate W x L, W <= L, that is
 /// accelerated across itself takes with it up to
 ///   m = pi/4 rho W^2 L    (a strip of the width W; a rectangle less: a square 0.48 of it)

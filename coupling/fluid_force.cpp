@@ -61,6 +61,13 @@ struct UniformFields {
   std::vector<double> values;
 };
 
+/// |F|/|w| of the drag alone.
+const double* drag_before(const FluidForce& drag, const FluidSamples& fluid, const Particles& particles, UniformFields& fields) {
+  const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0)};
+  drag.add(fluid, particles, forces);
+  return forces.slope;
+}
+
 }  // namespace
 
 SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
@@ -85,7 +92,7 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
     for (int i = 0; i < row.components(); ++i) arrays[i] = fields.field(value[i]);
     row.point(fluid, arrays);
   }
-  const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity};
+  const Forces forces{fields.sum(), fields.sum(), fields.field(0), fields.field(0), fields.field(0), velocity, fields.field(1)};
   const ForceDescription description = force.description();
   std::vector<double> particle_state(static_cast<std::size_t>(description.n_particle_state) * tile.field_size);
   Particles particles(rag, tile);
@@ -94,6 +101,7 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   const bool changes_drag = description.role == Role::drag_replacement || description.role == Role::drag_modifier;
   const auto drag = fluid_forces().make("schiller_naumann", "sphere");
   if (changes_drag) drag->add(fluid, particles, forces);
+  if (description.needs_drag) particles.last_drag = drag_before(*drag, fluid, particles, fields);
   force.add(fluid, particles, forces);
   if (description.role == Role::fluid) drag->add(fluid, particles, forces);
   const int k = tile.index(1, 1);

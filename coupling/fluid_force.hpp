@@ -42,6 +42,8 @@ struct Particles {
   std::size_t state_stride = 0;
   /// J of the water on each particle in the sub-step before, N s; for forces whose description needs it.
   VectorArray last_impulse = {};
+  /// |F|/|w| of the drag in the sub-step before, N s/m; zero at birth; for forces whose description needs it.
+  const double* last_drag = nullptr;
   std::int64_t id(int column, int row) const;  // of the particle in this column and row of the tile
 };
 
@@ -53,6 +55,7 @@ struct Forces {
   double* added_mass;              // kg; the force then holds added_mass Du/Dt
   double* torque_slope = nullptr;  // dT/d(omega_fluid - omega), N m s, >= 0
   VectorSum fluid_velocity = {};   // m/s, what all others see: for Role::fluid only
+  double* slip_growth = nullptr;   // d(slip that all others see)/d(slip of the samples), 1 where nobody sets it: for Role::fluid only
   double* relief = nullptr;        // slip that the force loses per impulse of this sub-step beside the answer of the water, 1/kg
 };
 
@@ -70,7 +73,8 @@ struct ForceDescription {
   std::string name, equation, source, valid_for;
   bool reacts_on_fluid = true;  // the water feels the opposite force
   SampleSet samples = {};
-  bool gives_torque = false, gives_added_mass = false, needs_impulse = false;  // what is not declared is not read
+  bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
+  bool needs_impulse = false, needs_drag = false;       // of the sub-step before
   Role role = Role::force;
   int n_particle_state = 0;         // numbers stored for each particle
   std::optional<Prior> prior = {};  // of a candidate of the diagnosis

@@ -24,7 +24,8 @@ enum Array {
   seen_acceleration = 25,
   relief_sum = 28,
   step_impulse = 29,
-  n_arrays = 32
+  slip_growth = 32,
+  n_arrays = 33
 };
 
 /// Mean of the relaxation over a sub-step.
@@ -43,10 +44,12 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
     changes_fluid_ = changes_fluid_ || description.role == Role::fluid;
     all_react_ = all_react_ && description.reacts_on_fluid;
     torque_ = torque_ || description.gives_torque, added_mass_ = added_mass_ || description.gives_added_mass;
-    needs_impulse_ = needs_impulse_ || description.needs_impulse;
+    needs_impulse_ = needs_impulse_ || description.needs_impulse, needs_drag_ = needs_drag_ || description.needs_drag;
   }
   impulse_begin_ = n_particle_state_;
   if (needs_impulse_) n_particle_state_ += 3;
+  drag_begin_ = n_particle_state_;
+  if (needs_drag_) n_particle_state_ += 1;
 }
 
 void FluidLoad::set_walls(const WallSet& walls) {
@@ -120,6 +123,7 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   Forces reacting{vector(two_way_force), vector(torque_sum), array(slope_sum), array(added_mass_sum), array(torque_slope_sum)};
   reacting.relief = array(relief_sum);
   if (needs_impulse_) particles.last_impulse = {last_impulse(tile, 0), last_impulse(tile, 1), last_impulse(tile, 2)};
+  if (needs_drag_) particles.last_drag = state(tile, drag_begin_);
   Forces silent = reacting;
   silent.force = vector(one_way_force);
   // The middle of the sub-step is where the integrator evaluates forces.
@@ -131,7 +135,8 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
         const double* u[] = {fluid.velocity.x, fluid.velocity.y, fluid.velocity.z};
         std::copy(u[i] + particles.begin, u[i] + particles.end, array(seen_velocity + i) + particles.begin);
       }
-    reacting.fluid_velocity = vector(seen_velocity);
+    std::fill(array(slip_growth) + particles.begin, array(slip_growth) + particles.end, 1.0);
+    reacting.fluid_velocity = vector(seen_velocity), reacting.slip_growth = array(slip_growth);
     fluid.velocity = {array(seen_velocity), array(seen_velocity + 1), array(seen_velocity + 2)};
   }
   if (needed_.wall) {
@@ -142,11 +147,35 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
     fluid.wall_distance = array(wall_distance);
     fluid.wall_normal = {array(wall_normal), array(wall_normal + 1), array(wall_normal + 2)};
   }
-  for (const Member& member : forces_) {
-    particles.state = tile.particle_state.data() + member.state_begin * particles.state_stride;
-    member.force->add(fluid, particles, member.reacts ? reacting : silent);
+  const auto act = [&](bool drag) {
+    for (const Member& member : forces_) {
+      if ((member.role != Role::force) != drag) continue;
+      particles.state = tile.particle_state.data() + member.state_begin * particles.state_stride;
+      member.force->add(fluid, particles, member.reacts ? reacting : silent);
+    }
+  };
+  act(true);
+  if (needs_drag_) keep_drag(tile, fluid, particles);
+  act(false);
+  if (changes_fluid_) {
+    double* slope = array(slope_sum);
+    const double* growth = array(slip_growth);
+#pragma omp simd
+    for (int k = particles.begin; k < particles.end; ++k) slope[k] *= growth[k];
   }
   return fluid;
+}
+
+/// |F|/|w| of the drag, for the next sub-step.
+void FluidLoad::keep_drag(Tile& tile, const FluidSamples& fluid, const Particles& particles) {
+  double* drag = state(tile, drag_begin_);
+  const double *slope = array(slope_sum), *fx = array(two_way_force), *fy = array(two_way_force + 1), *fz = array(two_way_force + 2);
+  const VectorArray u = fluid.velocity, v = particles.velocity;
+#pragma omp simd
+  for (int k = particles.begin; k < particles.end; ++k) {
+    const double slip = norm_squared(u[k] - v[k]), force = norm_squared(Vec3{fx[k], fy[k], fz[k]});
+    drag[k] = slip > 0 ? std::sqrt(force / slip) : slope[k];
+  }
 }
 
 /// The water on the way of the particles, at the start of the sub-step, where their velocities are: u + r t + G (x - x_0) - d J, its rate r

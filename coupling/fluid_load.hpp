@@ -6,14 +6,14 @@
 //   phi = (1 + theta/6)/(1 + 2 theta/3 + theta^2/6) = (1 - exp(-theta))/theta + O(theta^3),   chi = (1 - phi)/theta
 //   J += h (m dv/dt - F_other)                                            impulse of the water on each particle, N s
 //
-// K = dF/dw (secant), m_a added mass, M = m + m_a; r and d: how the water at the particle goes on and answers to the particle within the
-// step (coupling/water_prediction.hpp); r = r_0 + G v on the way of the particle, d = 0 one-way; e: slip that the law itself takes off per
-// impulse (Forces::relief). phi is the mean of the relaxation of water and particle towards each other: third order in theta for a linear
-// drag, and L-stable: a particle much lighter than its drag takes the fluid's velocity within one sub-step, without ringing. F_other must
-// be complete: bonds, contacts and walls come before the fluid. Particles that a clamp holds (Tile::free below 1/2) count as infinitely
-// heavy. Forces that do not react on the fluid (weight, buoyancy, pressure gradient) act on the particle and are left out of J. Torque
-// likewise:  I dw/dt = (T_other + T) phi(h K_t/I). Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving
-// Ordinary Differential Equations II, IV.3.
+// K = dF/dw (secant) by the slip of the samples, m_a added mass, M = m + m_a; r and d: how the water at the particle goes on and answers to
+// the particle within the step (coupling/water_prediction.hpp); r = r_0 + G v on the way of the particle, d = 0 one-way; e: slip that the
+// law itself takes off per impulse (Forces::relief). phi is the mean of the relaxation of water and particle towards each other: third
+// order in theta for a linear drag, and L-stable: a particle much lighter than its drag takes the fluid's velocity within one sub-step,
+// without ringing. F_other must be complete: bonds, contacts and walls come before the fluid. Particles that a clamp holds (Tile::free
+// below 1/2) count as infinitely heavy. Forces that do not react on the fluid (weight, buoyancy, pressure gradient) act on the particle and
+// are left out of J. Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I). Source of phi: Pade approximant (1, 2) of exp, Hairer and
+// Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
 #include <memory>
 
 #include "coupling/fluid_field.hpp"
@@ -54,7 +54,9 @@ class FluidLoad final : public TileForce {
   FluidSamples evaluate(std::size_t index, Tile& tile, double step);
   void follow(FluidSamples& fluid, std::size_t index, const Particles& particles);
   void add_torque(Tile& tile, double step);
-  double* last_impulse(Tile& tile, int i) const { return tile.particle_state.data() + (impulse_begin_ + i) * tile.exists.size(); }
+  void keep_drag(Tile& tile, const FluidSamples& fluid, const Particles& particles);
+  double* state(Tile& tile, int i) const { return tile.particle_state.data() + i * tile.exists.size(); }
+  double* last_impulse(Tile& tile, int i) const { return state(tile, impulse_begin_ + i); }
   double* array(int f) { return scratch_.data() + f * scratch_size_; }
 
   /// A force with what its description says.
@@ -69,8 +71,8 @@ class FluidLoad final : public TileForce {
   const std::vector<Rag>& rags_;
   SampleSet needed_;
   bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false;  // what the forces give
-  bool needs_impulse_ = false;
-  int n_particle_state_ = 0, impulse_begin_ = 0;
+  bool needs_impulse_ = false, needs_drag_ = false;
+  int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0;
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s

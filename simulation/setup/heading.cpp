@@ -79,6 +79,13 @@ std::string sub_step_words(const RagSystem& rags) {
                                : " (neither bonds nor contacts limit the step)");
 }
 
+bool water_has_walls(const Simulation& simulation) {
+  if (!simulation.water) return false;
+  for (int patch = 0; patch < static_cast<int>(simulation.mesh->patches.size()); ++patch)
+    if (simulation.water->boundary().is_wall(patch)) return true;
+  return false;
+}
+
 }  // namespace
 
 void log_heading(const Simulation& simulation, const CaseFile& file) {
@@ -104,6 +111,10 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   if (simulation.rags && rank_of(MPI_COMM_WORLD) == 0)
     for (const std::string& line : gap_lines(simulation.walls, simulation.rags->rags(), simulation.contacts, simulation.time()))
       log::info(line);
+  if (simulation.coupled)
+    for (const std::string& warning :
+         wall_warnings(simulation.coupled->coupling(), !simulation.walls.bodies().empty(), water_has_walls(simulation)))
+      log::warning(warning);
   if (simulation.coupled && simulation.mesh) {
     for (const std::string& warning :
          kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))

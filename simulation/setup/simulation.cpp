@@ -10,7 +10,6 @@
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "simulation/setup/boundary_openings.hpp"
-#include "simulation/setup/coupling_remedy.hpp"
 #include "simulation/setup/forecast.hpp"
 #include "simulation/setup/prepared.hpp"
 #include "simulation/setup/rag_release.hpp"
@@ -183,20 +182,13 @@ void Simulation::couple(const CaseFile& file) {
 
 /// Particles that were just moved.
 void Simulation::bound_speeds() {
-  check_speeds(*rags, speed_bounds_->at(rags->time(), water.get(), prescribed_ ? &*prescribed_ : nullptr, *rags),
-               coupled ? &coupled->coupling() : nullptr);
+  check_speeds(*rags, speed_bounds_->at(rags->time(), water.get(), prescribed_ ? &*prescribed_ : nullptr, *rags));
 }
 
 void Simulation::move_water(double dt) {
   if (rags) bound_speeds();  // before the water feels what has diverged
   if (start_settings_.frozen) return water->advance_frozen(dt);
-  try {
-    flow_report = water->advance(dt);
-  } catch (const Error& failure) {
-    const std::string remedy = coupling_remedy(coupled ? &coupled->coupling() : nullptr);
-    if (failure.code != ExitCode::diverged || remedy.empty()) throw;
-    throw Error(failure.code, std::string(failure.what()) + "; particles act on this water: " + remedy);
-  }
+  flow_report = water->advance(dt);
 }
 
 void Simulation::step() {

@@ -9,7 +9,6 @@
 #include "mesh/bounding_box.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
-#include "simulation/setup/coupling_remedy.hpp"
 
 namespace snag {
 
@@ -77,7 +76,7 @@ struct Fastest {
 
 }  // namespace
 
-void check_speeds(const RagSystem& rags, const SpeedBound& bound, const Coupling* coupling) {
+void check_speeds(const RagSystem& rags, const SpeedBound& bound) {
   Fastest found;
   for (const Tile& tile : rags.tiles())
     for_particles(tile, [&](int k, int i, int j) {
@@ -88,12 +87,11 @@ void check_speeds(const RagSystem& rags, const SpeedBound& bound, const Coupling
   MPI_Allgather(&found, sizeof(Fastest), MPI_BYTE, all.data(), sizeof(Fastest), MPI_BYTE, rags.comm());
   for (const Fastest& other : all) found.see(other);
   if (found.speed <= bound.speed) return;
-  const std::string remedy = coupling_remedy(coupling);
-  throw Error(ExitCode::diverged,
-              rags.rags()[static_cast<std::size_t>(found.rag)].name + " diverged: particle " + std::to_string(found.id) + " moves with " +
-                  number_text(found.speed) + " m/s at " + point_text(found.place) + ", t = " + number_text(rags.time()) +
-                  " s, must not exceed " + number_text(bound.speed) + " m/s (" + bound.reason + "); " +
-                  (remedy.empty() ? "use a shorter [time] step, or [dem] step or safety where contacts throw it" : remedy));
+  throw Error(ExitCode::diverged, rags.rags()[static_cast<std::size_t>(found.rag)].name + " diverged: particle " +
+                                      std::to_string(found.id) + " moves with " + number_text(found.speed) + " m/s at " +
+                                      point_text(found.place) + ", t = " + number_text(rags.time()) + " s, must not exceed " +
+                                      number_text(bound.speed) + " m/s (" + bound.reason +
+                                      "); use a shorter [time] step, or [dem] step or safety where contacts throw it");
 }
 
 }  // namespace snag

@@ -15,8 +15,6 @@
 
 namespace snag {
 
-struct Coupling;
-
 /// Of one step.
 struct SpeedBound {
   double speed = 0;    // m/s
@@ -42,8 +40,7 @@ class SpeedBounds {
   std::string source_ = "nothing moves";
 };
 
-/// Throws Error(diverged) for the fastest particle beyond the bound, the same on every rank, with a remedy by what couples it to the water
-/// (`coupling` may be null). Collective.
-void check_speeds(const RagSystem& rags, const SpeedBound& bound, const Coupling* coupling);
+/// Throws Error(diverged) for the fastest particle beyond the bound, the same on every rank. Collective.
+void check_speeds(const RagSystem& rags, const SpeedBound& bound);
 
 }  // namespace snag

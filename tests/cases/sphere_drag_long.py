@@ -1,0 +1,27 @@
+# labels: long
+# timeout: 7200
+# cost: 2000
+"""Requirement: sphere_drag.py for Reynolds numbers of 1 to 100, spheres of a fifth of a cell to four cells, two kernels, and both distances from a wall."""
+import harness
+import sphere_drag
+
+
+class SphereDragLong(sphere_drag.SphereDrag):
+    def test_in_a_stream(self):
+        for Re, bound in ((1, 0.01), (10, 0.02), (100, 0.03)):
+            for per_cell, width in ((0.2, 10), (1, 2), (2, 1), (4, 1)):
+                self.check(bound, Re, per_cell, width=width)
+        self.check(0.01, 1, 2, kernel="wendland")
+
+    def test_along_a_wall(self):
+        for wall, per_cell, width in ((1, 2, 1), (3, 2, 1), (1, 2, 2), (3, 2, 2)):
+            self.check(0.05, 0.005, per_cell, width=width, wall=wall, far=30, steps=120, forces=("schiller_naumann", "self_disturbance", "wall"))
+
+    def test_the_cell_kernel_stays_finite(self):
+        for Re in (0.1, 1, 100):
+            for per_cell in (1, 4, 8):
+                print(f"  cell kernel, Re {Re}, {per_cell} cells: {100 * self.error(Re, per_cell, kernel='cell', far=20, steps=100, diameters=10):+.0f} %", flush=True)
+
+
+if __name__ == "__main__":
+    harness.main()
