@@ -103,6 +103,9 @@ void CoupledSolver::spread(double dt) {
   report_.force_on_rags = balance.on_rags / dt;
   report_.force_on_water = balance.on_water / dt;
   report_.momentum_exchange = balance.relative();
+  std::vector<int> rag_of(particles.size());
+  for (std::size_t b = 0; b < particles.size(); ++b) rag_of[b] = rags_.tiles()[particles.tile(b)].rag;
+  report_.places = force_places(*kernel_, flow_->mesh, kernel_field_->places(), impulses_, rag_of, rags_.rags().size());
   double largest = 0;
   for (std::size_t b = 0; b < particles.size(); ++b)
     largest = std::max(largest, load_->slope(particles.tile(b), particles.place(b)) * kernel_field_->response(b));
@@ -137,6 +140,8 @@ std::vector<Column<CouplingReport>> CoupledSolver::columns() {
   add_components(all, "force_on_rags_", "", "N", [](Report r) { return r.force_on_rags; });
   add_components(all, "force_on_water_", "", "N", [](Report r) { return r.force_on_water; });
   all.insert(all.end(), {{"momentum_exchange_rel", "1", [](Report r) { return r.momentum_exchange; }},
+                         {"force_displacement", "m", [](Report r) { return r.places.displacement; }},
+                         {"couple_lost_rel", "1", [](Report r) { return r.places.relative(); }},
                          {"max_solid_fraction", "1", [](Report r) { return r.max_solid_fraction; }},
                          {"max_drag_number", "1", [](Report r) { return r.max_drag_number; }},
                          {"max_stiffness", "1", [](Report r) { return r.max_stiffness; }},

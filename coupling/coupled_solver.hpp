@@ -7,6 +7,7 @@
 #include "coupling/cell_owner.hpp"
 #include "coupling/coupling_settings.hpp"
 #include "coupling/exchange.hpp"
+#include "coupling/force_places.hpp"
 #include "coupling/kernel_field.hpp"
 #include "coupling/prescribed_field.hpp"
 #include "dem/rag_system.hpp"
@@ -18,9 +19,10 @@ struct CouplingReport {
   double time = 0;                     // s
   Vec3 force_on_rags, force_on_water;  // means over the step, N
   double momentum_exchange = 0;        // lost of what was exchanged, 1
-  double max_solid_fraction = 0;       // 1; above 1 rags are folded closer than the kernel resolves
-  double max_drag_number = 0;          // dt K d, d: answer of the water to the particle, 1/kg
-  double max_stiffness = 0;            // dt K/m
+  ForcePlaces places;
+  double max_solid_fraction = 0;  // 1; above 1 rags are folded closer than the kernel resolves
+  double max_drag_number = 0;     // dt K d, d: answer of the water to the particle, 1/kg
+  double max_stiffness = 0;       // dt K/m
   double width_over_cell_least = 0, width_over_cell_largest = 0;
   std::int64_t particles_outside = 0;  // held by no cell
 };

@@ -22,7 +22,7 @@ constexpr double least_width_over_diameter = 1;
 constexpr double least_width_over_cell = 0.3;
 // Above this many cells a particle the transfers cost more than the flow.
 constexpr double most_cells_per_particle = 3000;
-// A held square sheet drags as a rigid plate within 2 % up to this width over its side, and 30 % more at twice of it.
+// A held square sheet drags as a rigid plate within 4 % up to this width over its side, and 13 % more at twice of it.
 constexpr double largest_width_over_sheet = 0.125;
 constexpr int least_rows = 3;  // of a sheet; fewer are a thread or a strap
 
@@ -192,7 +192,7 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
       if (is_sheet(rag) && width > largest_width_over_sheet * shorter_side(rag))
         warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / shorter_side(rag), " of the shorter side of cloth \"", rag.name,
              "\" (", shorter_side(rag) * 1e3, " mm), advised at most ", largest_width_over_sheet,
-             ": it acts as a larger cloth, at a quarter with 30 % more drag across the stream; narrow the kernel");
+             ": it acts as a larger cloth, at a quarter with 13 % more drag across the stream; narrow the kernel");
   const double most_cells = 4.0 / 3.0 * std::numbers::pi * std::pow(support / size, 3);
   if (most_cells > most_cells_per_particle)
     warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the cells (mean ", size * 1e3,

@@ -9,9 +9,9 @@ using namespace sampled;
 
 void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   particles_ = ParticleList(tiles);
-  std::vector<Vec3> points(particles_.size());
-  for (std::size_t b = 0; b < points.size(); ++b) points[b] = tiles[particles_.tile(b)].vector(Tile::x, particles_.place(b));
-  kernel_.locate(points);
+  places_.resize(particles_.size());
+  for (std::size_t b = 0; b < places_.size(); ++b) places_[b] = tiles[particles_.tile(b)].vector(Tile::x, particles_.place(b));
+  kernel_.locate(places_);
 
   std::vector<CellField> fields;
   std::vector<int> field_of_component;
@@ -44,7 +44,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     const int t = particles_.tile(b), k = particles_.place(b);
     for (int i = 0; i < 3; ++i) {
       arrays_.field(t, change + i)[k] *= over_dt;
-      arrays_.field(t, start + i)[k] = points[b][i];
+      arrays_.field(t, start + i)[k] = places_[b][i];
     }
     if (two_way_) arrays_.field(t, sampled::response)[k] = answers[b];
   }

@@ -18,6 +18,8 @@ class KernelField final : public FluidField {
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
   /// The particles of the last sample(), in the order of the kernel.
   const ParticleList& particles() const { return particles_; }
+  /// Their places then, m.
+  const std::vector<Vec3>& places() const { return places_; }
   /// Of the water to particle b of the list, 1/kg. Two-way.
   double response(std::size_t b) const { return arrays_.field(particles_.tile(b), sampled::response)[particles_.place(b)]; }
 
@@ -28,6 +30,7 @@ class KernelField final : public FluidField {
   const WaterPrediction& prediction_;
   bool two_way_;
   ParticleList particles_;
+  std::vector<Vec3> places_;
   std::vector<std::vector<double>> made_;  // what the cells have for each row of samples, where it is computed
   TileArrays arrays_;
 };

@@ -44,6 +44,8 @@ const std::map<std::string, KeyWords>& known_words() {
       {"rags.before_contact.mean_force_N.1", {"Mean force of the water along y before contact", "N"}},
       {"rags.before_contact.mean_force_N.2", {"Mean force of the water along z before contact", "N"}},
       {"coupling.force_share_at_walls", {"Share of the force in cells at walls", ""}},
+      {"coupling.force_displacement_m", {"Displacement of the force on the water", "m"}},
+      {"coupling.couple_lost_rel", {"Couple lost in the exchange, relative", ""}},
       {"coupling.kernel_width_over_cell_least", {"Least kernel width / cell size", ""}},
       {"coupling.max_solid_fraction", {"Largest solid fraction", ""}},
       {"conservation.momentum_exchange_rel", {"Momentum lost in the exchange, relative", ""}},

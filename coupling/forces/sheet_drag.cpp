@@ -4,7 +4,9 @@
 //   n: unit normal of the cloth from the bonded neighbours along and across the rows,   w_n = (w.n) n,   w_t = w - w_n
 //
 //   form "quadratic"   C_n, C_t as given: bluff plate, rough surface on both sides
-//   form "viscous"     C_n + 20.4/Re, Re = rho |w| 2 r_p/mu: disc in creeping flow;  C_t + c_f: boundary layers
+//   form "viscous"     C_t + c_f: boundary layers;  one-way also C_n + 20.4/Re, Re = rho |w| D_s/mu, D_s: diameter of the disc of the
+//   sheet's
+//                      area: a disc in creeping flow, which a two-way run resolves
 //
 // Layers begin at the edge of the sheet from which the water comes, x before the particle along the slip; h: half of the particle's cloth
 // along the slip; x_t = Re_t nu/U:
@@ -19,15 +21,17 @@
 // account:
 //
 //   edges    w = w_n - R Phi,   R = f(s/sigma)/(2 (s/sigma)^(1/2) sigma),   sigma = 2^(1/2) delta: of spreading and averaging together
-//            dPhi/dt = F_n/(rho A) - chi |Phi| Phi/(2 g^2) - nu Phi/s^2,   chi = K/((1 + K)^(1/2) - 1)^2,   g = max((1 - kappa)/R, c s)
+//            dPhi/dt = F_n/(rho A) - chi |Phi| Phi/(2 g^2) - nu Phi/l^2,   chi = K/((1 + K)^(1/2) - 1)^2,   g = max((1 - kappa)/R, c s)
 //            Phi: jump of the potential across the sheet, m2/s; F_n: all that the water gives the particle along n; kappa: coverage; c =
-//            1/2; s: distance from the edges (coupling/cloth_edges.hpp)
+//            1/2; s: distance from the edges (coupling/cloth_edges.hpp);   l^2 = sigma^2 (1 - exp(-1.4 t - 0.4 t^2)), t = s/sigma
 //
 //            The kernel also averages water beside the sheet. About an edge that pressure sets in motion the potential jumps by 2 B
 //            x^(1/2) at the distance x inside, and the average of the velocity over a Gaussian of width sigma is B f(x/sigma)/sigma^(1/2):
 //            R is their ratio, f fitted within 1.4 %. Far inside R is sigma/(2 pi)^(1/2) times the surface Laplacian of the jump: exact
 //            with s as it is defined. In steady flow the water beside the sheet has the velocity w (1 + K)^(1/2) that Bernoulli's equation
-//            gives it, so that w_n = w kappa + w (1 + K)^(1/2) (1 - kappa): Phi stops growing there.
+//            gives it, so that w_n = w kappa + w (1 + K)^(1/2) (1 - kappa): Phi stops growing there. In slow flow the friction stops it: at
+//            the edge of a plate that moves across itself in creeping flow the average of the kernel is R l^2/mu times the pressure jump
+//            (within 8 %).
 //   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2). The boundary layers of both sides slow the water that the
 //            kernel averages. Their deficit, D U, is distributed over the widths of the kernel and of the layers. q is at most 0.375.
 //
@@ -58,6 +62,12 @@ inline double relief_ratio(double s, double sigma) {
   const double t = std::min(s / sigma, 1e4), root = std::sqrt(t);
   return 0.164 * (1 + t * (-0.16245 + t * 0.16691)) /
          (root * (1 + t * (0.22519 + t * (0.29641 + t * (-0.06504 + root * 0.27447)))) * sigma);
+}
+
+/// l^2, m2.
+inline double friction_area(double s, double sigma) {
+  const double t = s / sigma;
+  return sigma * sigma * (1 - exp(-t * (1.4 + 0.4 * t)));
 }
 
 struct SheetDrag final : FluidForce {
@@ -121,6 +131,8 @@ struct SheetDrag final : FluidForce {
                  theta = share, transition = transition_reynolds, around_edge = 1 + std::sqrt(1 + K),
                  chi = K > 0 ? around_edge * around_edge / K : 0;
     const double columns = particles.rag.n_columns, rows = particles.rag.n_rows;
+    const double disc = side * std::sqrt(4 / std::numbers::pi * static_cast<double>(particles.rag.n_particles));  // diameter of equal area
+    const double slow = is_two_way ? 0 : 20.4 * nu / disc;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;
     double* slope = forces.slope;
@@ -139,16 +151,15 @@ struct SheetDrag final : FluidForce {
         const double speed_t = std::sqrt(norm_squared(w_t));
         double through = dot(w, n), K_t = C_t * speed_t;
         if (covered) {
-          const double s = from_edge[p], R = relief_ratio(s, std::numbers::sqrt2 * width[p]);
+          const double s = from_edge[p], sigma = std::numbers::sqrt2 * width[p], R = relief_ratio(s, sigma);
           const double g = std::max(std::max(0.0, 1 - covered[p]) / R, inner * s) + 1e-30;
           const double driven = jump[p] + dot(J[p], n) / (rho * area),
-                       fading = 1 + h * (chi * std::abs(driven) / (2 * g * g) + nu / (s * s));
+                       fading = 1 + h * (chi * std::abs(driven) / (2 * g * g) + nu / friction_area(s, sigma));
           jump[p] = driven / fading;
           relief[p] = R / (rho * area * fading);
           through -= R * jump[p];
         }
-        // K_n acts on the velocity through the cloth, K_v (slow flow) on the whole slip across it.
-        double K_n = K * std::abs(through), K_v = 0;
+        double K_n = K * std::abs(through);
         if constexpr (with_layers) {
           const double column = tile.column + (p - first) + 0.5, tiny = 1e-30, speed = speed_t + tiny;
           const double a = dot(w_t, along) / speed, b = dot(w_t, across) / speed;
@@ -167,10 +178,10 @@ struct SheetDrag final : FluidForce {
           const double begin = x < 1.001 * half ? 0 : x - half;  // round-off before the edge would count: D is steep there
           const double D = layer_drag(x + half, nu / U, transition) - layer_drag(begin, nu / U, transition);
           K_t += 0.5 * D / half * U * U / speed;
-          K_v = 20.4 * nu / side;
+          K_n += slow;
         }
-        const Vec3 along_normal = 0.5 * rho * area * (K_n * through + K_v * dot(w, n)) * n;
-        K_n = 0.5 * rho * area * (K_n + K_v), K_t *= rho * area;
+        K_n *= 0.5 * rho * area, K_t *= rho * area;
+        const Vec3 along_normal = K_n * through * n;
         // Both sides of the sheet are in C_t rho = 2 C_t rho/2.
         const double here = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - here;
         force.x[p] = rest * force.x[p] + here * (along_normal.x + K_t * w_t.x);

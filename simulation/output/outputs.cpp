@@ -311,6 +311,9 @@ void Outputs::write_coupling_monitors() {
   coupled_.width_least = least > 0 ? std::min(least, report.width_over_cell_least) : report.width_over_cell_least;
   coupled_.width_largest = std::max(coupled_.width_largest, report.width_over_cell_largest);
   coupled_.solid_fraction = std::max(coupled_.solid_fraction, report.max_solid_fraction);
+  const ForcePlaces& places = report.places;
+  coupled_.impulse += places.impulse, coupled_.displaced += places.impulse * places.displacement;
+  coupled_.couple_lost += places.couple_lost, coupled_.couple += places.couple;
   const Flow& flow = simulation_.water->flow;
   const auto force = [&](int c) { return flow.mesh.cell_volume[c] * norm(flow.reaction[c]); };
   std::vector<double> at_walls, all;
@@ -332,7 +335,8 @@ void Outputs::write_rotor_monitors() {
 void Outputs::save(CheckpointWriter& writer) const {
   writer.shared("outputs", std::vector<double>{largest_exchange_, largest_imbalance_, largest_closure_, largest_through_});
   const auto& c = coupled_;
-  writer.shared("coupled", std::vector<double>{c.width_least, c.width_largest, c.solid_fraction, c.force_at_walls, c.force});
+  writer.shared("coupled", std::vector<double>{c.width_least, c.width_largest, c.solid_fraction, c.force_at_walls, c.force, c.impulse,
+                                               c.displaced, c.couple_lost, c.couple});
   const Effort spent = effort();
   writer.shared("effort", std::vector<double>{spent.wall, spent.flow, spent.rags, spent.coupling, spent.output, spent.particle_steps});
   if (rag_monitors_) {
@@ -351,7 +355,7 @@ void Outputs::load(CheckpointReader& reader) {
   const std::vector<double> kept = reader.shared("outputs");
   largest_exchange_ = kept[0], largest_imbalance_ = kept[1], largest_closure_ = kept[2], largest_through_ = kept[3];
   const std::vector<double> coupled = reader.shared("coupled");
-  coupled_ = {coupled[0], coupled[1], coupled[2], coupled[3], coupled[4]};
+  coupled_ = {coupled[0], coupled[1], coupled[2], coupled[3], coupled[4], coupled[5], coupled[6], coupled[7], coupled[8]};
   const std::vector<double> spent = reader.shared("effort");
   effort_before_ = {spent[0], spent[1], spent[2], spent[3], spent[4], spent[5]};
   if (rag_monitors_) {

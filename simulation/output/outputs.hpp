@@ -133,9 +133,11 @@ class Outputs {
 
   // over the whole run, kept by checkpoints: relative, m3/s, relative, m3/s
   double largest_exchange_ = 0, largest_imbalance_ = 0, largest_closure_ = 0, largest_through_ = 0;
-  // The same of the coupling: relative, relative, relative; sums over the steps of |force| on the water, at walls and everywhere, N
+  // The same of the coupling: relative, relative, relative; sums over the steps of |force| on the water, at walls and everywhere, N, and of
+  // what coupling/force_places.hpp has: N s, N m s, N m s, N m s
   struct {
     double width_least = 0, width_largest = 0, solid_fraction = 0, force_at_walls = 0, force = 0;
+    double impulse = 0, displaced = 0, couple_lost = 0, couple = 0;
   } coupled_;
 };
 

@@ -84,7 +84,9 @@ nlohmann::ordered_json coupling_json(const CouplingSummary& coupling) {
           {"kernel_width_over_cell_least", coupling.width_over_cell_least},
           {"kernel_width_over_cell_largest", coupling.width_over_cell_largest},
           {"max_solid_fraction", coupling.max_solid_fraction},
-          {"force_share_at_walls", or_null(coupling.force_share_at_walls)}};
+          {"force_share_at_walls", or_null(coupling.force_share_at_walls)},
+          {"force_displacement_m", or_null(coupling.force_displacement)},
+          {"couple_lost_rel", or_null(coupling.couple_lost)}};
 }
 
 nlohmann::ordered_json rag_json(const RagSummary& rag) {

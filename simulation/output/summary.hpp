@@ -33,7 +33,10 @@ struct CouplingSummary {
   double kernel_width = 0;  // m; 0: that of one cell
   double width_over_cell_least = 0, width_over_cell_largest = 0;
   double max_solid_fraction = 0;
-  std::optional<double> force_share_at_walls;  // of what the rags gave to the water, in cells at walls; absent: they gave nothing
+  // Of what the rags gave to the water; absent: they gave nothing.
+  std::optional<double> force_share_at_walls;  // in cells at walls
+  std::optional<double> force_displacement;    // mean distance from where it was given, m
+  std::optional<double> couple_lost;           // over the torque of the forces about each rag's centre
 };
 
 struct WaterSummary {

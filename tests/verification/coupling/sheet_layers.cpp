@@ -64,5 +64,26 @@ TEST(SheetLayers, ObliqueStream) {
   EXPECT_NEAR(friction({.degrees = degrees}, Re), strips, 0.02 * strips);
 }
 
+// Requirement: across itself in creeping flow a sheet has the drag of the disc of its area, 16 mu a U (Lamb 1932, section 339), whatever
+// the radius of its particles.
+TEST(SheetLayers, SlowFlowAcross) {
+  for (const double radius : {1e-3, 2e-3}) {
+    RagSettings settings(RagSettings::Shape::rag);
+    settings.length = 0.1, settings.width = 0.08, settings.radius = radius;
+    RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test")});
+    PrescribedFlow flow;
+    flow.dynamic_viscosity = 1;
+    const double U = 1e-6;
+    flow.velocity = {0, 0, U};
+    CoupledSolver solver(
+        read_coupling(CaseFile::parse("[coupling]\nforces = [\"sheet_drag\"]\n[coupling.sheet_drag]\nform = \"viscous\"\n").root(), false),
+        rags, flow);
+    rags.clamp([](std::int64_t) { return true; });
+    solver.step(1e-6);
+    const double exact = 16 * flow.dynamic_viscosity * std::sqrt(settings.length * settings.width / std::numbers::pi) * U;
+    EXPECT_NEAR(solver.report().force_on_rags.z, exact, 2e-3 * exact);  // 20.4 for 64/pi
+  }
+}
+
 }  // namespace
 }  // namespace snag

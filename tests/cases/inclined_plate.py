@@ -1,0 +1,112 @@
+# timeout: 900
+# cost: 20
+"""Requirement: a nearly closed sheet across and oblique to a stream takes the normal force that is measured on a plate, in the measured direction.
+
+Plate of the sides c and 2 c at Re = U c/nu = 100, towed in oil: Taira, Dickson, Colonius, Dickinson and Rowley (2007), Unsteadiness in flow over a flat plate at angle-of-attack at low Reynolds numbers, AIAA paper
+2007-710; points of its figures of drag and lift as digitised with PetIBM (examples/data, taira_et_al_2007_flatPlateRe100AR2_*.dat), interpolated."""
+import math
+
+import graded_box
+import harness
+import numpy
+
+CHORD, SPEED, DENSITY = 0.1, 1.0, 1000.0  # m, m/s, kg/m3
+SIZE, THICKNESS = 0.0125, 0.005  # of the cells along the plate and across it, m
+MEASURED = {15: (0.448, 0.542), 30: (0.639, 0.758), 45: (0.902, 0.726), 60: (1.145, 0.588), 90: (1.527, 0)}  # degrees: drag, lift coefficient
+
+CASE = """
+[case]
+name = "inclined-plate"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 1.2
+step_ms = {step}
+[flow]
+density_kg_m3 = 1000
+dynamic_viscosity_Pa_s = 1
+initial_velocity_m_s = {stream}
+[turbulence]
+model = "laminar"
+[[boundary]]
+patches = ["x0", "y0"]
+kind = "velocity_inlet"
+velocity_m_s = {stream}
+[[boundary]]
+patches = ["x1", "y1"]
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["z0", "z1"]
+kind = "symmetry"
+[output]
+report = false
+"""
+PLATE = """
+[[boundary]]
+patch = "plate"
+kind = "wall"
+"""
+SHEET = """
+[[rag]]
+length_mm = 100
+width_mm = 100
+radius_mm = 2
+centre_m = [0, -0.0025, 0.05]
+lengthwise = [0, 0, 1]
+crosswise = [1, 0, 0]
+mass_per_area_kg_m2 = 1
+[[hold]]
+columns = [0, 24]
+[coupling]
+mode = "two_way"
+kernel = "gaussian"
+kernel_width_m = {delta}
+forces = ["sheet_drag"]
+[coupling.sheet_drag]
+normal_coefficient = 1000
+form = "viscous"
+"""
+
+
+class InclinedPlate(harness.CaseTest):
+    """Half of the plate, from the plane of symmetry z = 0 on. Its normal is y."""
+
+    def coefficients(self, degrees, delta=None, step=6):
+        """Normal and tangential force over the dynamic pressure and the plate's area, of a sheet with the kernel width `delta` (m) or of a rigid plate."""
+        along = graded_box.axis(-0.8, 1.3, (-0.075, 0.1), SIZE, 1.25)
+        across = graded_box.axis(-0.8, 1.0, (-6 * THICKNESS, 6 * THICKNESS), THICKNESS, 1.25)
+        span = numpy.unique(graded_box.axis(0, 0.6, (0, 0.125), SIZE, 1.25))
+        mesh = self.shared / f"{'sheet' if delta else 'plate'}.msh"
+        if not mesh.exists():
+            graded_box.write(mesh, (along, across, span), None if delta else ((-CHORD / 2, CHORD / 2), (-THICKNESS, 0), (-CHORD, CHORD)))
+        angle = math.radians(degrees)
+        stream = f"[{SPEED * math.cos(angle):.9g}, {SPEED * math.sin(angle):.9g}, 0]"
+        text = CASE.format(mesh=mesh, step=step, stream=stream) + (SHEET.format(delta=delta) if delta else PLATE)
+        run = self.run_once(self.case(text, f"{degrees}-{delta}-{step}"), 1)
+        monitor, name = (run.monitor("coupling"), "force_on_rags") if delta else (run.monitor("patches"), "plate_force")
+        late = monitor.column("time [s]") > 0.9
+        normal, tangential = (monitor.column(f"{name}_{axis} [N]")[late].mean() / (0.5 * DENSITY * SPEED**2 * CHORD**2) for axis in "yx")
+        return normal, tangential
+
+    def compare(self, degrees, delta, bound, step=6):
+        """With the measurement: the normal force, and the angle between force and normal in degrees."""
+        angle = math.radians(degrees)
+        drag, lift = MEASURED[degrees]
+        normal, tangential = lift * math.cos(angle) + drag * math.sin(angle), drag * math.cos(angle) - lift * math.sin(angle)
+        found_normal, found_tangential = self.coefficients(degrees, delta, step)
+        off = math.degrees(math.atan2(found_tangential, found_normal) - math.atan2(tangential, normal))
+        what = f"{degrees} degrees, {f'kernel {1e3 * delta:g} mm' if delta else 'rigid plate'}"
+        print(f"  {what}: normal force {found_normal:.3f}, measured {normal:.3f} ({100 * (found_normal / normal - 1):+.1f} %), direction {off:+.1f} degrees", flush=True)
+        with self.subTest(what):
+            self.assertLess(abs(found_normal / normal - 1), bound)
+            self.assertLess(abs(off), 4)
+        return found_normal
+
+
+class InclinedPlateShort(InclinedPlate):
+    def test_oblique(self):
+        self.compare(30, 0.012, 0.15, step=12)
+
+
+if __name__ == "__main__":
+    harness.main()
