@@ -1,6 +1,9 @@
 // Friction of boundary layers along a sheet: plates of laminar and turbulent flow, in a prescribed stream.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "coupling/coupled_solver.hpp"
 
 namespace snag {
@@ -72,15 +75,15 @@ TEST(SheetLayers, SlowFlowAcross) {
     settings.length = 0.1, settings.width = 0.08, settings.radius = radius;
     RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test")});
     PrescribedFlow flow;
-    flow.dynamic_viscosity = 1;
-    const double U = 1e-6;
+    const double viscosity = 1, U = 1e-6;  // Pa s, m/s
+    flow.dynamic_viscosity = viscosity;
     flow.velocity = {0, 0, U};
     CoupledSolver solver(
         read_coupling(CaseFile::parse("[coupling]\nforces = [\"sheet_drag\"]\n[coupling.sheet_drag]\nform = \"viscous\"\n").root(), false),
         rags, flow);
     rags.clamp([](std::int64_t) { return true; });
     solver.step(1e-6);
-    const double exact = 16 * flow.dynamic_viscosity * std::sqrt(settings.length * settings.width / std::numbers::pi) * U;
+    const double exact = 16 * viscosity * std::sqrt(settings.length * settings.width / std::numbers::pi) * U;
     EXPECT_NEAR(solver.report().force_on_rags.z, exact, 2e-3 * exact);  // 20.4 for 64/pi
   }
 }
