@@ -40,7 +40,7 @@ struct Parameter {
   double maximum = infinity;   // inclusive
   Basis basis = Basis::assumed;
   std::string meaning = {};
-  std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any
+  std::vector<std::string> choices = {};  // of a text: the values allowed; empty: any. Of a number: words in its place, read as NaN
   bool required = false;
   bool is_file = false;               // a text that is a path, relative to the folder of the case file
   bool may_differ_on_resume = false;  // it says how far a run goes, not what the run computes

@@ -1,6 +1,7 @@
 #include "base/parameter_reading.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -37,6 +38,10 @@ class Reading {
 
   double number(const toml::node& node) const {
     double value = 0;
+    if (is_word(node)) {
+      check_choice(*node.value<std::string>());
+      return std::numeric_limits<double>::quiet_NaN();
+    }
     if (const auto* text = node.as_string()) {
       value = quantity(text->get(), parameter_.unit, where_);
     } else if (node.is_number()) {
@@ -50,6 +55,11 @@ class Reading {
     if (!std::isfinite(value)) throw wrong(shown(node), "it must be a finite number");
     if (value < parameter_.minimum || value > parameter_.maximum) throw wrong(shown(node), "it must " + range());
     return value;
+  }
+  /// A word such as "auto" in the place of a number.
+  bool is_word(const toml::node& node) const {
+    const auto* text = node.as_string();
+    return text && !parameter_.choices.empty() && !text->get().empty() && std::isalpha(static_cast<unsigned char>(text->get().front()));
   }
   std::string range() const {
     const std::string unit = parameter_.unit == "1" ? "" : " " + parameter_.unit;
@@ -67,8 +77,9 @@ class Reading {
     if (parameter_.choices.empty() || std::find(parameter_.choices.begin(), parameter_.choices.end(), word) != parameter_.choices.end())
       return;
     const std::string near = nearest_name(word, parameter_.choices);
+    const std::string number = parameter_.unit.empty() ? "" : "a number with a unit, or ";
     throw wrong("\"" + shortened(word) + "\"",
-                "it must be one of " + joined(parameter_.choices) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+                "it must be " + number + "one of " + joined(parameter_.choices) + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
 
   void read(const toml::node& node, double& target) const { target = number(node); }

@@ -23,12 +23,14 @@ std::string default_text(const Parameter& p) {
 }
 
 std::string range(const Parameter& p) {
-  if (!p.choices.empty()) return "[" + joined(p.choices) + "]";
   const bool low = p.minimum > -infinity, high = p.maximum < infinity;
-  if (!low && !high) return "";
+  std::string words;
+  if (!p.choices.empty()) words = "[" + joined(p.choices) + "]";
+  if (!low && !high) return words;
   constexpr double positive = 1e-12;  // a minimum that stands for "positive"
-  if (low && !high && p.minimum > 0 && p.minimum <= positive) return "> 0";
-  return (low ? number(p.minimum) : "") + " ... " + (high ? number(p.maximum) : "");
+  const bool is_positive = low && !high && p.minimum > 0 && p.minimum <= positive;
+  const std::string numbers = is_positive ? "> 0" : (low ? number(p.minimum) : "") + " ... " + (high ? number(p.maximum) : "");
+  return words.empty() ? numbers : numbers + ", or " + words;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "report/pictures.hpp"
 #include "report/pump_section.hpp"
 #include "report/results.hpp"
+#include "report/step_section.hpp"
 
 namespace snag {
 
@@ -165,6 +166,7 @@ void write_report(const std::filesystem::path& dir) {
   page += section("Run summary", run_table(summary));
   if (is_passage) page += section("Passage of the rag through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
+  page += section("Time step", step_section(summary));
   page += section("Balances", balance_tables(summary));
   page += section("Walls", wall_table(summary));
   page += section("Rags", rag_tables(summary));

@@ -15,7 +15,9 @@
 #include "simulation/output/outputs.hpp"
 #include "simulation/setup/forecast.hpp"
 #include "simulation/setup/heading.hpp"
+#include "simulation/setup/prepared.hpp"
 #include "simulation/setup/simulation.hpp"
+#include "simulation/step/case_with_step.hpp"
 #include "simulation/stop_request.hpp"
 
 namespace snag {
@@ -132,15 +134,19 @@ void finish_failed(Outputs& outputs, ExitCode code, const std::string& message, 
 
 ExitCode run_case(const RunOptions& options) {
   const double begun = MPI_Wtime();
-  const CaseFile file = CaseFile::read(options.case_file, options.overrides);
-  const OutputFolder output = OutputFolder::of(file, options.out, options.resume, options.overwrite);
+  const CaseFile given = CaseFile::read(options.case_file, options.overrides);
+  const OutputFolder output = OutputFolder::of(given, options.out, options.resume, options.overwrite);
   const auto& folder = output.path();
   std::unique_ptr<CheckpointReader> reader;
   if (options.resume) reader = std::make_unique<CheckpointReader>(world, folder / "checkpoint");
+  Prepared of_this_run;
+  Prepared* prepared = options.prepared ? options.prepared : &of_this_run;
+  const auto [file, step_found] = options.resume ? case_with_stored_step(options.case_file, options.overrides, folder)
+                                                 : case_with_step(options.case_file, options.overrides, folder, *prepared);
 
   Simulation::Stored stored{};
   if (reader) stored = {.partition = stored_partition(reader.get()), .checkpoint = reader.get()};
-  Simulation simulation(file, world, std::move(stored), nullptr, options.prepared);
+  Simulation simulation(file, world, std::move(stored), nullptr, prepared);
   if (reader) check_same_case(file, folder, *reader);
   const ReportWriter write_report = simulation.output_settings.report ? options.write_report : ReportWriter{};
   if (reader && has_ended_before(folder, file, write_report != nullptr, *reader)) return ExitCode::ok;
@@ -148,6 +154,7 @@ ExitCode run_case(const RunOptions& options) {
   const std::string start = reader ? "" : simulation.start();
   output.open(simulation, file, options.resume);
   if (!start.empty()) log::info(start);
+  if (step_found) say_and_store(*step_found, folder, options.resume);
   if (reader) load(simulation, *reader);
   Outputs outputs(folder, file, simulation, options.resume, begun);
   if (reader) {
@@ -168,12 +175,15 @@ ExitCode run_case(const RunOptions& options) {
     throw Error(failure.code, message);
   }
   code = outputs.finish(code, code == ExitCode::stopped ? ReportWriter{} : write_report);
-  log::info("done after " + duration(MPI_Wtime() - begun) + ": " + folder.string());
+  const double spent = MPI_Wtime() - begun;
+  const bool had_trial = step_found && step_found->wall > 0 && !options.resume;
+  log::info("done after " + duration(spent) + (had_trial ? ", " + duration(step_found->wall) + " of it for the trial of the step" : "") +
+            ": " + folder.string());
   return code;
 }
 
 ExitCode check_case(const RunOptions& options) {
-  const CaseFile file = CaseFile::read(options.case_file, options.overrides);
+  const auto [file, about_step] = case_with_first_step(options.case_file, options.overrides);
   Simulation simulation(file, world);
   const std::string start = simulation.start();
   begin_as_a_run(simulation);
@@ -183,6 +193,7 @@ ExitCode check_case(const RunOptions& options) {
     const std::string table = quality_table(*simulation.mesh, simulation.mesh_quality);
     log::info(table);
   }
+  if (!about_step.empty()) log::info(about_step);
   const Forecast ahead = forecast(simulation);
   log::info(ahead.text);
   for (const std::string& warning : ahead.warnings) log::warning(warning);

@@ -14,8 +14,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const result_names[] = {"case.resolved.toml", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
-                                    "checkpoint",         "pictures"};
+const char* const result_names[] = {
+    "case.resolved.toml", "step.json", "summary.json", "log.txt", "report.html", "monitors", "fields", "rags", "walls",
+    "checkpoint",         "pictures"};
 
 /// Rank 0 only.
 void refuse_results(const fs::path& folder, bool resume, bool overwrite) {

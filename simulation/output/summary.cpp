@@ -167,6 +167,9 @@ nlohmann::ordered_json walls_json(const WallsSummary& walls) {
 /// A summary in which nothing is missing.
 Summary full_summary() {
   Summary full;
+  StepRecord& step = full.auto_step.emplace();
+  step.steps_per_revolution = 1;
+  step.water.emplace_back(), step.rag.emplace_back(), step.notes.emplace_back();
   full.pump.emplace();
   full.balance.emplace();
   full.water.emplace();
@@ -240,6 +243,7 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                    {"coupling_s", p.coupling},
                                    {"output_s", p.output},
                                    {"peak_memory_bytes", p.peak_memory}}},
+                                 {"auto_step", s.auto_step ? step_json(*s.auto_step) : nlohmann::ordered_json()},
                                  {"pump", s.pump ? pump_json(*s.pump) : nlohmann::ordered_json()},
                                  {"balance", s.balance ? balance_json(*s.balance) : nlohmann::ordered_json()},
                                  {"rags", rags},
@@ -253,6 +257,7 @@ nlohmann::ordered_json summary_json(const Summary& s) {
                                    {"particles_lost", or_null(kept.particles_lost)},
                                    {"bonds_lost", or_null(kept.bonds_lost)},
                                    {"particles_beyond_walls", or_null(kept.particles_beyond_walls)}}}};
+  if (!s.auto_step) json.erase("auto_step");
   if (!s.pump) json.erase("pump");
   if (!s.balance) json.erase("balance");
   if (!s.water) json.erase("water");

@@ -12,6 +12,7 @@
 #include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/pump_record.hpp"
+#include "simulation/step/step_record.hpp"
 #include "solver/monitors.hpp"
 #include "solver/turbulence/turbulence.hpp"
 
@@ -73,6 +74,7 @@ struct Summary {
     double cell_steps = 0, particle_steps = 0;
     std::int64_t peak_memory = 0;  // bytes, all ranks
   } performance;
+  std::optional<StepRecord> auto_step;    // of [time] step = "auto"
   std::optional<PumpSummary> pump;        // of a case with [pump]
   std::optional<BalanceSummary> balance;  // of a case with a turning zone
   std::vector<RagSummary> rags;

@@ -130,6 +130,9 @@ ExitCode Outputs::finish(ExitCode exit, const ReportWriter& write_report, const 
     for (const int patch : walls_with_y_plus_)
       s.walls->patches.push_back({simulation_.mesh->patches[patch].name, y_plus_of(simulation_.water->flow, patch)});
   }
+  on_all_ranks(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) == 0) s.auto_step = read_step_record(folder_);
+  });
   if (balance_) s.balance = balance_->summary();
   if (pump_) {
     s.pump = pump_->summary();

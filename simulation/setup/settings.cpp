@@ -50,12 +50,27 @@ Section TimeSettings::section() {
         .maximum = 1e9,
         .meaning = "Time to simulate.",
         .may_differ_on_resume = true},
-       {"step", &step, "s", 1e-12, 1e6, Basis::assumed, "Step of the water and of the coupling."},
+       {.key = "step",
+        .target = &step,
+        .unit = "s",
+        .minimum = 1e-12,
+        .maximum = 1e6,
+        .meaning = "Step of the water and of the coupling. \"auto\": the program finds it, by degrees_per_step or step_accuracy.",
+        .choices = {"auto"}},
+       {"degrees_per_step", &degrees_per_step, "1", 0.25, 30, Basis::assumed,
+        "With step = \"auto\": degrees that the rotor turns in a step, a bare number. The step is the largest one that turns it no "
+        "further, "
+        "a whole number of them a revolution."},
+       {"step_accuracy", &step_accuracy, "1", 1e-4, 0.1, Basis::assumed,
+        "With step = \"auto\": largest error of the mean head and torque by the step, relative; 0.005 if neither this nor degrees_per_step "
+        "is given. A trial before the run finds the largest step that is as accurate. Needs [pump] and a rotor that slides."},
        setting("end_when_rags_left", &end_when_rags_left, "true: the run ends as soon as every rag has left through an outlet."),
        {"run_on", &run_on, "s", 0, 1e9, Basis::assumed,
         "With end_when_rags_left: simulated time after the last rag has left; one revolution or more gives the head after the passage."}}};
 }
 const bool time_table = add_case_table<TimeSettings>(40);
+
+bool TimeSettings::step_is_auto() const { return std::isnan(step); }
 
 std::int64_t TimeSettings::n_steps() const {
   if (run_on > 0 && !end_when_rags_left)

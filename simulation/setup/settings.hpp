@@ -31,11 +31,13 @@ struct PeriodicSettings {
 };
 
 struct TimeSettings {
-  double end = 1;      // s
-  double step = 1e-3;  // s
+  double end = 1;                                         // s
+  double step = 1e-3;                                     // s; not a number: "auto"
+  std::optional<double> degrees_per_step, step_accuracy;  // of "auto"
   bool end_when_rags_left = false;
   double run_on = 0;  // s
   Section section();
+  bool step_is_auto() const;
   /// Steps to the end; throws Error(usage) if the end is no whole number of steps away (to 1e-6 of a step), or run_on has
   /// no effect.
   std::int64_t n_steps() const;

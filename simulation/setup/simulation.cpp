@@ -1,5 +1,7 @@
 #include "simulation/setup/simulation.hpp"
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/words.hpp"
@@ -39,6 +41,10 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowC
   read(root, observe_settings);
   read(root, start_settings_);
   start_folder_ = file.path(start_settings_.from);
+  if (time_settings.step_is_auto())
+    throw Error(ExitCode::usage, root.table("time").where() +
+                                     " step = \"auto\" is found by `snag run` and `snag study` alone; give step_ms here, " +
+                                     "such as that in the case.resolved.toml of a run");
   time_settings.n_steps();
   read_mesh(file);
   build_water(file);
@@ -321,7 +327,7 @@ void Simulation::save(CheckpointWriter& writer) const {
 }
 
 void Simulation::load(CheckpointReader& reader) {
-  time_step_ = reader.stamp().time_step;
+  time_step_ = std::llround(reader.stamp().time / time_settings.step);  // that of the stamp, but where a trial changes the step
   if (water) water->load(reader);
   if (rags) {
     rags->load(reader);

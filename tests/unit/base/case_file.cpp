@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -49,6 +50,26 @@ std::string message_of(const std::string& text, const std::vector<std::string>& 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
+
+// A word that may stand in the place of a number, whatever the unit in the key; a misspelt one is refused with what is allowed.
+TEST(CaseFile, WordInThePlaceOfANumber) {
+  const auto read = [](const std::string& line) {
+    double step = 1;
+    const Parameter parameter{.key = "step", .target = &step, .unit = "s", .minimum = 0, .maximum = 1, .choices = {"auto"}};
+    CaseFile::parse("[time]\n" + line, "case.toml").root().table("time").read({parameter});
+    return step;
+  };
+  for (const char* line : {"step = \"auto\"", "step_ms = \"auto\"", "step_s = \"auto\""}) EXPECT_TRUE(std::isnan(read(line))) << line;
+  EXPECT_EQ(read("step_ms = 2"), 2e-3);
+  EXPECT_EQ(read("step = \"2 ms\""), 2e-3);
+  EXPECT_THROW(read("step = \"2\""), Error);
+  try {
+    read("step = \"atuo\"");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_TRUE(contains(error.what(), "must be a number with a unit, or one of auto; did you mean \"auto\"?")) << error.what();
+  }
+}
 
 // Both ways of giving a unit, and every type of value, are read.
 TEST(CaseFile, ReadsValues) {
