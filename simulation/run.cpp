@@ -11,6 +11,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/checkpoint_slots.hpp"
 #include "parallel/session.hpp"
+#include "parallel/stop_request.hpp"
 #include "simulation/output/output_folder.hpp"
 #include "simulation/output/outputs.hpp"
 #include "simulation/setup/forecast.hpp"
@@ -18,7 +19,6 @@
 #include "simulation/setup/prepared.hpp"
 #include "simulation/setup/simulation.hpp"
 #include "simulation/step/case_with_step.hpp"
-#include "simulation/stop_request.hpp"
 
 namespace snag {
 

@@ -12,7 +12,7 @@
 #include "simulation/output/free_motion.hpp"
 #include "simulation/output/pump_output.hpp"
 #include "simulation/output/pump_record.hpp"
-#include "simulation/step/step_record.hpp"
+#include "simulation/output/step_record.hpp"
 #include "solver/monitors.hpp"
 #include "solver/turbulence/turbulence.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/case_file.hpp"
-#include "simulation/step/step_record.hpp"
+#include "simulation/output/step_record.hpp"
 
 namespace snag {
 

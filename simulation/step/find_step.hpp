@@ -1,6 +1,6 @@
 #pragma once
 // [time] step = "auto": the trial that finds the step, from 6 degrees on by halves, and what it found.
-#include "simulation/step/step_record.hpp"
+#include "simulation/output/step_record.hpp"
 
 namespace snag {
 

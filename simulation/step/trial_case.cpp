@@ -3,8 +3,8 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "parallel/session.hpp"
+#include "parallel/stop_request.hpp"
 #include "simulation/setup/simulation.hpp"
-#include "simulation/stop_request.hpp"
 
 namespace snag {
 

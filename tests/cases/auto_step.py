@@ -2,10 +2,14 @@
 # processors: 2
 # cost: 20
 """Requirement: [time] step = "auto" finds the largest step that is as accurate as asked for, the same on any number of ranks, shows why, and a resumed run takes it without another trial."""
+import csv
+import json
+import shutil
 import signal
 import time
 import tomllib
 
+import jsonschema
 import numpy
 
 import harness
@@ -80,6 +84,31 @@ class AutoStep(harness.CaseTest):
         self.assertFalse((run.folder / "step_trial").exists())
         self.assertAlmostEqual(run.summary["time_steps"] * PERIOD / 120, 0.2, places=12)
         self.assertGreater(run.summary["wall_s"], run.summary["auto_step"]["trial_wall_s"])
+
+    def test_summary_and_report_have_the_trial(self):
+        run = self.found()
+        schema = json.loads((harness.SOURCE_DIR / "share" / "summary.schema.json").read_text())
+        jsonschema.validate(run.summary, schema)
+        folder = self.work / "reported"
+        folder.mkdir()
+        for name in ("summary.json", "case.resolved.toml", "log.txt"):  # without fields and monitors nothing is drawn
+            shutil.copy(run.folder / name, folder)
+        reported = harness.snag(["report", folder])
+        self.assertEqual(reported.code, 0, reported.tail())
+        page = (folder / "report.html").read_text()
+        for words in ("<h2>Time step</h2>", "3 degrees of the rotor, the largest one that gives head and torque within 5 %", "error by the step"):
+            self.assertIn(words, page)
+
+    def test_each_run_of_a_study_finds_its_step(self):
+        self.rings()
+        (self.work / "study.toml").write_text('[study]\nname = "flow"\ncase = "auto.toml"\nset = ["time.end_s=0.005"]\nresults = ["auto_step.step_s", "auto_step.accuracy_reached"]\n'
+                                              '[[vary]]\nkey = "boundary.0.flow_rate_L_s"\nname = "flow"\nvalues = [8, 7]\n')
+        done = harness.snag(["study", self.work / "study.toml", "--out", self.work / "study"])
+        self.assertEqual(done.code, 0, done.tail())
+        with open(self.work / "study" / "study.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(float(rows[0]["auto_step.step_s"]), self.found().summary["auto_step"]["step_s"])
+        self.assertTrue(all(row["auto_step.step_s"] for row in rows), rows)
 
     def test_the_resolved_case_is_the_same_run(self):
         run = self.found()

@@ -1,4 +1,4 @@
-#include "simulation/step/step_record.hpp"
+#include "simulation/output/step_record.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

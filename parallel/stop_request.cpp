@@ -1,4 +1,4 @@
-#include "simulation/stop_request.hpp"
+#include "parallel/stop_request.hpp"
 
 #include <csignal>
 
