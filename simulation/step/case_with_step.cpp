@@ -76,7 +76,9 @@ CaseToCheck case_with_first_step(const std::filesystem::path& case_file, const s
 
 void say_and_store(const StepRecord& found, const std::filesystem::path& output, bool resume) {
   log::info(step_in_words(found));
-  if (!found.is_reached) log::warning("[time] step = \"auto\": the accuracy is not reached; the log says why");
+  if (!found.is_reached)
+    log::warning("[time] step = \"auto\": the accuracy of " + rounded(100 * *found.accuracy) +
+                 " % is not reached, see the log; give more [flow] n_outer_correctors, or a larger step_accuracy");
   if (resume) return;
   on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_step_record(output, found);

@@ -119,8 +119,9 @@ StepRecord find_step(const TrialCase& trial) {
   find_for_water(trial, n, settling, record);
   if (settling.rag != RagEntry::none) find_for_rag(trial, settling.rag, record);
   if (!record.is_reached)
-    record.notes.push_back("no step down to " + degrees_text(record.steps_per_revolution) +
-                           " is as accurate as asked for; the smallest one is taken");
+    record.notes.push_back(
+        "no step down to " + degrees_text(record.steps_per_revolution) +
+        " is as accurate as asked for; the smallest one is taken. More [flow] n_outer_correctors often make larger steps accurate");
   record.step = trial.request().step(record.steps_per_revolution);
   record.wall = MPI_Wtime() - begun;
   return record;
