@@ -1,17 +1,17 @@
-# timeout: 900
+# timeout: 1800
 # labels: long
 # processors: 3
 # cost: 30
-"""Requirement: what auto_step.py requires of two ranks holds on three."""
+"""Requirement: [time] step = "auto" finds the same step on three ranks as on one."""
 import harness
-import auto_step
+from auto_step import AutoStepCase
 
 
-class OnThreeRanks(auto_step.AutoStep):
-    ranks = (3,)
+class OnThreeRanks(AutoStepCase):
+    @harness.parallel
+    def test_the_same_step_on_three_ranks(self):
+        self.takes_the_same_step_on(3)
 
-
-del auto_step.AutoStep  # its tests run in its own script
 
 if __name__ == "__main__":
     harness.main()
