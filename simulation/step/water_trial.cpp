@@ -104,12 +104,15 @@ Settling settle_water(const TrialCase& trial, int steps_per_revolution) {
   while (water.time() < ramp * (1 - 1e-9)) water.advance();
   Settling settling;
   std::vector<double> before;
+  bool was_settled = false;
   while (water.waits_for_rag() || settling.revolutions < n_settling_least ||
          (!settling.has_settled && settling.revolutions < n_settling_most)) {
     const std::vector<double> means = water.revolution();
     log_revolution(steps_per_revolution, "settling, revolution", ++settling.revolutions, means);
     if (!before.empty()) settling.last_change = largest_change(means, before);
-    settling.has_settled = !before.empty() && settling.last_change <= settled_change * trial.request().accuracy();
+    const bool is_settled_now = !before.empty() && settling.last_change <= settled_change * trial.request().accuracy();
+    settling.has_settled = is_settled_now && was_settled;  // once may be by chance
+    was_settled = is_settled_now;
     before = means;
   }
   CheckpointWriter writer(MPI_COMM_WORLD, state_of_water(trial),

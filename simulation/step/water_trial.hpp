@@ -15,7 +15,7 @@ class TrialCase;
 enum TrialQuantity : std::size_t { trial_head, trial_torque };  // m, N m
 
 /// Revolutions until the water has settled, and of a trial.
-inline constexpr int n_settling_least = 2, n_settling_most = 20, n_trial_revolutions = 3;
+inline constexpr int n_settling_least = 3, n_settling_most = 20, n_trial_revolutions = 3;
 
 enum class RagEntry { none, at_start, later };
 
@@ -26,7 +26,7 @@ struct Settling {
   RagEntry rag = RagEntry::none;  // the first one
 };
 
-/// Computes the water until its means change by less than twice the accuracy in a revolution, and writes the state.
+/// Computes the water until its means change by less than twice the accuracy in two successive revolutions, and writes the state.
 /// Where a rag enters later, it goes on until then and stores the state for try_rag(). Collective; throws Error.
 Settling settle_water(const TrialCase& trial, int steps_per_revolution);
 

@@ -179,7 +179,7 @@ class AutoStep(AutoStepCase):
     def test_check_says_what_happens(self):
         checked = harness.snag(["check", self.rings()])
         self.assertEqual(checked.code, 0, checked.tail())
-        for words in ("before the run a trial computes the water alone", "6 degrees, 3 degrees", "within 5 %", "660 to 3900 steps"):
+        for words in ("before the run a trial computes the water alone", "6 degrees, 3 degrees", "within 5 %", "720 to 3900 steps"):
             self.assertIn(words, checked.stdout)
 
     def test_words_of_errors(self):
