@@ -26,7 +26,7 @@ struct CouplingSettings {
   enum class Mode { none, one_way, two_way };
   Choice<Mode> mode{Mode::two_way, {"none", "one_way", "two_way"}};
   std::string kernel = "gaussian";
-  std::optional<double> kernel_width;                             // delta, m; not given: twice the largest particle diameter
+  std::optional<double> kernel_width;                             // delta, m; not given: chosen for the rags
   std::vector<std::string> forces = force_sets().front().forces;  // sets are spelt out when a case is read
 
   Section section();
@@ -59,6 +59,9 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
 /// A remark for each force that looks for the nearest wall where the rags know none, though the water has walls (`water_has_walls`) or the
 /// force is nothing without.
 std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_walls, bool water_has_walls);
+
+/// The kernel width that a case without kernel_width has, for its heading; empty where it is given or the kernel has no width.
+std::string assumed_kernel_width(const Coupling& coupling, const std::vector<Rag>& rags);
 
 /// What a one-way case leaves out of the inertia of its cloth, a line for each piece that is a sheet: a flat plate W x L, W <= L, that is
 /// accelerated across itself takes with it up to

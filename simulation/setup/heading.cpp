@@ -101,6 +101,10 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   }
   log::info(text.str());
   for (const std::string& line : rag_assumptions(file.root())) log::info("assumed: " + line);
+  if (simulation.coupled && simulation.mesh) {
+    const std::string width = assumed_kernel_width(simulation.coupled->coupling(), simulation.rags->rags());
+    if (!width.empty()) log::info("assumed: " + width);
+  }
   if (simulation.coupled)
     for (const std::string& line : left_out_added_mass(simulation.coupled->coupling(), simulation.rags->rags()))
       log::info("left out: " + line);

@@ -347,6 +347,11 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
   rags[0].n_columns = 30, rags[0].n_rows = 20, rags[0].radius = 1e-3, rags[0].name = "cloth";  // 40 mm wide
   EXPECT_TRUE(warnings("kernel_width_mm = 5").empty());
+  rags[0].hydrodynamic_diameter = 8e-3;
+  EXPECT_TRUE(warnings("kernel_width_mm = 4.5").empty()) << "half of the diameter does for cloth";
+  ASSERT_EQ(warnings("kernel_width_mm = 3.5").size(), 1u);
+  EXPECT_NE(warnings("kernel_width_mm = 3.5")[0].find("0.438 of the particle diameter (8 mm), advised at least 0.5"), std::string::npos);
+  rags[0].hydrodynamic_diameter = 2e-3;
   ASSERT_EQ(warnings("kernel_width_mm = 10").size(), 1u);
   EXPECT_NE(warnings("kernel_width_mm = 10")[0].find("0.25 of the shorter side of cloth \"cloth\" (40 mm), advised at most 0.125"),
             std::string::npos);
@@ -360,6 +365,32 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   for (int c = 0; c < 4000; ++c) mesh.cell_volume[c] = c == 0 ? 1e-13 : 1e-3 * mesh.cell_volume[c];  // small cells, away from the particle
   EXPECT_TRUE(warnings("kernel_width_mm = 5").empty());
   EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
+}
+
+// Requirement: the kernel width that a case does not give depends on the size of a cloth, not of its particles; on the diameter of spheres.
+TEST(CouplingSettings, ChoosesAWidthForClothAndSpheres) {
+  const auto width = [](std::vector<Rag> rags, const std::string& keys = "") {
+    const auto coupling = read_coupling(CaseFile::parse("[coupling]\n" + keys).root());
+    return std::pair{coupling.kernel_width(rags), assumed_kernel_width(coupling, rags)};
+  };
+  const auto cloth = [](double radius, double side) {
+    Rag rag;
+    rag.radius = radius, rag.hydrodynamic_diameter = 2 * radius;
+    rag.n_columns = 2 * (rag.n_rows = static_cast<int>(std::lround(side / (2 * radius))));
+    return rag;
+  };
+  Rag sphere;
+  sphere.n_columns = sphere.n_rows = 1, sphere.hydrodynamic_diameter = 5e-3;
+  for (const double radius : {1e-3, 1.5e-3, 2e-3, 2.5e-3, 4e-3}) {
+    EXPECT_DOUBLE_EQ(width({cloth(radius, 0.12)}).first, 6e-3);
+    EXPECT_DOUBLE_EQ(width({cloth(radius, 0.12), sphere}).first, 6e-3);
+  }
+  EXPECT_DOUBLE_EQ(width({cloth(1e-3, 0.12), cloth(2e-3, 0.024)}).first, 3e-3);
+  EXPECT_DOUBLE_EQ(width({sphere}).first, 0.01);
+  EXPECT_EQ(width({cloth(1e-3, 0.12)}).second, "[coupling] kernel_width is not given: 6 mm for cloth, independent of its particles");
+  EXPECT_EQ(width({sphere}).second, "[coupling] kernel_width is not given: 10 mm, twice the largest diameter");
+  EXPECT_EQ(width({sphere}, "kernel = \"cell\"").second, "");
+  EXPECT_EQ(width({sphere}, "kernel_width_mm = 3").second, "");
 }
 
 // Requirement: a one-way case says which inertia of its sheets it leaves out; threads, spheres and two-way cases have no such line.
