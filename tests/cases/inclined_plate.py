@@ -1,6 +1,7 @@
 # timeout: 900
 # cost: 20
-"""Requirement: a nearly closed sheet across and oblique to a stream takes the normal force that is measured on a plate, in the measured direction.
+"""Requirement: a nearly closed sheet across and oblique to a stream takes the normal force that is measured on a plate, in the measured direction; along the stream it has the friction of the boundary layers on
+both sides, whatever kernel and particles.
 
 Plate of the sides c and 2 c at Re = U c/nu = 100, towed in oil: Taira, Dickson, Colonius, Dickinson and Rowley (2007), Unsteadiness in flow over a flat plate at angle-of-attack at low Reynolds numbers, AIAA paper
 2007-710; points of its figures of drag and lift as digitised with PetIBM (examples/data, taira_et_al_2007_flatPlateRe100AR2_*.dat), interpolated."""
@@ -24,7 +25,7 @@ end_s = 1.2
 step_ms = {step}
 [flow]
 density_kg_m3 = 1000
-dynamic_viscosity_Pa_s = 1
+dynamic_viscosity_Pa_s = {viscosity:.9g}
 initial_velocity_m_s = {stream}
 [turbulence]
 model = "laminar"
@@ -50,13 +51,13 @@ SHEET = """
 [[rag]]
 length_mm = 100
 width_mm = 100
-radius_mm = 2
+radius_mm = {radius_mm}
 centre_m = [0, -0.0025, 0.05]
 lengthwise = [0, 0, 1]
 crosswise = [1, 0, 0]
 mass_per_area_kg_m2 = 1
 [[hold]]
-columns = [0, 24]
+columns = [0, {last}]
 [coupling]
 mode = "two_way"
 kernel = "gaussian"
@@ -65,13 +66,14 @@ forces = ["sheet_drag"]
 [coupling.sheet_drag]
 normal_coefficient = 1000
 form = "viscous"
+{layers}
 """
 
 
 class InclinedPlate(harness.CaseTest):
     """Half of the plate, from the plane of symmetry z = 0 on. Its normal is y."""
 
-    def coefficients(self, degrees, delta=None, step=6):
+    def coefficients(self, degrees, delta=None, step=6, Re=100, radius_mm=2, layers=""):
         """Normal and tangential force over the dynamic pressure and the plate's area, of a sheet with the kernel width `delta` (m) or of a rigid plate."""
         along = graded_box.axis(-0.8, 1.3, (-0.075, 0.1), SIZE, 1.25)
         across = graded_box.axis(-0.8, 1.0, (-6 * THICKNESS, 6 * THICKNESS), THICKNESS, 1.25)
@@ -81,8 +83,9 @@ class InclinedPlate(harness.CaseTest):
             graded_box.write(mesh, (along, across, span), None if delta else ((-CHORD / 2, CHORD / 2), (-THICKNESS, 0), (-CHORD, CHORD)))
         angle = math.radians(degrees)
         stream = f"[{SPEED * math.cos(angle):.9g}, {SPEED * math.sin(angle):.9g}, 0]"
-        text = CASE.format(mesh=mesh, step=step, stream=stream) + (SHEET.format(delta=delta) if delta else PLATE)
-        run = self.run_once(self.case(text, f"{degrees}-{delta}-{step}"), 1)
+        text = CASE.format(mesh=mesh, step=step, stream=stream, viscosity=DENSITY * SPEED * CHORD / Re)
+        text += SHEET.format(delta=delta, radius_mm=radius_mm, last=round(500 * CHORD / radius_mm) - 1, layers=layers) if delta else PLATE
+        run = self.run_once(self.case(text, f"{degrees}-{delta}-{step}-{Re}-{radius_mm}-{len(layers)}"), 1)
         monitor, name = (run.monitor("coupling"), "force_on_rags") if delta else (run.monitor("patches"), "plate_force")
         late = monitor.column("time [s]") > 0.9
         normal, tangential = (monitor.column(f"{name}_{axis} [N]")[late].mean() / (0.5 * DENSITY * SPEED**2 * CHORD**2) for axis in "yx")
@@ -103,9 +106,23 @@ class InclinedPlate(harness.CaseTest):
         return found_normal
 
 
+    def along(self, Re, delta, bound, turbulent=False, **keys):
+        """Friction of both sides: Blasius (1908) with the term of the trailing edge, Messiter (1970); or 0.074 Re^(-1/5), Prandtl."""
+        law = 2 * (0.074 * Re**-0.2 if turbulent else 1.328 * Re**-0.5 + 2.67 * Re**-0.875)
+        friction = self.coefficients(0, delta, Re=Re, layers="transition_reynolds = 0" if turbulent else "", **keys)[1]
+        what = f"along the stream, Re {Re:g}, kernel {1e3 * delta:g} mm{', turbulent' if turbulent else ''} {keys}"
+        print(f"  {what}: friction {friction:.4f}, law {law:.4f} ({100 * (friction / law - 1):+.1f} %)", flush=True)
+        with self.subTest(what):
+            self.assertLess(abs(friction / law - 1), bound)
+        return friction
+
+
 class InclinedPlateShort(InclinedPlate):
     def test_oblique(self):
         self.compare(30, 0.012, 0.15, step=12)
+
+    def test_along(self):
+        self.along(1e3, 0.012, 0.10, step=24)
 
 
 if __name__ == "__main__":

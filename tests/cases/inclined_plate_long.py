@@ -15,6 +15,16 @@ class InclinedPlateLong(inclined_plate.InclinedPlate):
                 with self.subTest(f"{degrees} degrees, kernel {1e3 * delta:g} mm, rigid plate"):
                     self.assertLess(abs(sheet / rigid - 1), of_rigid)
 
+    def test_along(self):
+        """Kernels below and above the thickness of the layers, which is 5 Re^(-1/2) of the side."""
+        for Re in (1e3, 1e4, 1e5):
+            for delta in (0.006, 0.012):
+                self.along(Re, delta, 0.10)
+        for delta in (0.006, 0.012):
+            self.along(1e6, delta, 0.20, turbulent=True)
+        friction = [self.along(1e4, 0.012, 0.10, step=12, radius_mm=radius) for radius in (1, 2)]
+        self.assertLess(abs(friction[0] / friction[1] - 1), 0.03)
+
 
 if __name__ == "__main__":
     harness.main()
