@@ -1,6 +1,29 @@
 """Meshes of hexahedra that are fine around the origin and grow from there: for bodies in a wide stream."""
 import numpy
 
+# The patch that write() makes around a hole.
+PLATE = """
+[[boundary]]
+patch = "plate"
+kind = "wall"
+"""
+
+
+def free_stream(speed):
+    """Boundaries of a stream along x (m/s) between planes of symmetry."""
+    return f"""
+[[boundary]]
+patch = "x0"
+kind = "velocity_inlet"
+velocity_m_s = [{speed}, 0, 0]
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["y0", "y1", "z0", "z1"]
+kind = "symmetry"
+"""
+
 
 def axis(lower, upper, fine, size, growth):
     """Nodes: steps of `size` in the interval `fine`, growing outwards by `growth`."""

@@ -42,11 +42,6 @@ kind = "symmetry"
 [output]
 report = false
 """
-PLATE = """
-[[boundary]]
-patch = "plate"
-kind = "wall"
-"""
 SHEET = """
 [[rag]]
 length_mm = 100
@@ -84,7 +79,7 @@ class InclinedPlate(harness.CaseTest):
         angle = math.radians(degrees)
         stream = f"[{SPEED * math.cos(angle):.9g}, {SPEED * math.sin(angle):.9g}, 0]"
         text = CASE.format(mesh=mesh, step=step, stream=stream, viscosity=DENSITY * SPEED * CHORD / Re)
-        text += SHEET.format(delta=delta, radius_mm=radius_mm, last=round(500 * CHORD / radius_mm) - 1, layers=layers) if delta else PLATE
+        text += SHEET.format(delta=delta, radius_mm=radius_mm, last=round(500 * CHORD / radius_mm) - 1, layers=layers) if delta else graded_box.PLATE
         run = self.run_once(self.case(text, f"{degrees}-{delta}-{step}-{Re}-{radius_mm}-{len(layers)}"), 1)
         monitor, name = (run.monitor("coupling"), "force_on_rags") if delta else (run.monitor("patches"), "plate_force")
         late = monitor.column("time [s]") > 0.9

@@ -24,24 +24,9 @@ dynamic_viscosity_Pa_s = 0.1
 initial_velocity_m_s = [1, 0, 0]
 [turbulence]
 model = "laminar"
-[[boundary]]
-patch = "x0"
-kind = "velocity_inlet"
-velocity_m_s = [1, 0, 0]
-[[boundary]]
-patch = "x1"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["y0", "y1", "z0", "z1"]
-kind = "symmetry"
 [output]
 report = false
-"""
-PLATE = """
-[[boundary]]
-patch = "plate"
-kind = "wall"
-"""
+""" + graded_box.free_stream(1)
 SHEET = """
 [[rag]]
 length_mm = 100
@@ -85,7 +70,7 @@ class SheetInAStream(harness.CaseTest):
         return monitor.column("time [s]"), monitor.column(column) / (0.5 * DENSITY * SPEED**2 * SIDE**2)
 
     def plate(self, end, step=0.006, size=SIZE):
-        return self.coefficient(self.run_once(self.case(STREAM.format(mesh=self.stream(size, True), end=end, step=step) + PLATE, f"plate-{size}-{end}"), 1), "plate_force_x [N]")
+        return self.coefficient(self.run_once(self.case(STREAM.format(mesh=self.stream(size, True), end=end, step=step) + graded_box.PLATE, f"plate-{size}-{end}"), 1), "plate_force_x [N]")
 
     def sheet(self, K, delta, end, step=0.006, size=SIZE, kernel="gaussian", free_mass=None, radius=2.5e-3):
         """A run with a sheet that is held, or free with a mass per area, kg/m2."""

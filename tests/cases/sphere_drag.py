@@ -38,18 +38,6 @@ forces = {forces}
 [output]
 report = false
 """
-STREAM = """
-[[boundary]]
-patch = "x0"
-kind = "velocity_inlet"
-velocity_m_s = [0.1, 0, 0]
-[[boundary]]
-patch = "x1"
-kind = "pressure_outlet"
-[[boundary]]
-patches = ["y0", "y1", "z0", "z1"]
-kind = "symmetry"
-"""
 WALL = """
 [[boundary]]
 patch = "y0"
@@ -100,7 +88,7 @@ class SphereDrag(harness.CaseTest):
             density=DENSITY,
             viscosity=viscosity,
             stream=[0, 0, 0] if wall else [SPEED, 0, 0],
-            boundaries=WALL if wall else STREAM,
+            boundaries=WALL if wall else graded_box.free_stream(SPEED),
             diameter=DIAMETER,
             position=list(map(float, position)),
             velocity=[-SPEED if wall else 0, 0, 0],
