@@ -177,7 +177,7 @@ RunState prepare(const std::filesystem::path& folder, const Study& study, const 
 
 bool has_checkpoint(const std::filesystem::path& folder) {
   try {
-    CheckpointReader(world, folder);
+    const CheckpointReader newest(world, folder);
     return true;
   } catch (const Error&) {
     return false;

@@ -267,7 +267,7 @@ struct Earlier {
 };
 
 CaseFile read_renamed(Renamed& s, const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const auto file = CaseFile::parse(text, "case.toml", overrides);
+  auto file = CaseFile::parse(text, "case.toml", overrides);
   if (const Section section = s.section(); file.root().has(section)) file.root().table(section).read(section.parameters);
   file.reject_unread();
   return file;

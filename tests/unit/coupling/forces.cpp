@@ -369,7 +369,7 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
 
 // Requirement: the kernel width that a case does not give depends on the size of a cloth, not of its particles; on the diameter of spheres.
 TEST(CouplingSettings, ChoosesAWidthForClothAndSpheres) {
-  const auto width = [](std::vector<Rag> rags, const std::string& keys = "") {
+  const auto width = [](const std::vector<Rag>& rags, const std::string& keys = "") {
     const auto coupling = read_coupling(CaseFile::parse("[coupling]\n" + keys).root());
     return std::pair{coupling.kernel_width(rags), assumed_kernel_width(coupling, rags)};
   };

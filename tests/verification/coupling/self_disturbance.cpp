@@ -40,13 +40,14 @@ double velocity_ratio(const Settling& s, bool corrected) {
   const std::string text = "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n[coupling]\n" + s.kernel + "\nforces = [\"schiller_naumann\"" +
                            (corrected ? ", \"self_disturbance\"" : "") + "]\n";
   CoupledSolver solver(read_coupling(CaseFile::parse(text).root()), rags, water.flow, [&](double dt) { water.advance(dt); });
+  const int half = s.steps / 2;
   double start = 0;
   const auto height = [&] { return rags.tiles()[0].vector(Tile::x, rags.tiles()[0].index(0, 0)).z; };
   for (int n = 0; n < s.steps; ++n) {
-    if (n == s.steps / 2) start = height();
+    if (n == half) start = height();
     solver.step(s.step);
   }
-  const double velocity = (start - height()) / (s.step * (s.steps - s.steps / 2));
+  const double velocity = (start - height()) / (s.step * (s.steps - half));
   const double exact = force / (3 * std::numbers::pi * mu * d) * (1 - 1.4185 * d / L);
   return velocity / exact;
 }

@@ -171,7 +171,8 @@ struct Suspension {
     for (int c = 0; c < 24; ++c) {
       RagSettings settings(RagSettings::Shape::particle);
       settings.diameter = std::cbrt(6 * phi / std::numbers::pi) * cell, settings.density = density_ratio * flow.density;
-      settings.position = cell * Vec3{c % 3 + 0.5, c / 3 % 2 + 0.5, c / 6 + 0.5};
+      const int row = c / 3 % 2, layer = c / 6;
+      settings.position = cell * Vec3{c % 3 + 0.5, row + 0.5, layer + 0.5};
       pieces.push_back(make_piece(settings, "test"));
     }
     RagSystem rags(world, {}, pieces);
