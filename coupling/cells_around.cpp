@@ -1,14 +1,32 @@
 #include "coupling/cells_around.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
 
 namespace snag {
 
 namespace {
-// A group reaches over half a radius: its ball holds (1.25)^3, about twice, the cells of a single point.
-constexpr double group_diameter = 0.5;  // in radii
+// A ball about a group holds (1.35)^3 = 2.5 times the cells of a single point: that many distances cost less than asking the tree.
+constexpr double group_diameter = 0.7;  // in radii
 constexpr std::size_t most_points = 64;
+constexpr double box_side = group_diameter / 1.75;  // its diagonal is less than the group's diameter
 }  // namespace
+
+std::vector<int> order_in_space(std::span<const Vec3> points, double radius) {
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (!(radius > 0)) return order;
+  using Box = std::array<std::int64_t, 3>;
+  std::vector<Box> box(points.size());
+  for (std::size_t b = 0; b < points.size(); ++b)
+    for (int axis = 0; axis < 3; ++axis)
+      box[b][axis] = static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(points[b][axis] / (box_side * radius), -1e15), 1e15)));
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return box[a] != box[b] ? box[a] < box[b] : a < b; });
+  return order;
+}
 
 void CellsAround::start_group(std::span<const Vec3> points, std::size_t i) {
   Vec3 low = points[i], high = points[i];

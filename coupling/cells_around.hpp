@@ -1,6 +1,6 @@
 #pragma once
-// Cells around many points that follow each other closely (rows of a sheet): the tree of centres is asked once for a group of points, and
-// each point picks its cells from the group's by distance, in a loop that vectorises.
+// Cells around many points that follow each other closely: the tree of centres is asked once for a group of points, and each point picks
+// its cells from the group's by distance, in a loop that vectorises.
 #include <span>
 #include <vector>
 
@@ -8,13 +8,16 @@
 
 namespace snag {
 
+/// Numbers of the points, those of a box of some tenths of the radius after each other: a sheet has whole patches there, of all its folds.
+std::vector<int> order_in_space(std::span<const Vec3> points, double radius);
+
 class CellsAround {
  public:
   /// `weights`: of the owned cells.
   CellsAround(const Mesh& mesh, const CellLocator& locator, const std::vector<double>& weights, double radius)
       : mesh_(mesh), locator_(locator), weights_(weights), radius_(radius) {}
   /// Owned cells whose centres are nearer than the radius to points[i]: number and squared distance (m2) are appended, weights of these
-  /// cells replace those of the last call. Fast if called for i = 0, 1, 2, ... of the same points.
+  /// cells replace those of the last call. Fast if called for i = 0, 1, 2, ... of the same points, in the order of order_in_space.
   void append(std::span<const Vec3> points, std::size_t i, std::vector<int>& cell, std::vector<double>& distance_squared,
               std::vector<double>& weight);
 

@@ -118,7 +118,8 @@ void Kernel::locate(std::span<const Vec3> points) {
   std::vector<double> answers, received;
   around_.router.back(search_cells(points), 4, answers);
   std::vector<int> unresolved;
-  const std::vector<double> factors = weight_factors(answers, unresolved);
+  std::vector<double> factors = weight_factors(answers, unresolved);
+  drop_empty_rows(answers, factors);
   around_.router.forward(factors, 1, received);
   finish_weights(received);
   some_in_nearest_cell_ = sum(mesh_.comm, static_cast<std::int64_t>(unresolved.size())) > 0;
@@ -128,16 +129,17 @@ void Kernel::locate(std::span<const Vec3> points) {
 /// A particle is told to the ranks whose cells' bounding box, enlarged by the support, holds it.
 void Kernel::plan_by_boxes(std::span<const Vec3> points) {
   std::vector<std::vector<int>> particles_for(boxes_.size());
+  const std::vector<int> order = order_in_space(points, support_);
   for (std::size_t r = 0; r < boxes_.size(); ++r) {
     const auto& box = boxes_[r];
     if (box[0] > box[3]) continue;  // a rank without cells
     // A point on the box's face must not be lost by round-off.
     const double margin = support_ + 1e-9 * (std::abs(box[3] - box[0]) + std::abs(box[4] - box[1]) + std::abs(box[5] - box[2]));
-    for (std::size_t b = 0; b < points.size(); ++b) {
+    for (const int b : order) {
       const Vec3& x = points[b];
       const bool inside = x.x >= box[0] - margin && x.x <= box[3] + margin && x.y >= box[1] - margin && x.y <= box[4] + margin &&
                           x.z >= box[2] - margin && x.z <= box[5] + margin;
-      if (inside) particles_for[r].push_back(static_cast<int>(b));
+      if (inside) particles_for[r].push_back(b);
     }
   }
   around_.router.plan(particles_for);
@@ -241,6 +243,24 @@ std::vector<double> Kernel::weight_factors(std::span<const double> answers, std:
   return factors;
 }
 
+/// A rank that was told of a particle and has no cell for it hears no more of it; both know so from the answer.
+void Kernel::drop_empty_rows(std::span<const double> answers, std::vector<double>& factors) {
+  auto& [router, start, cell, weight] = around_;
+  std::vector<char> keeps_entry(factors.size()), keeps_row(start.size() - 1);
+  std::size_t n_entries = 0, n_rows = 0;
+  for (std::size_t e = 0; e < factors.size(); ++e) {
+    const Answer answer = Answer::read(&answers[4 * e]);
+    keeps_entry[e] = answer.exponent != none || answer.holder_id >= 0 ? 1 : 0;
+    if (keeps_entry[e]) factors[n_entries++] = factors[e];
+  }
+  for (std::size_t i = 0; i + 1 < start.size(); ++i) {
+    keeps_row[i] = start[i] < start[i + 1] ? 1 : 0;
+    if (keeps_row[i]) start[++n_rows] = start[i + 1];
+  }
+  router.keep(keeps_entry, keeps_row);
+  factors.resize(n_entries), start.resize(n_rows + 1);
+}
+
 /// Multiply the weights of each received particle by its factor.
 void Kernel::finish_weights(std::span<const double> factors) {
   for (std::size_t i = 0; i < factors.size(); ++i)
@@ -320,6 +340,8 @@ void with_components(int components, const Act& act) {
       return act(std::integral_constant<int, 3>());
     case 4:
       return act(std::integral_constant<int, 4>());
+    case 9:
+      return act(std::integral_constant<int, 9>());
     default:
       if (components > most_components)
         throw Error(ExitCode::invariant, "kernel: a field of " + std::to_string(components) + " components, at most " +
@@ -333,20 +355,21 @@ void with_components(int components, const Act& act) {
 void Kernel::average(const Stencils& stencils, std::span<const CellField> fields, int components, std::vector<double>& values) const {
   const int n = stencils.router.n_received();
   std::vector<double> answers(static_cast<std::size_t>(n) * components, 0.0), entries;
-  int first = 0;
-  for (const auto& [cell_values, n_components] : fields) {
-    with_components(n_components, [&, from = cell_values](auto m) {
-      for (int i = 0; i < n; ++i) {
+  // Particle by particle, so that its row of cells and weights stays in the cache for all fields.
+  for (int i = 0; i < n; ++i) {
+    double* to = answers.data() + static_cast<std::size_t>(i) * components;
+    for (const auto& [cell_values, n_components] : fields) {
+      with_components(n_components, [&, from = cell_values](auto m) {
         std::array<double, most_components> sum{};
         for (int s = stencils.start[i]; s < stencils.start[i + 1]; ++s) {
           const double* value = from + static_cast<std::size_t>(stencils.cell[s]) * m;
           const double weight = stencils.weight[s];
           for (int j = 0; j < m; ++j) sum[j] += weight * value[j];
         }
-        std::copy_n(sum.data(), static_cast<int>(m), answers.data() + static_cast<std::size_t>(i) * components + first);
-      }
-    });
-    first += n_components;
+        std::copy_n(sum.data(), static_cast<int>(m), to);
+      });
+      to += n_components;
+    }
   }
   stencils.router.back(answers, components, entries);
   for (int e = 0; e < stencils.router.n_entries(); ++e) {

@@ -82,6 +82,7 @@ class Kernel {
   std::vector<double> search_cells(std::span<const Vec3> points);
   void set_weights(std::span<double> weights, const double* cell_weight, double& exponent, double& sum_of_weights) const;
   std::vector<double> weight_factors(std::span<const double> answers, std::vector<int>& unresolved);
+  void drop_empty_rows(std::span<const double> answers, std::vector<double>& factors);
   void finish_weights(std::span<const double> factors);
   void take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved);
   void average(const Stencils& stencils, std::span<const CellField> fields, int components, std::vector<double>& values) const;

@@ -28,6 +28,23 @@ void ParticleRouter::plan(const std::vector<std::vector<int>>& particles_for) {
   std::partial_sum(receive_count.begin(), receive_count.end(), receive_start_.begin() + 1);
 }
 
+void ParticleRouter::keep(std::span<const char> keeps_entry, std::span<const char> keeps_received) {
+  const auto shorten = [](std::vector<int>& start, std::span<const char> keeps) {
+    std::vector<int> kept(keeps.size() + 1, 0);  // before each
+    for (std::size_t i = 0; i < keeps.size(); ++i) kept[i + 1] = kept[i] + keeps[i];
+    for (int& s : start) s = kept[s];
+  };
+  shorten(send_start_, keeps_entry);
+  shorten(receive_start_, keeps_received);
+  std::size_t n = 0;
+  for (std::size_t e = 0; e < particle_.size(); ++e) {
+    if (!keeps_entry[e]) continue;
+    particle_[n] = particle_[e], rank_[n] = rank_[e];
+    ++n;
+  }
+  particle_.resize(n), rank_.resize(n);
+}
+
 void ParticleRouter::exchange(const double* from, const std::vector<int>& from_start, double* to, const std::vector<int>& to_start,
                               int components) const {
   const int ranks = static_cast<int>(from_start.size()) - 1, me = rank_of(comm_);

@@ -16,6 +16,9 @@ class ParticleRouter {
 
   /// `particles_for[rank]`: particles of this rank that `rank` has to hear of. Collective.
   void plan(const std::vector<std::vector<int>>& particles_for);
+  /// Drops entries, and what was received, where `keeps_entry` [n_entries] and `keeps_received` [n_received] are 0. Both sides must agree
+  /// on each; no message is sent.
+  void keep(std::span<const char> keeps_entry, std::span<const char> keeps_received);
   int n_entries() const { return static_cast<int>(particle_.size()); }
   int n_received() const { return receive_start_.empty() ? 0 : receive_start_.back(); }
   /// Particle and rank of an entry.

@@ -71,7 +71,8 @@ const double* coverage(const CellSource& source, std::vector<double>& made) {
   const double own = source.kernel.has_width() ? 2 * std::sqrt(std::numbers::pi) * source.kernel.width() : 0;
   spread(
       source, [](const Rag& rag) { return 2 * rag.radius * (2 * rag.radius); }, made);
-  for (int c = 0; c < mesh.n_cells; ++c) made[c] *= std::hypot(own, std::cbrt(mesh.cell_volume[c]));
+  for (int c = 0; c < mesh.n_cells; ++c)
+    if (made[c] != 0) made[c] *= std::hypot(own, std::cbrt(mesh.cell_volume[c]));
   return made.data();
 }
 

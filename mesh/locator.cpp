@@ -127,6 +127,13 @@ CellLocator::CellLocator(const Mesh& mesh) : mesh_(mesh), at_interface_(static_c
     for (int c = 0; c < mesh.n_cells; ++c)
       for (const int node : row(mesh.cell_node_start, mesh.cell_node, c)) at_interface_[c] |= on_interface[node];
   }
+  std::vector<char> is_corner(mesh.node.size(), 0);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    if (at_interface_[c]) interface_cells_.push_back(c);
+    for (const int node : row(mesh.cell_node_start, mesh.cell_node, c)) is_corner[node] = 1;
+  }
+  for (std::size_t node = 0; node < is_corner.size(); ++node)
+    if (is_corner[node]) nodes_.push_back(static_cast<int>(node));
   for (const bool turns : {false, true}) {
     auto group = std::make_unique<Group>();
     group->turns = turns;
@@ -160,8 +167,9 @@ CellBox CellLocator::box_of(int cell, bool as_in_file) const {
 
 CellBox CellLocator::bounds() const {
   CellBox bounds = empty_box();
-  for (int c = 0; c < mesh_.n_cells; ++c) {
-    const CellBox box = box_of(c, false);
+  for (const int node : nodes_) add(bounds, mesh_.node[node]);
+  for (const int cell : interface_cells_) {
+    const CellBox box = box_of(cell, false);
     add(bounds, box.lower), add(bounds, box.upper);
   }
   return bounds;

@@ -40,7 +40,9 @@ class CellLocator {
   void find_in(const Group& group, const Vec3& point, int& found, Side& side) const;
 
   const Mesh& mesh_;
-  std::vector<char> at_interface_;  // [n_cells]
+  std::vector<char> at_interface_;    // [n_cells]
+  std::vector<int> interface_cells_;  // those
+  std::vector<int> nodes_;            // of the owned cells
   std::vector<std::unique_ptr<Group>> groups_;
 };
 

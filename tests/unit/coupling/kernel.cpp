@@ -5,12 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 
 #include "../mesh/sliding_shells.hpp"
 #include "coupling/cell_owner.hpp"
+#include "coupling/cells_around.hpp"
 #include "mesh/import/import.hpp"
 #include "mesh/sliding/turning_mesh.hpp"
 #include "parallel/session.hpp"
@@ -194,6 +196,23 @@ TEST_P(Kernels, TieGoesToTheLowerCell) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, Kernels, testing::ValuesIn(kernel_shapes().names()));
+
+// Requirement: the order of a search names every point once, also one that is not a number, and keeps the points of a small box together.
+TEST(OrderInSpace, NamesEveryPointOnce) {
+  std::vector<Vec3> points = scattered_points(500);
+  points[7].y = std::nan("");
+  const double radius = 0.2;
+  std::vector<int> order = order_in_space(points, radius);
+  double steps = 0, at_random = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i] == 7 || order[i - 1] == 7 || i == 7 || i == 8) continue;
+    steps += norm(points[order[i]] - points[order[i - 1]]);
+    at_random += norm(points[i] - points[i - 1]);
+  }
+  EXPECT_LT(steps, 0.3 * at_random);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size(); ++i) ASSERT_EQ(order[i], static_cast<int>(i));
+}
 
 // Requirement: the width is the rms width per axis, for every kernel: the average of x^2 about the particle is delta^2.
 TEST(KernelWidth, IsTheRootMeanSquarePerAxis) {

@@ -187,7 +187,7 @@ struct Suspension {
     Vec3 speed;
     for (int start = 0; start < 2; ++start) {
       for (int n = 0; n < 3; ++n) solver.step(dt);
-      speed = {maximum(world, flow.velocity[0].x), 0, 0};
+      speed = {maximum(world, mesh.n_cells > 0 ? flow.velocity[0].x : -infinity), 0, 0};
       for (Tile& tile : rags.tiles()) for_particles(tile, [&](int k, int, int) { tile.set_vector(Tile::vx, k, speed); });
     }
     const int steps = 100;
