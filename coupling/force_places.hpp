@@ -7,7 +7,6 @@
 #include <span>
 
 #include "coupling/kernel.hpp"
-#include "coupling/particle_list.hpp"
 #include "mesh/mesh.hpp"
 
 namespace snag {

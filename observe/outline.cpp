@@ -58,11 +58,13 @@ Outline outline(const Coverage& picture, const OutlineSettings& settings) {
       std::max(std::abs(picture.x0 - settings.centre_x), std::abs(picture.x0 + picture.nx * picture.side - settings.centre_x));
   const double y_reach =
       std::max(std::abs(picture.y0 - settings.centre_y), std::abs(picture.y0 + picture.ny * picture.side - settings.centre_y));
-  const double reach = std::hypot(x_reach, y_reach), step = picture.side / 4;
+  const double step = picture.side / 4;
+  const int n_steps = static_cast<int>(std::ceil(std::hypot(x_reach, y_reach) / step));
   std::vector<double> radius(settings.n_directions, 0.0);
   for (int d = 0; d < settings.n_directions; ++d) {
     const double angle = 2 * pi * d / settings.n_directions, c = std::cos(angle), s = std::sin(angle);
-    for (double r = reach; r > 0; r -= step) {
+    for (int n = n_steps; n > 0; --n) {
+      const double r = n * step;
       const int i = static_cast<int>(std::floor((settings.centre_x + r * c - picture.x0) / picture.side));
       const int j = static_cast<int>(std::floor((settings.centre_y + r * s - picture.y0) / picture.side));
       if (!picture.at(i, j)) continue;

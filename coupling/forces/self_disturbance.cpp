@@ -14,9 +14,10 @@
 // %). So the whole answer of the water to the particle is taken off, with what the wall does to it: the force `wall` gives the drag at a
 // wall, nothing counts twice. K = |F|/|w| of the sub-step before holds whatever law and factors of drag there are. delta^2 = (kernel
 // width)^2 + (0.25 cell size)^2: the answer of a single cell to its own force. For particles apart from each other, in water that has had
-// the time delta^2/nu; c counts as at most 0.8. In a prescribed flow and one-way there is nothing to correct. Source: Stokes and Oseen flow
-// by Fourier transform, images of Blake (1971), Proc. Camb. Phil. Soc. 70, 303-310; in the manner of Balachandar, Liu and Lakhote (2019),
-// J. Comput. Phys. 376, 160-185, and Evrard, Denner and van Wachem (2020), Int. J. Multiphase Flow 132, 103535.
+// the time delta^2/nu; c counts as at most 0.8; a particle beyond its wall counts as at the wall. In a prescribed flow and one-way there is
+// nothing to correct. Source: Stokes and Oseen flow by Fourier transform, images of Blake (1971), Proc. Camb. Phil. Soc. 70, 303-310; in
+// the manner of Balachandar, Liu and Lakhote (2019), J. Comput. Phys. 376, 160-185, and Evrard, Denner and van Wachem (2020), Int. J.
+// Multiphase Flow 132, 103535.
 #include <algorithm>
 #include <numbers>
 

@@ -4,9 +4,8 @@
 //   n: unit normal of the cloth from the bonded neighbours along and across the rows,   w_n = (w.n) n,   w_t = w - w_n
 //
 //   form "quadratic"   C_n, C_t as given: bluff plate, rough surface on both sides
-//   form "viscous"     C_t + c_f: boundary layers;  one-way also C_n + 20.4/Re, Re = rho |w| D_s/mu, D_s: diameter of the disc of the
-//   sheet's
-//                      area: a disc in creeping flow, which a two-way run resolves
+//   form "viscous"     C_t + c_f: boundary layers;  one-way also C_n + 20.4/Re, Re = rho |w| D_s/mu: a disc in creeping flow, which a
+//                      two-way run resolves; D_s: diameter of the disc that has the area of the sheet
 //
 // Layers begin at the edge of the sheet from which the water comes, x before the particle along the slip; h: half of the particle's cloth
 // along the slip; x_t = Re_t nu/U:

@@ -367,6 +367,22 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   EXPECT_TRUE(warnings("kernel = \"cell\"").empty());
 }
 
+// Requirement: a force that looks for the nearest wall is remarked on where there is none to find: the factor of drag at walls always, for
+// it does nothing then; the own disturbance if the water has walls.
+TEST(CouplingSettings, WarnsOfForcesThatFindNoWall) {
+  const auto warnings = [](const std::string& forces, bool rags_know_walls, bool water_has_walls) {
+    return wall_warnings(read_coupling(CaseFile::parse("[coupling]\nforces = [" + forces + "]\n").root()), rags_know_walls,
+                         water_has_walls);
+  };
+  const std::string both = R"("free_stream_drag", "self_disturbance", "wall")";
+  EXPECT_TRUE(warnings(both, true, true).empty());
+  ASSERT_EQ(warnings(both, false, true).size(), 2u);
+  ASSERT_EQ(warnings(both, false, false).size(), 1u);
+  EXPECT_NE(warnings(both, false, false)[0].find("forces: wall looks for the nearest wall, but the case has no [[wall]]"),
+            std::string::npos);
+  EXPECT_TRUE(warnings(R"("free_stream_drag")", false, true).empty());
+}
+
 // Requirement: the kernel width that a case does not give depends on the size of a cloth, not of its particles; on the diameter of spheres.
 TEST(CouplingSettings, ChoosesAWidthForClothAndSpheres) {
   const auto width = [](const std::vector<Rag>& rags, const std::string& keys = "") {
