@@ -77,6 +77,12 @@ void Halo::exchange(std::span<double> field, int components) const {
   plan_->to_ghosts(row_type(components), field.data(), field.data() + plan_->n_owned * static_cast<std::size_t>(components));
 }
 
+void Halo::exchange(std::span<float> field) const {
+  if (!plan_) return;
+  plan_->check_size(field.size(), 1);
+  plan_->to_ghosts(MPI_FLOAT, field.data(), field.data() + plan_->n_owned);
+}
+
 void Halo::exchange(std::span<std::int64_t> field) const {
   if (!plan_) return;
   plan_->check_size(field.size(), 1);

@@ -26,6 +26,8 @@ class Halo {
   void exchange(std::span<double> field, int components = 1) const;
   void exchange(std::vector<double>& field) const { exchange(std::span(field), 1); }
   void exchange(std::vector<Vec3>& field) const { exchange(std::span(reinterpret_cast<double*>(field.data()), 3 * field.size()), 3); }
+  /// Owned -> ghosts, single precision. Collective.
+  void exchange(std::span<float> field) const;
   /// Owned -> ghosts, integers. Collective.
   void exchange(std::span<std::int64_t> field) const;
 

@@ -20,7 +20,7 @@ struct PoissonReport {
   bool rebuilt = false;  // the preconditioner was set up in this solve
 };
 
-/// Preconditioner: hypre's, or that of PETSc.
+/// Preconditioner: Snag's cycle on the hierarchy of hypre's BoomerAMG, or GAMG of PETSc.
 enum class Multigrid { boomeramg, gamg };
 
 class Poisson {
@@ -49,6 +49,7 @@ class Poisson {
   void fix_level(std::span<const double> b, std::span<double> x) const;
   void remove_mean(std::span<double> x) const;
   const Mesh& mesh_;
+  Multigrid multigrid_;
   bool singular_;
   std::vector<double> coefficient_;    // [n_faces]
   std::vector<double> x_all_, y_all_;  // [n_all_cells]

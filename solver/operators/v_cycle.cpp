@@ -1,0 +1,257 @@
+#include "solver/operators/v_cycle.hpp"
+
+#include <petscmat.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "parallel/session.hpp"
+#include "parallel/sum.hpp"
+
+namespace snag {
+
+namespace {
+
+constexpr int largest_inverse = 256;       // rows of a coarsest level that is inverted
+constexpr double null_eigenvalue = 1e-12;  // of the largest: nothing but round-off
+
+MPI_Comm comm_of(Mat matrix) { return PetscObjectComm(reinterpret_cast<PetscObject>(matrix)); }
+
+/// Rows of this rank of a matrix, columns in global numbers.
+struct GlobalRows {
+  std::vector<int> start{0};
+  std::vector<PetscInt> column;
+  std::vector<double> value;
+  PetscInt first_row = 0, first_column = 0, n_rows = 0, n_columns = 0;  // of this rank
+  std::vector<PetscInt> row_ranges, column_ranges;                      // [ranks + 1]
+
+  explicit GlobalRows(Mat matrix) {
+    const int ranks = size_of(comm_of(matrix));
+    PetscInt end = 0;
+    check_petsc(MatGetOwnershipRange(matrix, &first_row, &end), "MatGetOwnershipRange");
+    n_rows = end - first_row;
+    check_petsc(MatGetOwnershipRangeColumn(matrix, &first_column, &end), "MatGetOwnershipRangeColumn");
+    n_columns = end - first_column;
+    const PetscInt* ranges = nullptr;
+    check_petsc(MatGetOwnershipRanges(matrix, &ranges), "MatGetOwnershipRanges");
+    row_ranges.assign(ranges, ranges + ranks + 1);
+    check_petsc(MatGetOwnershipRangesColumn(matrix, &ranges), "MatGetOwnershipRangesColumn");
+    column_ranges.assign(ranges, ranges + ranks + 1);
+    for (PetscInt row = first_row; row < first_row + n_rows; ++row) {
+      PetscInt n = 0;
+      const PetscInt* columns = nullptr;
+      const PetscScalar* values = nullptr;
+      check_petsc(MatGetRow(matrix, row, &n, &columns, &values), "MatGetRow");
+      column.insert(column.end(), columns, columns + n), value.insert(value.end(), values, values + n);
+      start.push_back(static_cast<int>(column.size()));
+      check_petsc(MatRestoreRow(matrix, row, &n, &columns, &values), "MatRestoreRow");
+    }
+  }
+};
+
+/// Adds the columns of other ranks to `ghosts`.
+void add_ghosts(const GlobalRows& rows, std::vector<PetscInt>& ghosts) {
+  for (const PetscInt c : rows.column)
+    if (c < rows.first_column || c >= rows.first_column + rows.n_columns) ghosts.push_back(c);
+}
+
+}  // namespace
+
+/// Places of global numbers in the vectors of a level: owned ones, then ghosts.
+class VCycle::Builder {
+ public:
+  Builder(const GlobalRows& matrix, std::vector<PetscInt> ghosts)
+      : first_(matrix.first_column), n_(matrix.n_columns), ghosts_(std::move(ghosts)) {
+    std::sort(ghosts_.begin(), ghosts_.end());
+    ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()), ghosts_.end());
+    ranges_ = matrix.column_ranges;
+  }
+  int place(PetscInt column) const {
+    if (column >= first_ && column < first_ + n_) return static_cast<int>(column - first_);
+    return static_cast<int>(n_ + (std::lower_bound(ghosts_.begin(), ghosts_.end(), column) - ghosts_.begin()));
+  }
+  std::size_t n_all() const { return static_cast<std::size_t>(n_) + ghosts_.size(); }
+  Halo halo(MPI_Comm comm) const {
+    std::vector<int> owner_rank, owner_index;
+    for (const PetscInt g : ghosts_) {
+      const auto next = std::upper_bound(ranges_.begin(), ranges_.end(), g);
+      owner_rank.push_back(static_cast<int>(next - ranges_.begin()) - 1);
+      owner_index.push_back(static_cast<int>(g - *(next - 1)));
+    }
+    return {comm, static_cast<int>(n_), owner_rank, owner_index};
+  }
+  Rows rows(const GlobalRows& from) const {
+    Rows rows{from.start, {}, {from.value.begin(), from.value.end()}};
+    for (const PetscInt c : from.column) rows.column.push_back(place(c));
+    return rows;
+  }
+
+ private:
+  PetscInt first_, n_;
+  std::vector<PetscInt> ghosts_, ranges_;
+};
+
+VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest)), singular_(singular) {
+  PetscInt n_rows = 0;
+  check_petsc(MatGetSize(finest, &n_rows, nullptr), "MatGetSize");
+  n_rows_ = static_cast<double>(n_rows);
+  PetscInt n_levels = 0;
+  Mat *interpolations = nullptr, *coarse = nullptr;  // the coarsest first
+  check_petsc(PCGetInterpolations(hierarchy, &n_levels, &interpolations), "PCGetInterpolations");
+  check_petsc(PCGetCoarseOperators(hierarchy, &n_levels, &coarse), "PCGetCoarseOperators");
+  const auto n = static_cast<std::size_t>(n_levels);
+  std::vector<GlobalRows> matrices, prolongations, restrictions;
+  for (std::size_t l = 0; l < n; ++l) {
+    matrices.emplace_back(l == 0 ? finest : coarse[n - 1 - l]);
+    if (l + 1 == n) break;
+    Mat interpolation = interpolations[n - 2 - l], transposed = nullptr;
+    prolongations.emplace_back(interpolation);
+    check_petsc(MatTranspose(interpolation, MAT_INITIAL_MATRIX, &transposed), "MatTranspose");
+    restrictions.emplace_back(transposed);
+    check_petsc(MatDestroy(&transposed), "MatDestroy");
+  }
+  for (std::size_t l = 0; l + 1 < n; ++l) {
+    check_petsc(MatDestroy(&interpolations[l]), "MatDestroy");
+    check_petsc(MatDestroy(&coarse[l]), "MatDestroy");
+  }
+  check_petsc(PetscFree(interpolations), "PetscFree");
+  check_petsc(PetscFree(coarse), "PetscFree");
+
+  std::vector<Builder> builders;
+  for (std::size_t l = 0; l < n; ++l) {
+    std::vector<PetscInt> ghosts;
+    add_ghosts(matrices[l], ghosts);
+    if (l + 1 < n) add_ghosts(restrictions[l], ghosts);
+    if (l > 0) add_ghosts(prolongations[l - 1], ghosts);
+    builders.emplace_back(matrices[l], std::move(ghosts));
+  }
+  for (std::size_t l = 0; l < n; ++l) {
+    Level& level = levels_.emplace_back();
+    const GlobalRows& from = matrices[l];
+    level.n = static_cast<int>(from.n_rows);
+    level.halo = builders[l].halo(comm_);
+    for (auto* vector : {&level.b, &level.x, &level.residual}) vector->assign(builders[l].n_all(), 0);
+    level.matrix.start.assign(1, 0);
+    std::vector<std::pair<int, Value>> row;
+    for (int i = 0; i < level.n; ++i) {
+      row.clear();
+      double diagonal = 0;
+      for (int e = from.start[i]; e < from.start[i + 1]; ++e) {
+        const int j = builders[l].place(from.column[e]);
+        if (j == i)
+          diagonal += from.value[e];
+        else
+          row.emplace_back(j, static_cast<Value>(from.value[e]));
+      }
+      std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      const int first = level.matrix.start.back();
+      const auto before = [&](int column) {
+        return first + static_cast<int>(std::count_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first < column; }));
+      };
+      level.upper.push_back(before(i)), level.ghost.push_back(before(level.n));
+      for (const auto& [j, value] : row) level.matrix.column.push_back(j), level.matrix.value.push_back(value);
+      level.matrix.start.push_back(static_cast<int>(level.matrix.column.size()));
+      level.inverse_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
+    }
+    if (l + 1 == n) break;
+    level.restriction = builders[l].rows(restrictions[l]);
+    level.prolongation = builders[l + 1].rows(prolongations[l]);
+  }
+
+  const GlobalRows& coarsest = matrices.back();
+  const PetscInt n_all = coarsest.row_ranges.back();
+  if (n_all > largest_inverse) return;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n_all, n_all);
+  for (int i = 0; i < levels_.back().n; ++i)
+    for (int e = coarsest.start[i]; e < coarsest.start[i + 1]; ++e) A(coarsest.first_row + i, coarsest.column[e]) += coarsest.value[e];
+  MPI_Allreduce(MPI_IN_PLACE, A.data(), static_cast<int>(A.size()), MPI_DOUBLE, MPI_SUM, comm_);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (A + A.transpose()));
+  const Eigen::VectorXd& lambda = modes.eigenvalues();
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(n_all);
+  for (PetscInt m = singular ? 1 : 0; m < n_all; ++m)  // of the first one only round-off is left then
+    if (lambda[m] > null_eigenvalue * lambda[n_all - 1]) inverse[m] = 1 / lambda[m];
+  const Eigen::MatrixXd B = modes.eigenvectors() * inverse.asDiagonal() * modes.eigenvectors().transpose();
+  for (PetscInt i = 0; i < coarsest.n_rows; ++i)
+    for (PetscInt j = 0; j < n_all; ++j) coarsest_inverse_.push_back(B(coarsest.first_row + i, j));
+  for (std::size_t r = 0; r + 1 < coarsest.row_ranges.size(); ++r) {
+    coarsest_start_.push_back(static_cast<int>(coarsest.row_ranges[r]));
+    coarsest_count_.push_back(static_cast<int>(coarsest.row_ranges[r + 1] - coarsest.row_ranges[r]));
+  }
+}
+
+void VCycle::apply(const double* r, double* z) {
+  Level& finest = levels_.front();
+  std::array<double, 2> sums{};  // of r and of r^2
+  for (int i = 0; i < finest.n; ++i) sums[0] += r[i], sums[1] += r[i] * r[i];
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, comm_);
+  const double mean = singular_ ? sums[0] / n_rows_ : 0, scale = std::sqrt(sums[1] / n_rows_);
+  if (!(scale > 0)) {
+    std::fill_n(z, finest.n, 0.0);
+    return;
+  }
+  for (int i = 0; i < finest.n; ++i) finest.b[i] = static_cast<Value>((r[i] - mean) / scale);
+  descend(0);
+  for (int i = 0; i < finest.n; ++i) z[i] = scale * finest.x[i];
+}
+
+void VCycle::descend(std::size_t l) {
+  if (l + 1 == levels_.size()) return solve_coarsest();
+  Level &fine = levels_[l], &coarse = levels_[l + 1];
+  sweep_forward(fine);
+  fine.halo.exchange(std::span(fine.x));
+  for (int i = 0; i < fine.n; ++i) {
+    Value sum = 0;
+    for (int e = fine.upper[i]; e < fine.matrix.start[i + 1]; ++e) sum -= fine.matrix.value[e] * fine.x[fine.matrix.column[e]];
+    fine.residual[i] = sum;
+  }
+  fine.halo.exchange(std::span(fine.residual));
+  const auto product = [](const Rows& rows, int i, const std::vector<Value>& x) {
+    Value sum = 0;
+    for (int e = rows.start[i]; e < rows.start[i + 1]; ++e) sum += rows.value[e] * x[rows.column[e]];
+    return sum;
+  };
+  for (int i = 0; i < coarse.n; ++i) coarse.b[i] = product(fine.restriction, i, fine.residual);
+  descend(l + 1);
+  coarse.halo.exchange(std::span(coarse.x));
+  for (int i = 0; i < fine.n; ++i) fine.x[i] += product(fine.prolongation, i, coarse.x);
+  fine.halo.exchange(std::span(fine.x));
+  sweep_backward(fine);
+}
+
+/// From x = 0; ghosts count as zero.
+void VCycle::sweep_forward(Level& level) {
+  const Rows& A = level.matrix;
+  for (int i = 0; i < level.n; ++i) {
+    Value sum = level.b[i];
+    for (int e = A.start[i]; e < level.upper[i]; ++e) sum -= A.value[e] * level.x[A.column[e]];
+    level.x[i] = sum * level.inverse_diagonal[i];
+  }
+}
+
+void VCycle::sweep_backward(Level& level) {
+  const Rows& A = level.matrix;
+  for (int i = level.n - 1; i >= 0; --i) {
+    Value sum = level.b[i];
+    for (int e = A.start[i]; e < A.start[i + 1]; ++e) sum -= A.value[e] * level.x[A.column[e]];
+    level.x[i] = sum * level.inverse_diagonal[i];
+  }
+}
+
+void VCycle::solve_coarsest() {
+  Level& level = levels_.back();
+  if (coarsest_start_.empty()) {
+    sweep_forward(level);
+    level.halo.exchange(std::span(level.x));
+    return sweep_backward(level);
+  }
+  const int n_all = coarsest_start_.back() + coarsest_count_.back();
+  std::vector<Value> b(n_all);
+  MPI_Allgatherv(level.b.data(), level.n, MPI_FLOAT, b.data(), coarsest_count_.data(), coarsest_start_.data(), MPI_FLOAT, comm_);
+  for (int i = 0; i < level.n; ++i)
+    level.x[i] = static_cast<Value>(std::inner_product(b.begin(), b.end(), &coarsest_inverse_[static_cast<std::size_t>(i) * n_all], 0.0));
+}
+
+}  // namespace snag
