@@ -52,7 +52,8 @@ std::vector<Column<PatchRecord>> patch_columns(const Mesh& mesh) {
     const std::string& name = mesh.patches[p].name;
     all.push_back({name + "_flow", "m3/s", [p](Record r) { return r.flow[p]; }});
     all.push_back({name + "_pressure", "Pa", [p](Record r) { return r.pressure[p]; }});
-    add_components(all, name + "_force_", "", "N", [p](Record r) { return r.force[p]; });
+    add_components(all, name + "_force_", "", "N", [p](Record r) { return r.load[p].force(); });
+    add_components(all, name + "_torque_", "", "N m", [p](Record r) { return r.load[p].torque(); });
   }
   return all;
 }
@@ -280,11 +281,11 @@ void Outputs::sync() const {
 
 void Outputs::write_water_monitors() {
   const StepReport& report = simulation_.flow_report;
-  PatchRecord patches{.time = simulation_.time(), .flow = {}, .pressure = {}, .force = {}};
+  PatchRecord patches{.time = simulation_.time(), .flow = {}, .pressure = {}, .load = {}};
   double through = 0;
   const Flow& flow = simulation_.water->flow;
   for (int p = 0; p < static_cast<int>(simulation_.mesh->patches.size()); ++p) {
-    patches.flow.push_back(flow_rate(flow, p)), patches.force.push_back(patch_force(flow, p, {}).force());
+    patches.flow.push_back(flow_rate(flow, p)), patches.load.push_back(patch_force(flow, p, {}));
     patches.pressure.push_back(mean_pressure(flow, p));
     through += std::abs(patches.flow.back()) / 2;
   }

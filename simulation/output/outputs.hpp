@@ -34,7 +34,7 @@ struct WaterRecord {
 struct PatchRecord {
   double time = 0;  // s
   std::vector<double> flow, pressure;
-  std::vector<Vec3> force;
+  std::vector<PatchForce> load;  // about the origin of the coordinates
 };
 
 /// y+ on each wall of a turbulence model.

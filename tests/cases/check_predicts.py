@@ -77,7 +77,7 @@ class CheckPredicts(harness.CaseTest):
 
     def test_what_is_foreseen(self):
         run = self.check(PUMP)
-        for words in ("1.44 degrees a step", "Courant number a step", "y+ on impeller_walls", "y+ on casing_walls", "Reynolds number", "cost: "):
+        for words in ("5.76 degrees a step", "Courant number a step", "y+ on impeller_walls", "y+ on casing_walls", "Reynolds number", "cost: "):
             self.assertIn(words, run.stdout)
         self.assertNotIn("warning", run.stdout)
 

@@ -20,7 +20,7 @@ numerics_u = 0.0
 [[point]]
 id = "part_load"
 case = "CASE"
-set = ["boundary.0.flow_rate_L_s=14.74", "time.end_ms=2112", "time.run_on_ms=0", "rag.0.insert_time_ms=112", "flow.n_outer_correctors=1", "coupling.forces=[\\"free_stream_drag\\"]"]
+set = ["boundary.0.flow_rate_L_s=14.74", "time.step_ms=0.4", "time.end_ms=2112", "time.run_on_ms=0", "rag.0.insert_time_ms=112", "flow.n_outer_correctors=1", "coupling.forces=[\\"free_stream_drag\\"]"]
 role = "train"
 [[alternative]]
 effect = "operating_point"

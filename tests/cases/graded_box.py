@@ -57,7 +57,7 @@ def write(file, nodes, hole=None):
     i, j, k = (index.ravel(order="F") for index in numpy.indices(shape))
     vertices = numpy.stack([number[i + a, j + b, k + c] for a, b, c in corners], axis=1)
     cells = ~solid[i, j, k]
-    lines = [f"5 2 9 9 {' '.join(map(str, v))}" for v in vertices[cells]]
+    quads = {patch: [] for patch in patches}
     around = numpy.pad(solid, 1, constant_values=False)
     for side, (name, face) in enumerate(faces.items()):
         step = [0, 0, 0]
@@ -65,14 +65,23 @@ def write(file, nodes, hole=None):
         beyond = [index + s for index, s in zip((i, j, k), step)]
         at_end = (beyond[side // 2] < 0) | (beyond[side // 2] >= shape[side // 2])
         at_plate = around[beyond[0] + 1, beyond[1] + 1, beyond[2] + 1]
-        for patch, chosen in ((name, cells & at_end), ("plate", cells & at_plate)):
-            lines += [f"3 2 {patches.index(patch) + 1} {patches.index(patch) + 1} {' '.join(map(str, v))}" for v in vertices[chosen][:, face]]
+        quads[name].extend(vertices[cells & at_end][:, face])
+        if hole:
+            quads["plate"].extend(vertices[cells & at_plate][:, face])
+    write_hexahedra(file, numpy.stack(numpy.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3, order="F"), vertices[cells], quads)
+    return int(cells.sum())
+
+
+def write_hexahedra(file, places, cells, quads):
+    """MSH 2.2 of hexahedra: places [nodes][3] in m, cells [n][8], quads {patch: [n][4]}, both of node numbers from 1 on."""
+    patches = list(quads)
+    lines = [f"5 2 9 9 {' '.join(map(str, v))}" for v in cells]
+    for n, patch in enumerate(patches):
+        lines += [f"3 2 {n + 1} {n + 1} {' '.join(map(str, v))}" for v in quads[patch]]
     with open(file, "w") as text:
         names = "".join(f'2 {n + 1} "{patch}"\n' for n, patch in enumerate(patches))
-        text.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(patches) + 1}\n{names}3 9 "water"\n$EndPhysicalNames\n$Nodes\n{number.size}\n')
-        places = numpy.stack(numpy.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3, order="F")
+        text.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(patches) + 1}\n{names}3 9 "water"\n$EndPhysicalNames\n$Nodes\n{len(places)}\n')
         text.writelines(f"{n + 1} {x:.12g} {y:.12g} {z:.12g}\n" for n, (x, y, z) in enumerate(places))
         text.write(f"$EndNodes\n$Elements\n{len(lines)}\n")
         text.writelines(f"{n + 1} {line}\n" for n, line in enumerate(lines))
         text.write("$EndElements\n")
-    return int(cells.sum())

@@ -59,7 +59,7 @@ class Pump(harness.CaseTest):
     def test_slow_flow_from_rest(self):
         """While the rotor still turns slower than the water around it, nothing runs away."""
         case = harness.SOURCE_DIR / "cases" / "pump-curve" / "case.toml"
-        run = self.run_case(case, 2, "--set", "boundary.0.flow_rate_L_s=2", "--set", "time.end_ms=3", out="slow")
+        run = self.run_case(case, 2, "--set", "boundary.0.flow_rate_L_s=2", "--set", "time.step_ms=0.2", "--set", "time.end_ms=3", out="slow")
         self.assertLess(run.monitor("residuals").column("courant_max").max(), 5)
 
     def looks_like_a_pump(self, run):

@@ -22,7 +22,7 @@ class PumpBetweenPressures(harness.CaseTest):
         ):
             self.assertIn(old, text)
             text = text.replace(old, new)
-        times = ("--set", f"rotating_zone.ramp_s={RAMP}", "--set", f"time.end_s={END}")
+        times = ("--set", f"rotating_zone.ramp_s={RAMP}", "--set", f"time.end_s={END}", "--set", "time.step_ms=0.2", "--set", "flow.n_outer_correctors=2")
         return self.run_case(self.case(text, name), 1, *times, "--set", "output.report=false", out=name)
 
     def comes_to_its_flow(self, run):

@@ -15,7 +15,7 @@ from examples import printed_files
 
 COMMAND = re.compile(r"    \./snag (?:-n \d+ )?((?:run|study|observe|calibrate) .*)")
 # Two steps of the pump with a small rag show what the whole run would write; variants of it are only checked.
-FEW_STEPS = [word for value in ("time.end_ms=0.8", "output.report=false", "rag.0.insert_time_ms=0", "rag.0.length_mm=120", "rag.0.width_mm=80")
+FEW_STEPS = [word for value in ("time.end_ms=1.6", "output.report=false", "rag.0.insert_time_ms=0", "rag.0.length_mm=120", "rag.0.width_mm=80")
              for word in ("--set", value)]
 SCHEMA = json.loads((harness.SOURCE_DIR / "share" / "summary.schema.json").read_text())
 
