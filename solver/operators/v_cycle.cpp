@@ -20,8 +20,10 @@ constexpr double null_eigenvalue = 1e-12;  // of the largest: nothing but round-
 
 MPI_Comm comm_of(Mat matrix) { return PetscObjectComm(reinterpret_cast<PetscObject>(matrix)); }
 
+}  // namespace
+
 /// Rows of this rank of a matrix, columns in global numbers.
-struct GlobalRows {
+struct VCycle::GlobalRows {
   std::vector<int> start{0};
   std::vector<PetscInt> column;
   std::vector<double> value;
@@ -50,20 +52,18 @@ struct GlobalRows {
       check_petsc(MatRestoreRow(matrix, row, &n, &columns, &values), "MatRestoreRow");
     }
   }
+
+  /// Adds the columns of other ranks to `ghosts`.
+  void add_ghosts(std::vector<PetscInt>& ghosts) const {
+    for (const PetscInt c : column)
+      if (c < first_column || c >= first_column + n_columns) ghosts.push_back(c);
+  }
 };
 
-/// Adds the columns of other ranks to `ghosts`.
-void add_ghosts(const GlobalRows& rows, std::vector<PetscInt>& ghosts) {
-  for (const PetscInt c : rows.column)
-    if (c < rows.first_column || c >= rows.first_column + rows.n_columns) ghosts.push_back(c);
-}
-
-}  // namespace
-
 /// Places of global numbers in the vectors of a level: owned ones, then ghosts.
-class VCycle::Builder {
+class VCycle::Numbering {
  public:
-  Builder(const GlobalRows& matrix, std::vector<PetscInt> ghosts)
+  Numbering(const GlobalRows& matrix, std::vector<PetscInt> ghosts)
       : first_(matrix.first_column), n_(matrix.n_columns), ghosts_(std::move(ghosts)) {
     std::sort(ghosts_.begin(), ghosts_.end());
     ghosts_.erase(std::unique(ghosts_.begin(), ghosts_.end()), ghosts_.end());
@@ -120,65 +120,67 @@ VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest))
   check_petsc(PetscFree(interpolations), "PetscFree");
   check_petsc(PetscFree(coarse), "PetscFree");
 
-  std::vector<Builder> builders;
+  std::vector<Numbering> numbers;
   for (std::size_t l = 0; l < n; ++l) {
     std::vector<PetscInt> ghosts;
-    add_ghosts(matrices[l], ghosts);
-    if (l + 1 < n) add_ghosts(restrictions[l], ghosts);
-    if (l > 0) add_ghosts(prolongations[l - 1], ghosts);
-    builders.emplace_back(matrices[l], std::move(ghosts));
+    matrices[l].add_ghosts(ghosts);
+    if (l + 1 < n) restrictions[l].add_ghosts(ghosts);
+    if (l > 0) prolongations[l - 1].add_ghosts(ghosts);
+    numbers.emplace_back(matrices[l], std::move(ghosts));
   }
   for (std::size_t l = 0; l < n; ++l) {
     Level& level = levels_.emplace_back();
-    const GlobalRows& from = matrices[l];
-    level.n = static_cast<int>(from.n_rows);
-    level.halo = builders[l].halo(comm_);
-    for (auto* vector : {&level.b, &level.x, &level.residual}) vector->assign(builders[l].n_all(), 0);
-    level.matrix.start.assign(1, 0);
-    std::vector<std::pair<int, Value>> row;
-    for (int i = 0; i < level.n; ++i) {
-      row.clear();
-      double diagonal = 0;
-      for (int e = from.start[i]; e < from.start[i + 1]; ++e) {
-        const int j = builders[l].place(from.column[e]);
-        if (j == i)
-          diagonal += from.value[e];
-        else
-          row.emplace_back(j, static_cast<Value>(from.value[e]));
-      }
-      std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-      const int first = level.matrix.start.back();
-      const auto before = [&](int column) {
-        return first + static_cast<int>(std::count_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first < column; }));
-      };
-      level.upper.push_back(before(i)), level.ghost.push_back(before(level.n));
-      for (const auto& [j, value] : row) level.matrix.column.push_back(j), level.matrix.value.push_back(value);
-      level.matrix.start.push_back(static_cast<int>(level.matrix.column.size()));
-      level.inverse_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
-    }
+    level.n = static_cast<int>(matrices[l].n_rows);
+    level.halo = numbers[l].halo(comm_);
+    for (auto* vector : {&level.b, &level.x, &level.residual}) vector->assign(numbers[l].n_all(), 0);
+    fill_matrix(level, numbers[l], matrices[l]);
     if (l + 1 == n) break;
-    level.restriction = builders[l].rows(restrictions[l]);
-    level.prolongation = builders[l + 1].rows(prolongations[l]);
+    level.restriction = numbers[l].rows(restrictions[l]);
+    level.prolongation = numbers[l + 1].rows(prolongations[l]);
   }
+  if (matrices.back().row_ranges.back() <= largest_inverse) invert_coarsest(matrices.back());
+}
 
-  const GlobalRows& coarsest = matrices.back();
-  const PetscInt n_all = coarsest.row_ranges.back();
-  if (n_all > largest_inverse) return;
+void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from) {
+  Rows& matrix = level.matrix;
+  matrix.start.assign(1, 0);
+  std::vector<std::pair<int, Value>> row;
+  for (int i = 0; i < level.n; ++i) {
+    row.clear();
+    double diagonal = 0;
+    for (int e = from.start[i]; e < from.start[i + 1]; ++e) {
+      const int j = numbers.place(from.column[e]);
+      if (j == i)
+        diagonal += from.value[e];
+      else
+        row.emplace_back(j, static_cast<Value>(from.value[e]));
+    }
+    std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto upper = std::find_if(row.begin(), row.end(), [i](const auto& entry) { return entry.first > i; });
+    level.upper.push_back(matrix.start.back() + static_cast<int>(upper - row.begin()));
+    for (const auto& [j, value] : row) matrix.column.push_back(j), matrix.value.push_back(value);
+    matrix.start.push_back(static_cast<int>(matrix.column.size()));
+    level.inverse_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
+  }
+}
+
+void VCycle::invert_coarsest(const GlobalRows& from) {
+  const PetscInt n_all = from.row_ranges.back();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n_all, n_all);
-  for (int i = 0; i < levels_.back().n; ++i)
-    for (int e = coarsest.start[i]; e < coarsest.start[i + 1]; ++e) A(coarsest.first_row + i, coarsest.column[e]) += coarsest.value[e];
+  for (PetscInt i = 0; i < from.n_rows; ++i)
+    for (int e = from.start[i]; e < from.start[i + 1]; ++e) A(from.first_row + i, from.column[e]) += from.value[e];
   MPI_Allreduce(MPI_IN_PLACE, A.data(), static_cast<int>(A.size()), MPI_DOUBLE, MPI_SUM, comm_);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(0.5 * (A + A.transpose()));
   const Eigen::VectorXd& lambda = modes.eigenvalues();
   Eigen::VectorXd inverse = Eigen::VectorXd::Zero(n_all);
-  for (PetscInt m = singular ? 1 : 0; m < n_all; ++m)  // of the first one only round-off is left then
+  for (PetscInt m = singular_ ? 1 : 0; m < n_all; ++m)  // of the first one only round-off is left then
     if (lambda[m] > null_eigenvalue * lambda[n_all - 1]) inverse[m] = 1 / lambda[m];
   const Eigen::MatrixXd B = modes.eigenvectors() * inverse.asDiagonal() * modes.eigenvectors().transpose();
-  for (PetscInt i = 0; i < coarsest.n_rows; ++i)
-    for (PetscInt j = 0; j < n_all; ++j) coarsest_inverse_.push_back(B(coarsest.first_row + i, j));
-  for (std::size_t r = 0; r + 1 < coarsest.row_ranges.size(); ++r) {
-    coarsest_start_.push_back(static_cast<int>(coarsest.row_ranges[r]));
-    coarsest_count_.push_back(static_cast<int>(coarsest.row_ranges[r + 1] - coarsest.row_ranges[r]));
+  for (PetscInt i = 0; i < from.n_rows; ++i)
+    for (PetscInt j = 0; j < n_all; ++j) coarsest_inverse_.push_back(B(from.first_row + i, j));
+  for (std::size_t r = 0; r + 1 < from.row_ranges.size(); ++r) {
+    coarsest_start_.push_back(static_cast<int>(from.row_ranges[r]));
+    coarsest_count_.push_back(static_cast<int>(from.row_ranges[r + 1] - from.row_ranges[r]));
   }
 }
 

@@ -39,13 +39,16 @@ class VCycle {
   };
   struct Level {
     int n = 0;                               // rows of this rank
-    std::vector<int> upper, ghost;           // [n] where the columns above the diagonal and those of other ranks begin in a row
+    std::vector<int> upper;                  // [n] where in a row the columns behind the diagonal begin
     Rows matrix, restriction, prolongation;  // without the diagonal; from this level to the next coarser one; from that to this
     std::vector<Value> inverse_diagonal;     // [n]
     Halo halo;
     std::vector<Value> b, x, residual;  // [n and ghosts]
   };
-  class Builder;
+  struct GlobalRows;
+  class Numbering;
+  static void fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from);
+  void invert_coarsest(const GlobalRows& from);
   void descend(std::size_t level);
   void solve_coarsest();
   static void sweep_forward(Level& level);
