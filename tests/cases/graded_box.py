@@ -1,4 +1,4 @@
-"""Meshes of hexahedra that are fine around the origin and grow from there: for bodies in a wide stream."""
+"""Meshes of hexahedra: fine around the origin and growing from there, for bodies in a wide stream; rings, fine at their walls."""
 import numpy
 
 # The patch that write() makes around a hole.
@@ -41,6 +41,18 @@ def axis(lower, upper, fine, size, growth):
     return numpy.array([*reversed(outwards(fine[0], lower)), *middle, *outwards(fine[1], upper)])
 
 
+def towards(ends, n, first):
+    """Nodes of n steps from ends[0] to ends[1], the first and last about `first` long, growing geometrically to the middle."""
+    length, half = ends[1] - ends[0], n // 2
+    low, high = 1.0, 10.0
+    for _ in range(100):
+        q = (low + high) / 2
+        low, high = (q, high) if first * (q**half - 1) / (q - 1) < length / 2 else (low, q)
+    steps = first * q ** numpy.arange(half)
+    steps *= length / 2 / steps.sum()
+    return ends[0] + numpy.concatenate([[0], numpy.cumsum(numpy.concatenate([steps, steps[::-1]]))])
+
+
 def write(file, nodes, hole=None):
     """A mesh in MSH 2.2 of the box between the nodes of the three axes, patches x0, x1, y0, y1, z0, z1. `hole`: three intervals; the cells with their centres in
     all of them are left out, behind the patch plate. Returns the number of cells."""
@@ -70,6 +82,25 @@ def write(file, nodes, hole=None):
             quads["plate"].extend(vertices[cells & at_plate][:, face])
     write_hexahedra(file, numpy.stack(numpy.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3, order="F"), vertices[cells], quads)
     return int(cells.sum())
+
+
+def write_ring(file, sectors, radii, heights, disc=0):
+    """A mesh in MSH 2.2 of the cells around the z axis between radii and heights (m), patches inner, outer, bottom, top; the bottom within the radius `disc` is the
+    patch disc."""
+    n_r, n_z = len(radii), len(heights)
+    number = 1 + numpy.arange(sectors * n_r * n_z).reshape(sectors, n_r, n_z)
+    angle = 2 * numpy.pi * numpy.arange(sectors) / sectors
+    r, z = numpy.broadcast_arrays(radii[:, None], heights)
+    places = numpy.stack([numpy.outer(numpy.cos(angle), r), numpy.outer(numpy.sin(angle), r), numpy.outer(numpy.ones(sectors), z)], axis=-1).reshape(-1, 3)
+    i, j, k = (index.ravel() for index in numpy.indices((sectors, n_r - 1, n_z - 1)))
+    corners = [(0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0), (0, 0, 1), (0, 1, 1), (1, 1, 1), (1, 0, 1)]
+    cells = numpy.stack([number[(i + a) % sectors, j + b, k + c] for a, b, c in corners], axis=1)
+    on_disc = radii[1:][j] < disc * (1 + 1e-9)
+    quads = {"inner": cells[j == 0][:, [0, 4, 7, 3]], "outer": cells[j == n_r - 2][:, [1, 2, 6, 5]], "bottom": cells[(k == 0) & ~on_disc][:, [0, 3, 2, 1]],
+             "top": cells[k == n_z - 2][:, [4, 5, 6, 7]]}
+    if disc:
+        quads["disc"] = cells[(k == 0) & on_disc][:, [0, 3, 2, 1]]
+    write_hexahedra(file, places, cells, quads)
 
 
 def write_hexahedra(file, places, cells, quads):
