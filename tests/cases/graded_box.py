@@ -80,7 +80,7 @@ def write(file, nodes, hole=None):
         quads[name].extend(vertices[cells & at_end][:, face])
         if hole:
             quads["plate"].extend(vertices[cells & at_plate][:, face])
-    write_hexahedra(file, numpy.stack(numpy.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3, order="F"), vertices[cells], quads)
+    write_cells(file, numpy.stack(numpy.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3, order="F"), vertices[cells], quads)
     return int(cells.sum())
 
 
@@ -100,15 +100,15 @@ def write_ring(file, sectors, radii, heights, disc=0):
              "top": cells[k == n_z - 2][:, [4, 5, 6, 7]]}
     if disc:
         quads["disc"] = cells[(k == 0) & on_disc][:, [0, 3, 2, 1]]
-    write_hexahedra(file, places, cells, quads)
+    write_cells(file, places, cells, quads)
 
 
-def write_hexahedra(file, places, cells, quads):
-    """MSH 2.2 of hexahedra: places [nodes][3] in m, cells [n][8], quads {patch: [n][4]}, both of node numbers from 1 on."""
-    patches = list(quads)
-    lines = [f"5 2 9 9 {' '.join(map(str, v))}" for v in cells]
+def write_cells(file, places, cells, faces):
+    """MSH 2.2: places [nodes][3] in m, hexahedra and prisms by their nodes, {patch: quadrangles and triangles}; numbers of nodes from 1 on."""
+    patches = list(faces)
+    lines = [f"{5 if len(v) == 8 else 6} 2 9 9 {' '.join(map(str, v))}" for v in cells]
     for n, patch in enumerate(patches):
-        lines += [f"3 2 {n + 1} {n + 1} {' '.join(map(str, v))}" for v in quads[patch]]
+        lines += [f"{len(v) - 1} 2 {n + 1} {n + 1} {' '.join(map(str, v))}" for v in faces[patch]]
     with open(file, "w") as text:
         names = "".join(f'2 {n + 1} "{patch}"\n' for n, patch in enumerate(patches))
         text.write(f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(patches) + 1}\n{names}3 9 "water"\n$EndPhysicalNames\n$Nodes\n{len(places)}\n')
