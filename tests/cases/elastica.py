@@ -22,20 +22,26 @@ def bisection(is_low, low, high, steps=50):
     return (low + high) / 2
 
 
-def reconfiguration(C, steps=80):
-    """Drag over that of the rigid plate: half plate of length 1, clamped at s = 0, theta = 0 across the stream, normal load cos(theta)^2.
+def blade(C, buoyancy, steps=80):
+    """States (theta, theta', force along the stream, force upwards) from the tip to the clamp of a blade of length 1 that stands on the ground in a stream.
 
-    theta'' = -C F.n,  F' = -cos(theta)^2 n,  n = (cos(theta), -sin(theta)),  theta(0) = theta'(1) = F(1) = 0;  F: force of what lies beyond s
-    Shooting for theta(1) from the tip; model of Gosselin, de Langre and Machado-Almeida (2010), J. Fluid Mech. 650, 319-341.
+    theta'' = -C F.n,  F' = -cos(theta)^2 n - (buoyancy/C) (0, 1),  n = (cos(theta), -sin(theta)),  theta(0) = theta'(1) = F(1) = 0;  theta: angle to the vertical, F: force of what lies beyond s
+    Lengths in the blade's length l, forces in its upright drag rho C_D b U^2 l/2; C = rho C_D b U^2 l^3/(2 E I), buoyancy = (rho - rho_blade) g b d l^3/(E I); b width, d thickness.
+    Shooting for theta(1) from the tip; model of Luhar and Nepf (2011), Limnol. Oceanogr. 56, 2003-2017, without friction.
     """
     def rate(_, y):
         n = numpy.array([numpy.cos(y[0]), -numpy.sin(y[0])])
-        return numpy.array([-y[1], C * (y[2:] @ n), *(numpy.cos(y[0]) ** 2 * n)])
+        return numpy.array([-y[1], C * (y[2:] @ n), *(numpy.cos(y[0]) ** 2 * n + [0, buoyancy / C])])
 
-    def clamp(tip):
-        return runge_kutta(rate, [tip, 0, 0, 0], 1, steps)[-1]
+    def states(tip):
+        return runge_kutta(rate, [tip, 0, 0, 0], 1, steps)
 
-    return clamp(bisection(lambda tip: clamp(tip)[0] <= 0, 0, numpy.pi / 2, 40))[2]
+    return states(bisection(lambda tip: states(tip)[-1, 0] <= 0, 0, numpy.pi / 2))
+
+
+def reconfiguration(C, steps=80):
+    """Drag over that of the rigid plate: half of a plate that is clamped along its middle across a stream, of length 1; model of Gosselin, de Langre and Machado-Almeida (2010), J. Fluid Mech. 650, 319-341."""
+    return blade(C, 0, steps)[-1, 2]
 
 
 def published_reconfiguration(C, steps=80):
