@@ -78,26 +78,12 @@ class Flag(harness.CaseTest):
         run = self.run_once(self.case(text, f"{mu}-{beta:.6g}-{size}-{delta}"), 1)
         rags = run.monitor("rags")
         time, y = rags.column("time"), rags.column("y")
-        y = y[time > (begin - 1e-9) * LENGTH / SPEED]
-        # Two oscillations about a constant: y(t + 4 T) is a sum of y(t) ... y(t + 3 T) and a constant, and the roots of that recursion are e^(sigma T). One is the mode that flutters, the other what the push leaves.
-        theory = self.theory_mode(mu, beta)
-        lag = round(2 / theory.imag / step)
-        known = numpy.stack([*(y[k * lag : (k - 4) * lag] for k in range(4)), numpy.ones(len(y) - 4 * lag)], axis=1)
-        recursion = numpy.linalg.lstsq(known, y[4 * lag :], rcond=None)[0]
-        roots = numpy.log(numpy.roots([1, *-recursion[3::-1]]).astype(complex)) / (lag * step)
-        found = max((root for root in roots if 0.5 < root.imag / theory.imag < 1.5), key=lambda root: root.real)
+        late = time > (begin - 1e-9) * LENGTH / SPEED
+        theory = self.theory.flutter_mode(mu, beta)
+        found = flag_theory.observed_mode(time[late] * SPEED / LENGTH, y[late], theory.imag)
         print(f"  mass {mu:g}, stiffness {beta:.3g}, cells {size:g}, kernel {delta:g}: growth {found.real:+.3f}, frequency {found.imag:.3f}; theory {theory:.3f}; "
               f"largest {abs(y).max() / LENGTH:.1e} L", flush=True)
         return found
-
-    guesses = {2: (0.08, 3.7j), 1: (0.032, 3.1j), 0.1: (0.0009, 4.6j)}  # by mass: stiffness and eigenvalue near the onset
-
-    def theory_mode(self, mu, beta):
-        """The mode that flutters, followed from its onset to `beta`."""
-        at, sigma = self.theory.onset(mu, *self.guesses[mu])
-        for part in numpy.linspace(0, 1, 9)[1:]:
-            sigma = self.theory.eigenvalue(sigma, mu, at * (beta / at) ** part)
-        return sigma
 
 
 class FlagShort(Flag):
@@ -117,7 +103,7 @@ class FlagShort(Flag):
 
     def test_soft_flag_grows_and_stiff_flag_decays(self):
         for beta in (0.02, 0.05):
-            theory, found = self.theory_mode(1, beta), self.mode(1, beta, 0.025, 0.025, 0.02, 3, 9)
+            theory, found = self.theory.flutter_mode(1, beta), self.mode(1, beta, 0.025, 0.025, 0.02, 3, 9)
             self.assertLess(abs(found - theory), 0.05 * abs(theory))
 
 

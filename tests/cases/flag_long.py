@@ -12,16 +12,16 @@ class FlagLong(flag.Flag):
     def onset(self, mu, stiffnesses, *resolution):
         """Speed and frequency of a given flag where its growth begins: between two stiffnesses of different signs the deviation from the theory is interpolated."""
         found = [self.mode(mu, beta, *resolution) for beta in stiffnesses]
-        deviations = [mode - self.theory_mode(mu, beta) for mode, beta in zip(found, stiffnesses)]
+        deviations = [mode - self.theory.flutter_mode(mu, beta) for mode, beta in zip(found, stiffnesses)]
 
         def mode(beta):
             part = numpy.log(beta / stiffnesses[0]) / numpy.log(stiffnesses[1] / stiffnesses[0])
-            return self.theory_mode(mu, beta) + (1 - part) * deviations[0] + part * deviations[1]
+            return self.theory.flutter_mode(mu, beta) + (1 - part) * deviations[0] + part * deviations[1]
 
         with self.subTest(mu=mu, resolution=resolution):
             self.assertLess(found[0].real, 0)
             self.assertGreater(found[1].real, 0)
-            at, sigma = self.theory.onset(mu, *self.guesses[mu])
+            at, sigma = self.theory.onset(mu)
             beta = elastica.bisection(lambda beta: mode(beta).real > 0, *reversed(stiffnesses), 12)
             speed = (at / beta) ** 0.5
             frequency = speed * mode(beta).imag / sigma.imag

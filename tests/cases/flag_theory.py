@@ -80,15 +80,34 @@ class Flag:
                 return sigma
         raise ValueError(f"no eigenvalue near {sigma}")
 
-    def amplitudes(self, sigma, mu, beta):
-        """Of the shapes, for an eigenvalue."""
-        return numpy.linalg.svd(self.matrix(sigma, mu, beta))[2][-1].conj()
+    guesses = {2: (0.08, 3.7j), 1: (0.032, 3.1j), 0.1: (0.0009, 4.6j)}  # by mass: stiffness and eigenvalue near the onset
 
-    def onset(self, mu, beta, sigma):
-        """beta and sigma where the growth of the mode near `sigma` at `beta` begins as the plate becomes softer."""
-        low, high = beta / 2, beta * 2
+    def onset(self, mu):
+        """beta and sigma where flutter begins as the plate becomes softer, for a mass of `guesses`."""
+        near, sigma = self.guesses[mu]
+        low, high = near / 2, near * 2
         for _ in range(40):
             middle = (low * high) ** 0.5
             sigma = self.eigenvalue(sigma, mu, middle)
             low, high = (middle, high) if sigma.real > 0 else (low, middle)
         return middle, sigma
+
+    def flutter_mode(self, mu, beta):
+        """sigma of the mode that flutters, followed from its onset to `beta`."""
+        at, sigma = self.onset(mu)
+        for part in numpy.linspace(0, 1, 9)[1:]:
+            sigma = self.eigenvalue(sigma, mu, at * (beta / at) ** part)
+        return sigma
+
+
+def observed_mode(time, y, frequency):
+    """sigma of the oscillation that decays least, about as fast as `frequency`, of a record in equal steps.
+
+    Two oscillations about a constant, the mode that flutters and what a push leaves besides: y(t + 4 T) is a sum of y(t) ... y(t + 3 T) and a constant, and the roots of that recursion are e^(sigma T).
+    """
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    lag = round(2 / frequency / step)
+    known = numpy.stack([*(y[k * lag : (k - 4) * lag] for k in range(4)), numpy.ones(len(y) - 4 * lag)], axis=1)
+    recursion = numpy.linalg.lstsq(known, y[4 * lag :], rcond=None)[0]
+    roots = numpy.log(numpy.roots([1, *-recursion[3::-1]]).astype(complex)) / (lag * step)
+    return max((root for root in roots if 0.5 < root.imag / frequency < 1.5), key=lambda root: root.real)
