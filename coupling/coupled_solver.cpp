@@ -116,8 +116,7 @@ void CoupledSolver::warn_of_packing() {
   if (report_.max_solid_fraction <= densest_packing || warned_of_packing_) return;
   warned_of_packing_ = true;
   const double width = coupling_.kernel_width(rags_.rags());
-  const std::string kernel =
-      coupling_.shape->support_radius(width) > 0 ? "kernel_width is " + number_text(1e3 * width) + " mm" : "kernel is \"cell\"";
+  const std::string kernel = coupling_.shape->has_width() ? "kernel_width is " + number_text(1e3 * width) + " mm" : "kernel is \"cell\"";
   log::warning("coupling: the particles fill " + number_text(report_.max_solid_fraction) + " of a cell at " + number_text(rags_.time()) +
                " s, more than the " + number_text(densest_packing) + " of a dense packing; " + kernel +
                ": widen it until monitors/coupling.csv stays below (said once)");
@@ -132,6 +131,7 @@ void CoupledSolver::write_report(double dt) {
   const auto [least, largest] = kernel_->width_over_cell_size();
   report_.width_over_cell_least = least, report_.width_over_cell_largest = largest;
   report_.particles_outside = kernel_->n_outside();
+  report_.points_outside = kernel_->n_points_outside();
 }
 
 std::vector<Column<CouplingReport>> CoupledSolver::columns() {
@@ -147,7 +147,8 @@ std::vector<Column<CouplingReport>> CoupledSolver::columns() {
                          {"max_stiffness", "1", [](Report r) { return r.max_stiffness; }},
                          {"kernel_width_over_cell_least", "1", [](Report r) { return r.width_over_cell_least; }},
                          {"kernel_width_over_cell_largest", "1", [](Report r) { return r.width_over_cell_largest; }},
-                         {"particles_outside_cells", "1", [](Report r) { return static_cast<double>(r.particles_outside); }}});
+                         {"particles_outside_cells", "1", [](Report r) { return static_cast<double>(r.particles_outside); }},
+                         {"kernel_points_outside_cells", "1", [](Report r) { return static_cast<double>(r.points_outside); }}});
   return all;
 }
 

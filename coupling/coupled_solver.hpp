@@ -25,6 +25,7 @@ struct CouplingReport {
   double max_stiffness = 0;       // dt K/m
   double width_over_cell_least = 0, width_over_cell_largest = 0;
   std::int64_t particles_outside = 0;  // held by no cell
+  std::int64_t points_outside = 0;     // the same, with further points by which the kernel finds cells
 };
 
 /// Seconds of wall clock spent on this rank.

@@ -181,7 +181,7 @@ double mean_cell_size(const Mesh& mesh, std::span<const Vec3> places) {
 
 std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::vector<Rag>& rags, const Mesh& mesh,
                                          std::span<const Vec3> places) {
-  const double d = largest_diameter(rags), width = coupling.kernel_width(rags), support = coupling.shape->support_radius(width);
+  const double d = largest_diameter(rags), width = coupling.kernel_width(rags);
   const double size = mean_cell_size(mesh, places);
   if (size == 0) return {};  // no particle is known yet
 
@@ -193,7 +193,7 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
     warnings.push_back(message.str());
   };
   const bool two_way = coupling.settings.two_way();
-  if (support == 0) {
+  if (!coupling.shape->has_width()) {
     if (two_way && d > size)
       warn("[coupling] kernel \"cell\": particles of ", d * 1e3, " mm are larger than the cells where they are (mean ", size * 1e3,
            " mm), so that what they feel is mostly their own wake and depends on the mesh; use kernel = \"gaussian\" or \"wendland\"");
@@ -215,7 +215,7 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
         warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / shorter_side(rag), " of the shorter side of cloth \"", rag.name,
              "\" (", shorter_side(rag) * 1e3, " mm), advised at most ", largest_width_over_sheet,
              ": it acts as a larger cloth, at a quarter with 13 % more drag across the stream; narrow the kernel");
-  const double most_cells = 4.0 / 3.0 * std::numbers::pi * std::pow(support / size, 3);
+  const double most_cells = coupling.shape->cells_reached(width, size);
   if (most_cells > most_cells_per_particle)
     warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the cells (mean ", size * 1e3,
          " mm) around a particle, advised at most ", most_cells_per_particle, ": transfers will be slow; narrow the kernel");
@@ -238,7 +238,7 @@ std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_
 
 std::string assumed_kernel_width(const Coupling& coupling, const std::vector<Rag>& rags) {
   const double width = coupling.kernel_width(rags);
-  const bool is_used = coupling.settings.mode != CouplingSettings::Mode::none && coupling.shape->support_radius(width) > 0;
+  const bool is_used = coupling.settings.mode != CouplingSettings::Mode::none && coupling.shape->has_width();
   if (!is_used || coupling.settings.kernel_width || rags.empty()) return "";
   return "[coupling] kernel_width is not given: " + number_text(1e3 * width) +
          (std::ranges::any_of(rags, is_sheet) ? " mm for cloth, independent of its particles" : " mm, twice the largest diameter");

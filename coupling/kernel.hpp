@@ -1,32 +1,32 @@
 #pragma once
 // Transfers between particles and cells, across ranks, with one set of weights for both ways.
 //
-//   w_bc = V_c d_c g(|x_c - x_b|) / sum_c' V_c' d_c' g(|x_c' - x_b|)   weight of particle b in cell c; sum_c w_bc = 1 also near walls
 //   average (consistent):   u_b = sum_c w_bc u_c                 fluid -> particles; a constant is returned exactly
 //   spread (conservative):  f_c = 1/V_c sum_b w_bc F_b           particles -> fluid; sum_c V_c f_c = sum_b F_b
 //
-// Near walls particles in a share N of unbounded space would give too little to the cells at the wall: what an even layer of particles
-// gives would be ln 2 = 0.69 of the rest there, and more than the rest a width away. The weight of cells,
+// w_bc: weight of particle b in cell c; sum_c w_bc = 1 also near walls. How a kernel finds and weighs cells is in
+// coupling/distance_kernel.hpp, coupling/point_kernel.hpp.
 //
-//   d_c = N_c^(-3/4),   N_c = sum_c' V_c' g(|x_c' - x_c|) / int g dV     share of the kernel about the centre of the cell that is in the
-//   mesh
+// Near walls particles in a share N of unbounded space would give too little to the cells at the wall: what an even layer of particles
+// gives would be ln 2 = 0.69 of the rest there, and more than the rest a width away. A factor of cells,
+//
+//   d_c = N_c^(-3/4),   N_c: share of the kernel about the centre of the cell that is in the mesh
 //
 // makes up for it: an even layer that ends at a plane wall gives 0.976 to 1.024 everywhere, and what it gives, averaged back, is 0.994 to
 // 1.009 (computed for the Gaussian; a scaling that makes the kernel doubly stochastic, Sinkhorn (1967), would give 1, but needs
 // iterations).
 //
-// The exponent of g is shifted by that of the nearest centre (log-sum-exp), so a kernel narrower than the cells becomes the nearest cell
-// and nothing is ever 0/0. Where no centre lies in the support, the cell that holds the particle has weight 1. A particle that no cell
-// holds (overlap with a wall, a gap) and that no kernel reaches takes the nearest centre; it is counted. Ties go to the lowest cell_id.
-// Away from walls `average` is second-order accurate in delta, and exact for linear fields on meshes that are symmetric about the particle.
+// A particle that no cell holds (overlap with a wall, a gap) and that no kernel reaches takes the nearest centre; it is counted. Ties go to
+// the lowest cell_id. Away from walls `average` is second-order accurate in delta, and exact for linear fields on meshes that are symmetric
+// about the particle.
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "coupling/cell_weights.hpp"
 #include "coupling/kernel_shape.hpp"
-#include "coupling/particle_router.hpp"
 #include "mesh/locator.hpp"
 #include "mesh/mesh.hpp"
 
@@ -55,11 +55,13 @@ class Kernel {
   void spread(std::span<const double> amounts, int components, std::span<double> field) const;
 
   double width() const { return width_; }
-  /// False for the cell kernel.
-  bool has_width() const { return shape_.support_radius(width_) > 0; }
+  const KernelShape& shape() const { return shape_; }
   int n_particles() const { return n_particles_; }
   /// Particles of all ranks that no cell holds, at the last locate.
   std::int64_t n_outside() const { return n_outside_; }
+  /// Points of all particles of all ranks by which the kernel finds cells and that no cell holds, at the last locate: their centres, and
+  /// further points if the kernel has them.
+  std::int64_t n_points_outside() const { return n_points_outside_; }
   /// Rank whose cell holds each particle of this rank (or the nearest cell, if none does and the kernel does not reach one).
   const std::vector<int>& holder_rank() const { return holder_rank_; }
   /// Kernel width over the cell size V^(1/3) of the cells that hold particles: least and largest of all ranks; {0, 0} without particles.
@@ -67,43 +69,32 @@ class Kernel {
   std::array<double, 2> width_over_cell_size() const;
 
  private:
-  /// Contributions of the cells of this rank to the listed particles.
-  struct Stencils {
-    explicit Stencils(MPI_Comm comm) : router(comm) {}
-    ParticleRouter router;
-    std::vector<int> start, cell;  // compressed rows, one a received particle
-    std::vector<double> weight;    // normalised over all ranks
-  };
-  struct Answer;
-
   void weigh_cells();
   void locate_in_parts(const std::vector<int>& cells, const std::function<void(std::size_t, std::size_t)>& use);
   void plan_by_boxes(std::span<const Vec3> points);
-  std::vector<double> search_cells(std::span<const Vec3> points);
-  void set_weights(std::span<double> weights, const double* cell_weight, double& exponent, double& sum_of_weights) const;
-  std::vector<double> weight_factors(std::span<const double> answers, std::vector<int>& unresolved);
-  void drop_empty_rows(std::span<const double> answers, std::vector<double>& factors);
-  void finish_weights(std::span<const double> factors);
+  void find_holders(std::span<const Vec3> points);
+  void drop_empty_rows();
   void take_nearest_cells(std::span<const Vec3> points, const std::vector<int>& unresolved);
-  void average(const Stencils& stencils, std::span<const CellField> fields, int components, std::vector<double>& values) const;
-  void spread(const Stencils& stencils, std::span<const double> amounts, int components, std::span<double> field) const;
 
   const KernelShape& shape_;
   double width_;
-  double support_;  // radius of search, m
   const Mesh& mesh_;
   CellLocator locator_;
-  std::vector<std::array<double, 6>> boxes_;  // of the cells of every rank: lower, upper corner
+  std::unique_ptr<CellWeights> weights_;
+  RankBoxes boxes_;
 
   int n_particles_ = 0;
-  std::int64_t n_outside_ = 0;
+  std::int64_t n_outside_ = 0, n_points_outside_ = 0;
   bool some_in_nearest_cell_ = false;  // some particle of some rank took the nearest cell
   std::vector<int> holder_rank_;
-  std::vector<double> sum_of_weights_;  // sum V_c d_c g of each particle, m3
-  std::vector<double> cell_weight_;     // V_c d_c of the owned cells, m3
+  std::vector<std::int64_t> holder_id_;
   std::vector<int> holder_cell_;        // local number of that cell on its rank: the hint of the next search
-  std::vector<int> received_holder_;    // by received particle: the owned cell that holds it, or -1
-  Stencils around_, nearest_;           // cells in the support or holding the particle; nearest cells of the others
+  ParticleRouter around_;               // to the ranks that may have cells for the particles
+  std::vector<Vec3> announced_places_;  // of the particles that were announced to this rank, m
+  std::vector<int> announced_holder_;   // the owned cell that holds each of them, or -1
+  std::vector<std::int64_t> announced_number_;
+  ParticleRouter to_nearest_;  // of the particles for which no cell counts
+  WeightRows nearest_;
 };
 
 }  // namespace snag

@@ -34,19 +34,22 @@ const double* turbulence_gradient(const CellSource& source, std::vector<double>&
   return made.data();
 }
 
-/// Kernel and cell together: on cells of side h a steady force in one cell answers there with 0.114/(mu h) for small steps to 0.129/(mu h)
-/// for large ones (mean over the wave numbers of the grid of the discrete Stokes flow, with the balance of solver/continuity.hpp), as a
-/// Gaussian of width 0.25 h does.
+/// Kernel and cell together.
 const double* disturbance_width(const CellSource& source, std::vector<double>& made) {
-  constexpr double width_over_side = 0.25;
   const Mesh& mesh = source.flow.mesh;
-  const double own = source.kernel.has_width() ? source.kernel.width() : 0;
   made.assign(static_cast<std::size_t>(mesh.n_cells), undisturbed);
   if (!source.two_way) return made.data();
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    const double side = std::cbrt(mesh.cell_volume[c]);
-    made[c] = std::hypot(own, width_over_side * side);
-  }
+  for (int c = 0; c < mesh.n_cells; ++c)
+    made[c] = source.kernel.shape().disturbance_width(source.kernel.width(), std::cbrt(mesh.cell_volume[c]));
+  return made.data();
+}
+
+const double* point_disturbance(const CellSource& source, std::vector<double>& made) {
+  const Mesh& mesh = source.flow.mesh;
+  made.assign(static_cast<std::size_t>(mesh.n_cells), 0.0);
+  if (!source.two_way) return made.data();
+  for (int c = 0; c < mesh.n_cells; ++c)
+    made[c] = source.kernel.shape().point_disturbance(source.kernel.width(), std::cbrt(mesh.cell_volume[c]));
   return made.data();
 }
 
@@ -68,7 +71,7 @@ const double* solid_fraction(const CellSource& source, std::vector<double>& made
 /// adds its own size to the kernel's.
 const double* coverage(const CellSource& source, std::vector<double>& made) {
   const Mesh& mesh = source.flow.mesh;
-  const double own = source.kernel.has_width() ? 2 * std::sqrt(std::numbers::pi) * source.kernel.width() : 0;
+  const double own = 2 * std::sqrt(std::numbers::pi) * source.kernel.shape().overlap_width(source.kernel.width());
   spread(
       source, [](const Rag& rag) { return 2 * rag.radius * (2 * rag.radius); }, made);
   for (int c = 0; c < mesh.n_cells; ++c)
@@ -143,6 +146,11 @@ const std::vector<SampleRow>& sample_rows() {
        .of_cells = disturbance_width,
        .of_formula = [](const FormulaSource& source, double* const* to) { fill(source, undisturbed, to[0]); },
        .of_sphere = [](const SphereState& state) { return Vec3{state.disturbance_width}; }},
+      {.needed = &SampleSet::point_disturbance,
+       .target = &FluidSamples::point_disturbance,
+       .of_cells = point_disturbance,
+       .of_formula = [](const FormulaSource& source, double* const* to) { fill(source, 0, to[0]); },
+       .of_sphere = [](const SphereState& state) { return Vec3{state.point_disturbance}; }},
       {.needed = &SampleSet::coverage, .target = &FluidSamples::coverage, .of_cells = coverage},
       {.needed = &SampleSet::wall,
        .target = &FluidSamples::wall_distance,

@@ -27,7 +27,7 @@ SphereState slanted_state() {
   s.position = {0.1, 0.2, 0.3};
   s.turbulent_kinetic_energy = 0.02, s.dissipation_rate = 0.3, s.solid_fraction = 0.2;
   s.turbulent_kinetic_energy_gradient = {0.3, -0.1, 0.2};
-  s.disturbance_width = 3e-3, s.wall_distance = 1.7e-3, s.wall_normal = unit({1, -2, 2});
+  s.disturbance_width = 3e-3, s.point_disturbance = 20, s.wall_distance = 1.7e-3, s.wall_normal = unit({1, -2, 2});
   s.next_in_row = {1.2e-3, 1.5e-3, -0.4e-3}, s.next_row = {0.3e-3, -0.5e-3, 1.9e-3};
   return s;
 }

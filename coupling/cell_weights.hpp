@@ -1,0 +1,71 @@
+#pragma once
+// How a kernel finds cells and weighs them, across ranks. The rank that moves a particle announces it to all ranks that may have cells for
+// it; each of these ranks gets the rows of its own cells.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec3.hpp"
+#include "coupling/particle_router.hpp"
+
+namespace snag {
+
+/// Weights of the cells of this rank in compressed rows; particles may share a row.
+struct WeightRows {
+  std::vector<int> row;  // of each announced particle
+  std::vector<int> start, cell;
+  std::vector<double> weight;
+  int n_rows() const { return static_cast<int>(start.size()) - 1; }
+  bool is_empty(int r) const { return start[r] == start[r + 1]; }
+  void clear();
+  /// The cells and weights that were appended since the last call become the row of the next particle.
+  void close_row();
+};
+
+/// Particles of this rank, and those that were announced to it.
+struct Announcement {
+  const ParticleRouter& router;
+  std::span<const int> holder_rank;         // [n_particles] rank of the cell that holds the particle, -1: none
+  std::span<const std::int64_t> holder_id;  // [n_particles] and the cell_id
+  std::span<const Vec3> places;             // [n_received] of the announced particles, m
+  std::span<const int> holder;              // [n_received] owned cell that holds it, -1: none
+  std::span<const std::int64_t> number;     // [n_received] the same in the next step, if the particle stays with its rank
+};
+
+using RankBoxes = std::vector<std::array<double, 6>>;  // around the cells of each rank: lower, upper corner, m
+
+class CellWeights {
+ public:
+  virtual ~CellWeights() = default;
+  /// A particle is announced to the ranks whose cells lie so near, m.
+  virtual double reach() const = 0;
+  /// Cells have moved, and before the first use. Collective.
+  virtual void mesh_moved(const RankBoxes&) {}
+  /// Sets rows(), inside() and unresolved(). Collective.
+  virtual void locate(const Announcement& announced) = 0;
+
+  /// True if the kernel is cut off at walls: the weights are then those without factors of cells, near the particle only, until
+  /// set_cell_factors() is called.
+  virtual bool start_balancing() { return false; }
+  /// d_c of the owned cells.
+  virtual void set_cell_factors(std::vector<double>) {}
+
+  /// Of the announced particles; normalised over all ranks.
+  const WeightRows& rows() const { return rows_; }
+  /// Forgets the announced particles for which `keeps` [n_received] is 0.
+  void keep(std::span<const char> keeps);
+  /// Share of the kernel of each particle that lies in the mesh, 1.
+  const std::vector<double>& inside() const { return inside_; }
+  /// Particles of this rank for which no cell counts.
+  const std::vector<int>& unresolved() const { return unresolved_; }
+  /// Points, other than the centres of particles, that no cell holds, of this rank's particles.
+  virtual std::int64_t n_points_outside() const { return 0; }
+
+ protected:
+  WeightRows rows_;
+  std::vector<double> inside_;
+  std::vector<int> unresolved_;
+};
+
+}  // namespace snag
