@@ -207,6 +207,10 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
     warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / size, " of the cells where the particles are (mean ", size * 1e3,
          " mm), advised at least ", least_width_over_cell,
          ": below it the kernel is the nearest cell; widen the kernel or refine the mesh");
+  if (const double largest = coupling.shape->largest_width_over_cell(); width > largest * size)
+    warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / size, " of the cells where the particles are (mean ", size * 1e3,
+         " mm), advised at most ", largest, " for kernel \"", coupling.settings.kernel,
+         "\": cells between its points get nothing; narrow the kernel, or use kernel = \"gaussian\"");
   const bool has_sheet_drag =
       std::ranges::any_of(coupling.forces, [](const auto& force) { return force->description().name == "sheet_drag"; });
   if (two_way && has_sheet_drag)

@@ -5,7 +5,7 @@
 //   spread (conservative):  f_c = 1/V_c sum_b w_bc F_b           particles -> fluid; sum_c V_c f_c = sum_b F_b
 //
 // w_bc: weight of particle b in cell c; sum_c w_bc = 1 also near walls. How a kernel finds and weighs cells is in
-// coupling/distance_kernel.hpp, coupling/point_kernel.hpp.
+// coupling/distance_kernel.hpp, coupling/point_kernel.hpp, coupling/diffusion_weights.hpp.
 //
 // Near walls particles in a share N of unbounded space would give too little to the cells at the wall: what an even layer of particles
 // gives would be ln 2 = 0.69 of the rest there, and more than the rest a width away. A factor of cells,

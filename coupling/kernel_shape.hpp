@@ -35,6 +35,8 @@ class KernelShape {
   virtual double point_disturbance(double /*width*/, double /*side*/) const { return 0; }
   /// Cells of this side that get a share of a particle, about.
   virtual double cells_reached(double width, double side) const = 0;
+  /// Width over the size of cells above which cells within the kernel get nothing.
+  virtual double largest_width_over_cell() const { return infinity; }
   /// `mesh` and `locator` must outlive the weights.
   virtual std::unique_ptr<CellWeights> weights(double width, const Mesh& mesh, const CellLocator& locator) const = 0;
 

@@ -53,6 +53,13 @@ const double* point_disturbance(const CellSource& source, std::vector<double>& m
   return made.data();
 }
 
+const double* point_width(const CellSource& source, std::vector<double>& made) {
+  const Mesh& mesh = source.flow.mesh;
+  made.resize(static_cast<std::size_t>(mesh.n_cells));
+  for (int c = 0; c < mesh.n_cells; ++c) made[c] = width_of_cell(std::cbrt(mesh.cell_volume[c]));
+  return made.data();
+}
+
 /// `of_rag` of each particle, spread to the cells.
 void spread(const CellSource& source, double (*of_rag)(const Rag&), std::vector<double>& cells) {
   std::vector<double> values(source.particles.size());
@@ -151,6 +158,10 @@ const std::vector<SampleRow>& sample_rows() {
        .of_cells = point_disturbance,
        .of_formula = [](const FormulaSource& source, double* const* to) { fill(source, 0, to[0]); },
        .of_sphere = [](const SphereState& state) { return Vec3{state.point_disturbance}; }},
+      {.needed = &SampleSet::point_disturbance,
+       .target = &FluidSamples::point_width,
+       .of_cells = point_width,
+       .of_sphere = [](const SphereState& state) { return Vec3{state.point_width}; }},
       {.needed = &SampleSet::coverage, .target = &FluidSamples::coverage, .of_cells = coverage},
       {.needed = &SampleSet::wall,
        .target = &FluidSamples::wall_distance,

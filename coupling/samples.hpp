@@ -52,6 +52,7 @@ struct FluidSamples {
   const double* disturbance_width =
       nullptr;  // over which the particle's own force is smeared in these samples, m; 1e9 where it is not in them
   const double* point_disturbance = nullptr;  // added to 1/disturbance_width by points of the kernel that lie apart, 1/m
+  const double* point_width = nullptr;        // over which each of these points is smeared, m
   const double* coverage = nullptr;  // share of the kernel that the cloth around the particle fills: 1 inside a flat sheet, 1/2 at an edge
   const double* edge_distance = nullptr;  // s of coupling/cloth_edges.hpp, m; with the coverage
   const double* wall_distance = nullptr;  // of the particle's centre from the nearest wall, m; far away a large number
@@ -67,7 +68,7 @@ struct SphereState {
   Vec3 position, velocity, angular_velocity;                                      // m, m/s, rad/s
   double turbulent_kinetic_energy = 0, dissipation_rate = 0, solid_fraction = 0;  // m2/s2, m2/s3, 1
   Vec3 turbulent_kinetic_energy_gradient;                                         // m/s2
-  double disturbance_width = 1e9, point_disturbance = 0;                          // m, 1/m
+  double disturbance_width = 1e9, point_disturbance = 0, point_width = 1e-3;      // m, 1/m, m
   double wall_distance = 1e9;                                                     // m
   Vec3 wall_normal{0, 0, 1};
   Vec3 next_in_row, next_row;  // to the bonded neighbours on both sides, that move with the sphere; zero: none; m

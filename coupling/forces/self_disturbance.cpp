@@ -1,7 +1,7 @@
 // The water that a kernel averages holds what the particle itself does to it; its drag wants the water without, along the nearest wall (t)
 // and across it (n):
 //
-//   u - v -> (1 + theta (1/(1 - c) - 1)) (u - v),   c = K (psi A/delta + e)/(6 pi^(3/2) mu)
+//   u - v -> (1 + theta (1/(1 - c) - 1)) (u - v),   c = K (psi A/delta + psi_s e)/(6 pi^(3/2) mu)
 //   psi = (1 + 0.566 Re_delta)/(1 + 1.228 Re_delta + 0.426 Re_delta^2),   Re_delta = rho W delta/mu
 //   A_t = 1 - (0.6541 - 0.1092 s + 0.0143 s^2 + 0.0187 s^3)/(1 - 0.0601 s + 0.0639 s^2 + 0.0034 s^3 + 0.01875 s^4),   s = h/delta
 //   A_n = 1 - (0.9445 - 0.0884 s + 0.0498 s^2 + 0.0253 s^3)/(1 - 0.0497 s + 0.0851 s^2 + 0.0176 s^3 + 0.01271 s^4),   h: distance of the
@@ -14,7 +14,8 @@
 // %). So the whole answer of the water to the particle is taken off, with what the wall does to it: the force `wall` gives the drag at a
 // wall, nothing counts twice. K = |F|/|w| of the sub-step before holds whatever law and factors of drag there are. delta^2 = (kernel
 // width/q)^2 + (0.25 cell size)^2: the answer of a single cell to its own force; q: how much of itself the kernel holds against a
-// Gaussian, 1 (coupling/kernel_shape.hpp). e: what points of a kernel that lie apart add, near each of them. For particles apart from each
+// Gaussian, 1 (coupling/kernel_shape.hpp). e: what points of a kernel that lie apart
+// add, each smeared over s = 0.25 cell size; psi_s = psi(rho W s/mu). For particles apart from each
 // other, in water that has had the time delta^2/nu; c counts as at most 0.8; a particle beyond its wall counts as at the wall. In a
 // prescribed flow and one-way there is nothing to correct. Source: Stokes and Oseen flow by Fourier transform, images of Blake (1971),
 // Proc. Camb. Phil. Soc. 70, 303-310; in the manner of Balachandar, Liu and Lakhote (2019), J. Comput. Phys. 376, 160-185, and Evrard,
@@ -50,7 +51,7 @@ struct SelfDisturbance final : FluidForce {
 
   ForceDescription description() const override {
     return {.name = name,
-            .equation = "u - v -> (1 + theta (1/(1 - c) - 1)) (u - v), c = K (psi A/delta + e)/(6 pi^(3/2) mu)",
+            .equation = "u - v -> (1 + theta (1/(1 - c) - 1)) (u - v), c = K (psi A/delta + psi_s e)/(6 pi^(3/2) mu)",
             .source = "steady Oseen flow about a Gaussian force, images at a wall; Balachandar, Liu and Lakhote (2019)",
             .valid_for = "two-way coupled particles that are several kernel widths apart, with the force wall at walls",
             .samples = {.wall = true, .disturbance = true, .point_disturbance = true},
@@ -74,7 +75,7 @@ struct SelfDisturbance final : FluidForce {
     const VectorArray u = fluid.velocity, v = particles.velocity, normal = fluid.wall_normal;
     const VectorSum seen = forces.fluid_velocity;
     const double *width = fluid.disturbance_width, *distance = fluid.wall_distance, *points = fluid.point_disturbance,
-                 *drag = particles.last_drag;
+                 *point_width = fluid.point_width, *drag = particles.last_drag;
     double* growth = forces.slip_growth;
 #pragma omp simd
     for (int p = particles.begin; p < particles.end; ++p) {
@@ -86,8 +87,8 @@ struct SelfDisturbance final : FluidForce {
       double g_t = 1, g_n = 1;  // undisturbed over sampled slip, by repeated insertion
       for (int i = 0; i < 3; ++i) {
         const double half_way = 0.5 * std::sqrt((1 + g_t) * (1 + g_t) * slip_t + (1 + g_n) * (1 + g_n) * slip_n);
-        const double psi = oseen(rho * half_way * delta / mu);
-        g_t = growth_of(psi * c * along_share + near), g_n = growth_of(psi * c * across_share + near);
+        const double psi = oseen(rho * half_way * delta / mu), at_points = near * oseen(rho * half_way * point_width[p] / mu);
+        g_t = growth_of(psi * c * along_share + at_points), g_n = growth_of(psi * c * across_share + at_points);
       }
       const double more_t = theta * (g_t - 1), more_n = theta * (g_n - 1);
       const Vec3 more = more_t * sampled + (more_n - more_t) * across * n;

@@ -84,6 +84,7 @@ struct SatelliteKernel final : PointKernel {
   std::string source() const override { return "satellite point method, in the manner of CFDEMcoupling's dividedVoidFraction"; }
   /// Of the ball: <1/|x - x'|> = 6/(5 R).
   double overlap() const override { return std::sqrt(std::numbers::pi) * 6 / (5 * std::sqrt(5.0)); }
+  double largest_width_over_cell() const override { return 2.5; }
   double point_disturbance(double width, double side) const override {
     const double s = width_of_cell(side) / width;
     double sum = n_points / (std::sqrt(std::numbers::pi) * s);

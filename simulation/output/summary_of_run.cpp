@@ -101,7 +101,8 @@ void Outputs::summarise_checks(Summary& s) const {
   if (simulation_.coupled && simulation_.water) {
     const Coupling& coupling = simulation_.coupled->coupling();
     const double width = coupling.kernel_width(simulation_.rags->rags());
-    s.coupling = {coupling.shape->has_width() ? width : 0, coupled_.width_least, coupled_.width_largest, coupled_.solid_fraction, {}, {}, {}};
+    s.coupling = {
+        coupling.shape->has_width() ? width : 0, coupled_.width_least, coupled_.width_largest, coupled_.solid_fraction, {}, {}, {}};
     if (coupled_.force > 0) s.coupling->force_share_at_walls = coupled_.force_at_walls / coupled_.force;
     if (coupled_.impulse > 0) s.coupling->force_displacement = coupled_.displaced / coupled_.impulse;
     if (coupled_.couple > 0) s.coupling->couple_lost = coupled_.couple_lost / coupled_.couple;

@@ -1,5 +1,5 @@
 # timeout: 600
-# cost: 25
+# cost: 32
 """Requirement: a sphere larger than the cells meets the drag of its law, in a stream and along a wall, for its own wake is taken off what the kernel averages; and however wrong the kernel for it, a run stays
 finite. Errors are those of the speed at which a sphere of the force found would fall (Galilei)."""
 import math
@@ -112,7 +112,8 @@ class SphereDragShort(SphereDrag):
         self.check(0.05, 0.005, 2, wall=1, far=20, steps=60, forces=("schiller_naumann", "self_disturbance", "wall"))
 
     def test_in_a_stream(self):
-        self.check(0.02, 10, 1, width=2, far=20, steps=60, diameters=15)
+        for kernel in ("gaussian", "satellite", "diffusion"):
+            self.check(0.02, 10, 1, width=2, kernel=kernel, far=20, steps=60, diameters=15)
 
     def test_the_cell_kernel_stays_finite(self):
         """A sphere of four cells whose force goes into one of them."""

@@ -1,7 +1,7 @@
 # labels: long
 # timeout: 7200
-# cost: 2000
-"""Requirement: sphere_drag.py for Reynolds numbers of 1 to 100, spheres of a fifth of a cell to four cells, two kernels, and both distances from a wall."""
+# cost: 2600
+"""Requirement: sphere_drag.py for Reynolds numbers of 1 to 100, spheres of a fifth of a cell to four cells, four kernels, and both distances from a wall."""
 import harness
 import sphere_drag
 
@@ -12,6 +12,15 @@ class SphereDragLong(sphere_drag.SphereDrag):
             for per_cell, width in ((0.2, 10), (1, 2), (2, 1), (4, 1)):
                 self.check(bound, Re, per_cell, width=width)
         self.check(0.01, 1, 2, kernel="wendland")
+
+    def test_in_a_stream_by_points_and_by_diffusion(self):
+        for Re, bound in ((1, 0.01), (10, 0.02), (100, 0.03)):
+            for per_cell, width in ((0.2, 10), (1, 2), (2, 1)):
+                for kernel in ("satellite", "diffusion"):
+                    # Points that lie apart need steps in which friction crosses few cells: pressure answers to each of them by itself.
+                    steps = 900 if kernel == "satellite" and per_cell > 1 else 300
+                    self.check(bound, Re, per_cell, width=width, kernel=kernel, far=20, steps=steps, diameters=15)
+        self.check(0.01, 1, 4, kernel="diffusion", far=20, diameters=15)
 
     def test_along_a_wall(self):
         for wall, per_cell, width in ((1, 2, 1), (3, 2, 1), (1, 2, 2), (3, 2, 2)):
