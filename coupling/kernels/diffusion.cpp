@@ -10,7 +10,7 @@
 //   q = (2 m)^(1/2) Gamma(2 m - 1/2)/Gamma(2 m) = 1.050       (a Gaussian: 1)
 //
 // Beyond the cut of 5 delta lie 1 % of the second moments.
-// Source: Capecelatro and Desjardins (2013), J. Comput. Phys. 238, 1-31, section 4; Sun and Xiao (2015), Int. J. Multiphase Flow 72,
+// Source: Capecelatro and Desjardins (2013), J. Comput. Phys. 238, 1-31; Sun and Xiao (2015), Int. J. Multiphase Flow 72,
 // 233-247.
 #include <cmath>
 #include <numbers>
