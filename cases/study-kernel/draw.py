@@ -1,0 +1,27 @@
+"""Path, drag, lag and impulse over the kernel width: draw.py FOLDER OUT.svg, FOLDER with the studies sphere, plate, rag and pump. Needs pandas, matplotlib."""
+import pathlib, sys
+import matplotlib
+matplotlib.use("svg")
+import matplotlib.pyplot as plt, pandas
+
+folder, out = map(pathlib.Path, sys.argv[1:3])
+STREAM, TIME = 1.0, 0.064  # of the rag: m/s, s
+PANELS = (("sphere", "Path of a sinking sphere [mm]", "kernel", lambda s: 1e3 * s["rags.0.before_contact.path_m"]),
+          ("plate", "Drag of a held sheet [N]", "kernel", lambda s: s["rags.0.before_contact.mean_force_N.0"]),
+          ("rag", "Lag of a free rag behind the stream [mm]", "radius_mm", lambda s: 1e3 * (STREAM * TIME - s["rags.0.before_contact.path_m"])),
+          ("pump", "Impulse on the demo's rag [mN s]", "kernel", lambda s: 1e3 * s["rags.0.before_contact.impulse_N_s.2"]))
+plt.rcParams.update({"font.size": 8, "svg.hashsalt": "snag"})
+figure, axes = plt.subplots(2, 2, figsize=(8, 5.6), layout="constrained")
+for panel, (name, title, key, value) in zip(axes.flat, PANELS):
+    study = pandas.read_csv(folder / name / "study.csv")
+    study.columns = [c.split(" [")[0] for c in study.columns]
+    key = next(c for c in study.columns if c.split(".")[-1] == key)
+    colours = {k: f"C{i}" for i, k in enumerate(study[key].unique())}
+    for (kind, *mesh), runs in study.groupby([key] + [c for c in study.columns if c == "mesh"]):
+        is_fine = mesh and "fine" in mesh[0]
+        label = f"{kind}" + (" mm" if key.endswith("mm") else "") + (", finer cells" if is_fine else "")
+        panel.plot(runs["width"], value(runs), "o-" if not is_fine else "s--", color=colours[kind], ms=3.5, lw=1, mfc="none" if is_fine else None, label=label)
+    panel.set_title(title), panel.set_xscale("log"), panel.set_ylim(0, None), panel.grid(alpha=0.3), panel.legend(fontsize=6)
+    ticks = sorted(study["width"].unique())
+    panel.set_xticks(ticks, [f"{t:g}" for t in ticks]), panel.minorticks_off(), panel.set_xlabel("kernel width [mm]")
+figure.savefig(out, metadata={"Date": None})
