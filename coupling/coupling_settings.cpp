@@ -240,6 +240,18 @@ std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_
   return warnings;
 }
 
+std::string viscous_step_warning(const Coupling& coupling, const std::vector<Rag>& rags, double step, double viscosity) {
+  const double width = coupling.kernel_width(rags);
+  if (!coupling.settings.two_way() || !coupling.shape->has_width() || std::ranges::none_of(rags, is_sheet)) return "";
+  const double longest = width * width / viscosity;
+  if (step <= longest) return "";
+  return "[time] step is " + number_text(step) + " s, " + number_text(step / longest) +
+         " times the square of kernel_width over the viscosity of the water (" + number_text(longest) +
+         " s), advised at most 1: friction carries the impulse of the cloth out of its kernel within the step; slow cloth is bent too "
+         "little "
+         "and may move several times too fast; take smaller steps, or a wider kernel";
+}
+
 std::string assumed_kernel_width(const Coupling& coupling, const std::vector<Rag>& rags) {
   const double width = coupling.kernel_width(rags);
   const bool is_used = coupling.settings.mode != CouplingSettings::Mode::none && coupling.shape->has_width();

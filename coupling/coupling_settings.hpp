@@ -60,6 +60,10 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
 /// force is nothing without.
 std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_walls, bool water_has_walls);
 
+/// A remark where friction carries the impulse of a two-way cloth out of its kernel within less than a step (s) of water of this kinematic
+/// viscosity (m2/s): delta^2/nu; empty where it does not.
+std::string viscous_step_warning(const Coupling& coupling, const std::vector<Rag>& rags, double step, double viscosity);
+
 /// The kernel width that a case without kernel_width has, for its heading; empty where it is given or the kernel has no width.
 std::string assumed_kernel_width(const Coupling& coupling, const std::vector<Rag>& rags);
 

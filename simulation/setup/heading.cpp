@@ -123,6 +123,10 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
     for (const std::string& warning :
          kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))
       log::warning(warning);
+    const Flow& flow = simulation.water->flow;
+    const std::string of_step = viscous_step_warning(simulation.coupled->coupling(), simulation.rags->rags(), simulation.time_settings.step,
+                                                     flow.dynamic_viscosity / flow.density);
+    if (!of_step.empty()) log::warning(of_step);
   }
 }
 

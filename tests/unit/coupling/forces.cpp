@@ -386,6 +386,21 @@ TEST(CouplingSettings, WarnsOfForcesThatFindNoWall) {
   EXPECT_TRUE(warnings(R"("free_stream_drag")", false, true).empty());
 }
 
+// Requirement: a two-way cloth in water so viscous that friction carries its impulse out of the kernel within a step is remarked on.
+TEST(CouplingSettings, WarnsOfLongStepsInSlowFlow) {
+  std::vector<Rag> rags(1);
+  rags[0].n_columns = 60, rags[0].n_rows = 40, rags[0].radius = 1e-3;
+  const auto warning = [&](const std::string& mode, double step) {
+    const std::string text = "[coupling]\nmode = \"" + mode + "\"\nkernel_width_mm = 5\n";
+    return viscous_step_warning(read_coupling(CaseFile::parse(text).root()), rags, step, 1e-3);
+  };
+  EXPECT_TRUE(warning("two_way", 0.025).empty());
+  EXPECT_NE(warning("two_way", 0.05).find("step is 0.05 s, 2 times the square of kernel_width"), std::string::npos);
+  EXPECT_TRUE(warning("one_way", 0.05).empty());
+  rags[0].n_rows = 1;
+  EXPECT_TRUE(warning("two_way", 0.05).empty()) << "a fibre";
+}
+
 // Requirement: the kernel width that a case does not give depends on the size of a cloth, not of its particles; on the diameter of spheres.
 TEST(CouplingSettings, ChoosesAWidthForClothAndSpheres) {
   const auto width = [](const std::vector<Rag>& rags, const std::string& keys = "") {
