@@ -49,7 +49,7 @@ class CellWeights {
   /// set_cell_factors() is called.
   virtual bool start_balancing() { return false; }
   /// d_c of the owned cells.
-  virtual void set_cell_factors(std::vector<double>) {}
+  virtual void set_cell_factors(const std::vector<double>&) {}
 
   /// Of the announced particles; normalised over all ranks.
   const WeightRows& rows() const { return rows_; }

@@ -54,7 +54,7 @@ class DistanceWeights final : public CellWeights {
     set_support(std::min(support_, reach_of_walls * width_));
     return true;
   }
-  void set_cell_factors(std::vector<double> factors) override {
+  void set_cell_factors(const std::vector<double>& factors) override {
     for (int c = 0; c < mesh_.n_cells; ++c) cell_weight_[c] = mesh_.cell_volume[c] * factors[c];
     set_support(kernel_.support_radius(width_));
   }

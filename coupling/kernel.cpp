@@ -50,7 +50,7 @@ void Kernel::weigh_cells() {
   locate_in_parts(near, [&](std::size_t first, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) factor[near[first + i]] = std::pow(std::clamp(weights_->inside()[i], least_share, 1.0), -balance);
   });
-  weights_->set_cell_factors(std::move(factor));
+  weights_->set_cell_factors(factor);
   holder_cell_.clear(), holder_rank_.clear();
 }
 

@@ -19,7 +19,7 @@ class PointWeights final : public CellWeights {
 
   double reach() const override { return reach_; }
   bool start_balancing() override { return points_.size() > 1; }
-  void set_cell_factors(std::vector<double> factors) override { cell_factor_ = std::move(factors); }
+  void set_cell_factors(const std::vector<double>& factors) override { cell_factor_ = factors; }
   std::int64_t n_points_outside() const override { return n_points_outside_; }
 
   void locate(const Announcement& announced) override {

@@ -43,7 +43,7 @@ std::vector<Vec3> corners() {
   add_cyclic(1 / golden, golden);
   for (const double x : {-1.0, 1.0})
     for (const double y : {-1.0, 1.0})
-      for (const double z : {-1.0, 1.0}) all.emplace_back(x, y, z);
+      for (const double z : {-1.0, 1.0}) all.push_back({x, y, z});
   const Mat3 turn = rotation(unit({1, 2, 3}), 1);
   for (Vec3& x : all) x = turn * unit(x);
   return all;
