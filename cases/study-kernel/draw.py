@@ -17,11 +17,13 @@ for panel, (name, title, key, value) in zip(axes.flat, PANELS):
     study.columns = [c.split(" [")[0] for c in study.columns]
     key = next(c for c in study.columns if c.split(".")[-1] == key)
     colours = {k: f"C{i}" for i, k in enumerate(study[key].unique())}
-    for (kind, *mesh), runs in study.groupby([key] + [c for c in study.columns if c == "mesh"]):
-        is_fine = mesh and "fine" in mesh[0]
+    if "mesh" not in study:
+        study["mesh"] = ""
+    for (kind, mesh), runs in study.groupby([key, "mesh"], sort=False):
+        is_fine = "fine" in mesh
         label = f"{kind}" + (" mm" if key.endswith("mm") else "") + (", finer cells" if is_fine else "")
         panel.plot(runs["width"], value(runs), "o-" if not is_fine else "s--", color=colours[kind], ms=3.5, lw=1, mfc="none" if is_fine else None, label=label)
-    panel.set_title(title), panel.set_xscale("log"), panel.set_ylim(0, None), panel.grid(alpha=0.3), panel.legend(fontsize=6)
+    panel.set_title(title), panel.set_xscale("log"), panel.set_ylim(0, 1.05 * panel.get_ylim()[1]), panel.grid(alpha=0.3), panel.legend(fontsize=6)
     ticks = sorted(study["width"].unique())
     panel.set_xticks(ticks, [f"{t:g}" for t in ticks]), panel.minorticks_off(), panel.set_xlabel("kernel width [mm]")
 figure.savefig(out, metadata={"Date": None})
