@@ -1,6 +1,6 @@
 // A face conducts k = |S|/|d|, d from centre to centre: of the three usual choices for lines that are not normal to their face the one
 // between S.d/|d|^2 and |S|^2/(S.d). On distorted tetrahedra a diffusion is then 2 % too wide, with the others 6 % too narrow and 10
-// % too wide (tests/unit/coupling/kernel.cpp).
+// % too wide (tests/unit/coupling/diffusion_kernel.cpp).
 #include "coupling/cell_graph.hpp"
 
 #include <algorithm>
@@ -28,12 +28,6 @@ struct FaceRow {
   bool is_facet;
 };
 
-bool is_near(const std::array<double, 6>& box, const Vec3& x, double margin) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (x[axis] < box[axis] - margin || x[axis] > box[axis + 3] + margin) return false;
-  return true;
-}
-
 }  // namespace
 
 int CellGraph::find(std::int64_t cell_id) const {
@@ -48,14 +42,14 @@ void CellGraph::update(const Mesh& mesh, const RankBoxes& boxes, double margin) 
   const int me = rank_of(mesh.comm);
   RowsByRank<CellRow> cells;
   RowsByRank<FaceRow> faces;
-  for (const auto& box : boxes) {
+  for (const CellBox& box : boxes) {
     const std::size_t n_cells = cells.rows.size(), n_faces = faces.rows.size();
     for (int c = 0; c < mesh.n_cells; ++c)
-      if (is_near(box, mesh.cell_centre[c], margin))
+      if (box.is_near(mesh.cell_centre[c], margin))
         cells.rows.push_back({mesh.cell_id[c], mesh.cell_centre[c], mesh.cell_volume[c], me, c});
     for (int f = 0; f < mesh.n_interior; ++f) {
       const int P = mesh.owner[f], N = mesh.neighbour[f];
-      if (P >= mesh.n_cells || mesh.cell_id[P] == mesh.cell_id[N] || !is_near(box, mesh.cell_centre[P], margin)) continue;
+      if (P >= mesh.n_cells || mesh.cell_id[P] == mesh.cell_id[N] || !box.is_near(mesh.cell_centre[P], margin)) continue;
       const Vec3& d = mesh.delta[f];
       faces.rows.push_back({mesh.cell_id[P], mesh.cell_id[N], norm(mesh.face_vector[f]) / norm(d), f >= mesh.first_facet});
     }

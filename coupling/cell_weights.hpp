@@ -1,13 +1,13 @@
 #pragma once
 // How a kernel finds cells and weighs them, across ranks. The rank that moves a particle announces it to all ranks that may have cells for
 // it; each of these ranks gets the rows of its own cells.
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "base/vec3.hpp"
 #include "coupling/particle_router.hpp"
+#include "mesh/locator.hpp"
 
 namespace snag {
 
@@ -33,7 +33,7 @@ struct Announcement {
   std::span<const std::int64_t> number;     // [n_received] the same in the next step, if the particle stays with its rank
 };
 
-using RankBoxes = std::vector<std::array<double, 6>>;  // around the cells of each rank: lower, upper corner, m
+using RankBoxes = std::vector<CellBox>;  // around the cells of each rank
 
 class CellWeights {
  public:

@@ -70,10 +70,10 @@ void Kernel::locate_in_parts(const std::vector<int>& cells, const std::function<
 }
 
 void Kernel::mesh_moved() {
-  const auto [lower, upper] = locator_.bounds();
-  const std::array<double, 6> box{lower.x, lower.y, lower.z, upper.x, upper.y, upper.z};
+  const CellBox box = locator_.bounds();
+  static_assert(sizeof box == 6 * sizeof(double));
   boxes_.resize(size_of(mesh_.comm));
-  MPI_Allgather(box.data(), 6, MPI_DOUBLE, boxes_.data(), 6, MPI_DOUBLE, mesh_.comm);
+  MPI_Allgather(&box, 6, MPI_DOUBLE, boxes_.data(), 6, MPI_DOUBLE, mesh_.comm);
   weights_->mesh_moved(boxes_);
 }
 
@@ -99,19 +99,9 @@ void Kernel::locate(std::span<const Vec3> points) {
 void Kernel::plan_by_boxes(std::span<const Vec3> points) {
   std::vector<std::vector<int>> particles_for(boxes_.size());
   const std::vector<int> order = order_in_space(points, weights_->reach());
-  for (std::size_t r = 0; r < boxes_.size(); ++r) {
-    const auto& box = boxes_[r];
-    if (box[0] > box[3]) continue;  // a rank without cells
-    // A point on the box's face must not be lost by round-off.
-    const double size = std::abs(box[3] - box[0]) + std::abs(box[4] - box[1]) + std::abs(box[5] - box[2]);
-    const double margin = weights_->reach() + 1e-9 * size;
-    for (const int b : order) {
-      const Vec3& x = points[b];
-      const bool inside = x.x >= box[0] - margin && x.x <= box[3] + margin && x.y >= box[1] - margin && x.y <= box[4] + margin &&
-                          x.z >= box[2] - margin && x.z <= box[5] + margin;
-      if (inside) particles_for[r].push_back(b);
-    }
-  }
+  for (std::size_t r = 0; r < boxes_.size(); ++r)
+    for (const int b : order)
+      if (boxes_[r].is_near(points[b], weights_->reach())) particles_for[r].push_back(b);
   around_.plan(particles_for);
 }
 

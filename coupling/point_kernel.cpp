@@ -38,17 +38,23 @@ class PointWeights final : public CellWeights {
     if (hints_.size() > 2 * announced.places.size()) hints_.clear();  // particles that have left
     std::vector<double> answers(2 * found_.size());
     for (std::size_t i = 0; i < announced.places.size(); ++i) {
-      const int holder = announced.holder[i];
-      std::vector<int>& hints = hints_[announced.number[i]];
-      hints.resize(n, holder);
-      for (std::size_t k = 0; k < n; ++k) {
-        const int cell = found_[i * n + k] = k == 0 ? holder : locator_.find(announced.places[i] + points_[k], hints[k]);
-        if (cell >= 0) hints[k] = cell;
-        answers[2 * (i * n + k)] = cell >= 0 ? static_cast<double>(mesh_.cell_id[cell]) : -1;
-        answers[2 * (i * n + k) + 1] = cell >= 0 ? cell_factor_[cell] : 0;
-      }
+      found_[i * n] = announced.holder[i];  // the first point is the particle's centre
+      if (n > 1) find_further_points(announced.places[i], hints_[announced.number[i]], &found_[i * n]);
+    }
+    for (std::size_t place = 0; place < found_.size(); ++place) {
+      const int cell = found_[place];
+      answers[2 * place] = cell >= 0 ? static_cast<double>(mesh_.cell_id[cell]) : -1;
+      answers[2 * place + 1] = cell >= 0 ? cell_factor_[cell] : 0;
     }
     return answers;
+  }
+
+  void find_further_points(const Vec3& centre, std::vector<int>& hints, int* found) {
+    hints.resize(points_.size(), found[0]);
+    for (std::size_t k = 1; k < points_.size(); ++k) {
+      found[k] = locator_.find(centre + points_[k], hints[k]);
+      if (found[k] >= 0) hints[k] = found[k];
+    }
   }
 
   /// Share of each entry and point in the weight of its particle, 1.

@@ -10,8 +10,18 @@
 
 namespace snag {
 
+/// Around cells, m; lower is above upper where there is none.
 struct CellBox {
-  Vec3 lower, upper;  // m
+  Vec3 lower, upper;
+  /// Whether a point lies within `margin` of the box, m. One on a face of the box does, whatever its round-off.
+  bool is_near(const Vec3& x, double margin) const {
+    const Vec3 size = upper - lower;
+    if (size.x < 0) return false;
+    const double reach = margin + 1e-9 * (size.x + size.y + size.z);
+    for (int i = 0; i < 3; ++i)
+      if (x[i] < lower[i] - reach || x[i] > upper[i] + reach) return false;
+    return true;
+  }
 };
 
 class CellLocator {
