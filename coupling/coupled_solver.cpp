@@ -98,6 +98,11 @@ void CoupledSolver::spread(double dt) {
   report_.max_solid_fraction = exchange_->spread_volumes(volume);
   warn_of_packing();
   if (!coupling_.settings.two_way()) return;
+  if (load_->gives_screen()) {
+    std::vector<double> screens(particles.size());
+    for (std::size_t b = 0; b < particles.size(); ++b) screens[b] = load_->screen(particles.tile(b), particles.place(b));
+    exchange_->spread_screens(screens);
+  }
   const ExchangeBalance balance = exchange_->spread_reaction(impulses_, dt);
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;

@@ -20,6 +20,13 @@ double Exchange::spread_volumes(std::span<const double> volumes) {
   return maximum(flow_.mesh.comm, largest);
 }
 
+void Exchange::spread_screens(std::span<const double> screens) {
+  const Mesh& mesh = flow_.mesh;
+  flow_.screen.assign(static_cast<std::size_t>(mesh.n_all_cells()), 0.0);
+  kernel_.spread(screens, 1, std::span(flow_.screen).first(static_cast<std::size_t>(mesh.n_cells)));
+  mesh.halo.exchange(flow_.screen);
+}
+
 ExchangeBalance Exchange::spread_reaction(std::span<const Vec3> impulse, double dt) {
   const Mesh& mesh = flow_.mesh;
   std::vector<double> amounts(3 * impulse.size()), exchanged(impulse.size());

@@ -21,6 +21,8 @@ class Exchange {
   /// Sets the solid fraction of the flow from the volumes of the particles (m3); not clipped: returns the maximum over all cells.
   /// Collective.
   double spread_volumes(std::span<const double> volumes);
+  /// Sets the screens of the flow from those of the particles (FluidLoad::screen, m2). Collective.
+  void spread_screens(std::span<const double> screens);
   /// Sets the reaction of the flow from the impulses J (N s) of this rank's particles over the step dt, and returns what was exchanged, for
   /// check_momentum. Collective.
   ExchangeBalance spread_reaction(std::span<const Vec3> impulse, double dt);

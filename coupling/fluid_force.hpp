@@ -57,6 +57,8 @@ struct Forces {
   VectorSum fluid_velocity = {};   // m/s, what all others see: for Role::fluid only
   double* slip_growth = nullptr;   // d(slip that all others see)/d(slip of the samples), 1 where nobody sets it: for Role::fluid only
   double* relief = nullptr;        // slip that the force loses per impulse of this sub-step beside the answer of the water, 1/kg
+  double* screen =
+      nullptr;  // of cloth that eddies do not cross (solver/turbulence/two_equation_model.hpp): its area A ((1 + K)^(1/2) - 1), m2
 };
 
 /// What a model changes; models act in this order, those of one role in the order of their names.
@@ -74,7 +76,8 @@ struct ForceDescription {
   bool reacts_on_fluid = true;  // the water feels the opposite force
   SampleSet samples = {};
   bool gives_torque = false, gives_added_mass = false;  // what is not declared is not read
-  bool needs_impulse = false, needs_drag = false;       // of the sub-step before
+  bool gives_screen = false;
+  bool needs_impulse = false, needs_drag = false;  // of the sub-step before
   Role role = Role::force;
   int n_particle_state = 0;         // numbers stored for each particle
   std::optional<Prior> prior = {};  // of a candidate of the diagnosis

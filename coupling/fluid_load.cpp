@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <tuple>
 
+#include "dem/particles/tile_particles.hpp"
+
 namespace snag {
 
 namespace {
-enum Sum { impulse_x, impulse_y, impulse_z, slope_integral, n_sums };
+enum Sum { impulse_x, impulse_y, impulse_z, slope_integral, screen_integral, n_sums };
 enum Array {
   two_way_force = 0,
   slope_sum = 3,
@@ -25,7 +27,8 @@ enum Array {
   relief_sum = 28,
   step_impulse = 29,
   slip_growth = 32,
-  n_arrays = 33
+  screen_now = 33,
+  n_arrays = 34
 };
 
 /// Mean of the relaxation over a sub-step.
@@ -44,6 +47,7 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
     changes_fluid_ = changes_fluid_ || description.role == Role::fluid;
     all_react_ = all_react_ && description.reacts_on_fluid;
     torque_ = torque_ || description.gives_torque, added_mass_ = added_mass_ || description.gives_added_mass;
+    screen_ = screen_ || description.gives_screen;
     needs_impulse_ = needs_impulse_ || description.needs_impulse, needs_drag_ = needs_drag_ || description.needs_drag;
   }
   impulse_begin_ = n_particle_state_;
@@ -103,6 +107,11 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
     }
   }
   if (torque_) add_torque(tile, step);
+  if (screen_) {
+    const double* screen = array(screen_now);
+    double* sum = sums_.field(index, screen_integral);
+    for_particles(tile, [&](int k, int, int) { sum[k] += step * screen[k]; });
+  }
 }
 
 /// All forces on the particles of a tile.
@@ -118,10 +127,12 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   if (!all_react_) clear(one_way_force, 3);
   if (added_mass_) clear(added_mass_sum, 1);
   if (needs_impulse_) clear(relief_sum, 1);
+  if (screen_) clear(screen_now, 1);
   if (torque_) clear(torque_sum, 4);  // with the slope
   const auto vector = [&](int f) { return VectorSum{array(f), array(f + 1), array(f + 2)}; };
   Forces reacting{vector(two_way_force), vector(torque_sum), array(slope_sum), array(added_mass_sum), array(torque_slope_sum)};
   reacting.relief = array(relief_sum);
+  if (screen_) reacting.screen = array(screen_now);
   if (needs_impulse_) particles.last_impulse = {last_impulse(tile, 0), last_impulse(tile, 1), last_impulse(tile, 2)};
   if (needs_drag_) particles.last_drag = state(tile, drag_begin_);
   Forces silent = reacting;
@@ -229,6 +240,8 @@ Vec3 FluidLoad::impulse(std::size_t index, int k) const {
 }
 
 double FluidLoad::slope(std::size_t index, int k) const { return sums_.field(index, slope_integral)[k]; }
+
+double FluidLoad::screen(std::size_t index, int k) const { return sums_.field(index, screen_integral)[k] / elapsed_[index]; }
 
 std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
   const ParticleList particles(tiles);

@@ -45,6 +45,9 @@ class FluidLoad final : public TileForce {
   Vec3 impulse(std::size_t index, int k) const;
   /// Integral of the slope K of that particle over the step, kg.
   double slope(std::size_t index, int k) const;
+  /// Whether a force gives screens; and that of a particle, mean over the step, m2.
+  bool gives_screen() const { return screen_; }
+  double screen(std::size_t index, int k) const;
   /// J of all particles of this rank, N s.
   std::vector<Vec3> impulses(std::span<const Tile> tiles) const;
   /// Largest dt K/m of this rank's particles: above 1 a particle follows the water within one step of the flow.
@@ -70,7 +73,7 @@ class FluidLoad final : public TileForce {
   FluidField& field_;
   const std::vector<Rag>& rags_;
   SampleSet needed_;
-  bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false;  // what the forces give
+  bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false, screen_ = false;  // what the forces give
   bool needs_impulse_ = false, needs_drag_ = false;
   int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0;
   std::optional<NearestWall> nearest_wall_;

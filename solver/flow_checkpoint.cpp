@@ -120,6 +120,8 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_cells(checkpoint, "flow/pressure_gradient", mesh, first(flow.pressure_gradient), 3);
   write_cells(checkpoint, "flow/reaction", mesh, first(flow.reaction), 3);
   write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
+  if (sum(mesh.comm, static_cast<std::int64_t>(flow.screen.size())) > 0)
+    write_cells(checkpoint, "flow/screen", mesh, flow.screen.data(), 1);
   for (const StoredField& field : turbulence_->stored()) write_cells(checkpoint, "flow/" + field.name, mesh, field.values->data(), 1);
   write_faces(checkpoint, "flow/flux", rows, mesh, flow.flux, true);
   write_faces(checkpoint, "flow/flux_old", rows, mesh, flow.flux_old, true);
@@ -144,6 +146,10 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
   std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
   flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
+  if (checkpoint.has("flow/screen")) {
+    flow.screen.resize(static_cast<std::size_t>(mesh.n_all_cells()));
+    read_cells(checkpoint, "flow/screen", mesh, flow.screen, 1);
+  }
   watch_.load(checkpoint);
   if (started_) turbulence_->restore(flow, boundary_);
 }

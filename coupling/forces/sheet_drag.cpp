@@ -87,6 +87,7 @@ struct SheetDrag final : FluidForce {
             .source = "Taylor and Batchelor (1949); Hoerner (1965)",
             .valid_for = "sheets resolved by particles",
             .samples = {.disturbance = is_two_way, .coverage = is_two_way},
+            .gives_screen = is_two_way,
             .needs_impulse = is_two_way,
             .role = Role::drag_replacement,
             .n_particle_state = is_two_way ? 1 : 0,
@@ -139,7 +140,8 @@ struct SheetDrag final : FluidForce {
     const double *covered = is_two_way ? fluid.coverage : nullptr, *width = is_two_way ? fluid.disturbance_width : nullptr;
     const double *from_edge = fluid.edge_distance, h = particles.step;
     const VectorArray J = particles.last_impulse;
-    double *jump = particles.state, *relief = forces.relief;
+    double *jump = particles.state, *relief = forces.relief, *screen = forces.screen;
+    const double hindrance = area * (std::sqrt(1 + K) - 1);
     for (int j = 0; j < tile.ny; ++j) {
       const int first = tile.index(0, j);
       const double row = tile.row + j + 0.5;
@@ -187,6 +189,7 @@ struct SheetDrag final : FluidForce {
         force.y[p] = rest * force.y[p] + here * (along_normal.y + K_t * w_t.y);
         force.z[p] = rest * force.z[p] + here * (along_normal.z + K_t * w_t.z);
         slope[p] = rest * slope[p] + here * std::max(K_n, K_t);
+        if (screen) screen[p] = here * hindrance;
       }
     }
   }

@@ -59,6 +59,7 @@ struct Flow {
   // from the rags, [n_cells]
   std::vector<Vec3> reaction;          // f
   std::vector<double> solid_fraction;  // 1
+  std::vector<double> screen;          // s, of cloth that eddies do not cross, 1/m, [n_all_cells]; empty without
   Vec3 body_force;                     // N/m3, uniform (periodic channels)
 };
 

@@ -132,8 +132,10 @@ void TwoEquationModel::begin_correction(Flow& flow, const BoundarySet& boundary,
   k_.equation->begin(flow, time), phi_.equation->begin(flow, time);
   set_entering(flow, boundary);
   guess(flow, time, outer);
-  for (int c = 0; c < flow.mesh.n_cells; ++c) strain_[c] = twice_strain_squared(flow.velocity_gradient[c]);
   set_eddy_viscosity(flow, k_.guess, phi_.guess);
+  set_hindrance(flow, k_.guess);
+  for (int c = 0; c < flow.mesh.n_cells; ++c)
+    strain_[c] = twice_strain_squared(flow.velocity_gradient[c]) / (hindrance_.empty() ? 1 : 1 + hindrance_[c]);
 }
 
 TurbulenceReport TwoEquationModel::end_correction(Flow& flow, const SweepReport& k, const SweepReport& phi) {
@@ -191,7 +193,7 @@ void TwoEquationModel::set_diffusivity(const Flow& flow, const std::vector<doubl
   diffusivity_.resize(static_cast<std::size_t>(mesh.n_faces));  // the number of facets changes as a mesh turns
   for (int f = 0; f < mesh.n_interior; ++f) {
     const double w = mesh.weight[f];
-    diffusivity_[f] = nu + w * of_cells[mesh.owner[f]] + (1 - w) * of_cells[mesh.neighbour[f]];
+    diffusivity_[f] = nu + passing(mesh, f) * (w * of_cells[mesh.owner[f]] + (1 - w) * of_cells[mesh.neighbour[f]]);
   }
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f) diffusivity_[f] = nu + share * boundary_eddy_viscosity(flow, f);
 }
@@ -211,9 +213,20 @@ void TwoEquationModel::set_viscosity(Flow& flow) {
   fill_other_fields(flow);
   set_eddy_viscosity(flow, *k_.now, *phi_.now);
   set_interior_viscosity(flow);
+  set_hindrance(flow, *k_.now);
+  if (!hindrance_.empty())
+    for (int f = 0; f < mesh.n_interior; ++f)
+      flow.face_viscosity[f] = flow.dynamic_viscosity + passing(mesh, f) * (flow.face_viscosity[f] - flow.dynamic_viscosity);
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f)
     flow.face_viscosity[f] = flow.dynamic_viscosity + flow.density * boundary_eddy_viscosity(flow, f);
   set_wall_viscosity(flow);
+}
+
+/// L s of the cells, with nu_t as it is for this k.
+void TwoEquationModel::set_hindrance(const Flow& flow, const std::vector<double>& k) {
+  hindrance_.resize(flow.screen.size());
+  for (std::size_t c = 0; c < hindrance_.size(); ++c)
+    hindrance_[c] = flow.screen[c] * flow.eddy_viscosity[c] / (std::pow(C_mu_, 0.25) * std::sqrt(k[c]));
 }
 
 /// Raises what is too small to compute with; returns in how many cells of all ranks. Positive by construction, k and phi get there only by

@@ -158,3 +158,17 @@ TEST(HomogeneousTurbulence, realizable_normal_stress) {
       EXPECT_LE(2 * water.flow.eddy_viscosity[0] * gradient[0].x, 2. / 3 * k_start);
     }
 }
+
+// Cloth that eddies do not cross: nu_t and production of k fall by 1 + L s, L = nu_t/(C_mu^(1/4) k^(1/2)).
+TEST(HomogeneousTurbulence, cloth_hinders_exchange) {
+  constexpr double S = 7, s = 20, dt = 1e-6;
+  for (const char* model : {"k_epsilon", "realizable_k_epsilon"}) {
+    Homogeneous water(model, shear(S));
+    const double nu_t = water.flow.eddy_viscosity[0], L = nu_t / (std::pow(0.09, 0.25) * std::sqrt(k_start));
+    EXPECT_GT(L * s, 0.5);
+    water.flow.screen.assign(water.flow.eddy_viscosity.size(), s);
+    water.advance(dt);
+    EXPECT_NEAR((water.k() - k_start) / dt, nu_t * S * S / (1 + L * s) - epsilon_start, 1e-4) << model;
+    EXPECT_NEAR(water.flow.face_viscosity[0], water.flow.density * nu_t / (1 + L * s), 1e-5 * water.flow.density * nu_t) << model;
+  }
+}
