@@ -13,6 +13,7 @@ import numpy
 sys.path.insert(0, str(harness.SOURCE_DIR / "tests" / "other_programs"))
 import card  # noqa: E402
 import fibre  # noqa: E402
+import rag  # noqa: E402
 import sets  # noqa: E402
 import sphere  # noqa: E402
 
@@ -49,6 +50,14 @@ class ExactLimits(harness.CaseTest):
         quarter = numpy.interp(-numpy.pi / 2, seen[2, ::-1], times[::-1])
         self.assertAlmostEqual(quarter / (numpy.pi / 2 / S * (r + 1 / r)), 1, delta=0.01)
 
+    def test_rag_held_at_one_end_hangs_through_as_a_beam(self):
+        """Two rows are held, the beam begins half a cell behind the first of them: q s^2 (6 L^2 - 4 L s + s^2)/(24 D)."""
+        times, seen = alone(rag, 1.2, law=sphere.STOKES, viscosity=6e-6, velocity=0, amplitude=0, omega=0, shear=0, angle=0, along=0, held_rows=2)
+        a, q = rag.SIDE / rag.N, (rag.MASS_PER_AREA - rag.RHO * rag.THICKNESS) * rag.G
+        L, s = (rag.N - 1) * a, (numpy.arange(2, rag.N) - 0.5) * a
+        through = (q * s**2 * (6 * L**2 - 4 * L * s + s**2) / (24 * rag.STIFFNESS_ALONG)).sum() / rag.N
+        self.assertAlmostEqual(-seen[1, -1] / through, 1, delta=0.03)
+
 
 class SameBaseCase(harness.CaseTest):
     """With Snag's own law of drag and no effect on, each program gives what Snag gives, far within the noise of the sets: a null is none."""
@@ -70,6 +79,9 @@ class SameBaseCase(harness.CaseTest):
 
     def test_fibre(self):
         self.compare(fibre)
+
+    def test_rag(self):
+        self.compare(rag)
 
 
 class OtherProgram(harness.CaseTest):

@@ -22,8 +22,7 @@ strength (each 100 times its signal), all by differences of this program's own r
     d^2 = S^T C^-1 S - b^T (I + J^T C^-1 J)^-1 b,   b = J^T C^-1 S
 
 C: variances of the means of the repeats, with the true noise. `detectability` is that of the least clear of what acts. `clear_of_library`:
-the same with all effects of the library free (one after the other can do more, all together can do all): what is small there no diagnosis can
-tell from the library.
+the same with all effects of the library free: what is small there no diagnosis can tell from the library.
 
 The truth goes to sealed/NAME.json; NAME does not tell it, and its SHA-256 is in sealed.log before the set is diagnosed.
 """
@@ -99,8 +98,7 @@ class Clarity:
         self.variance = self.variance.ravel()
         self.inputs = [key for key in program.INPUTS] + ["drag_law_uncertainty.slope"]
         self.u = {**program.INPUTS, "drag_law_uncertainty.slope": program.INPUTS["drag_law_uncertainty"] / numpy.log(10)}
-        self.library = [name for name in program.EXPECTED if name not in theta]
-        all = {**theta, **other}
+        self.everything = all = {**theta, **other}
         variants = [(all, deviations)]
         for name in theta:
             variants.append(({**other, **{k: v for k, v in theta.items() if k != name}}, deviations))
@@ -109,9 +107,6 @@ class Clarity:
             for side in (0.5, -0.5):
                 moved = {**deviations, key: deviations.get(key, numpy.zeros(n)) + side * self.u[key]}
                 variants.append((all, moved))
-        for name in self.library:
-            everywhere = {k: v for k, v in all.items() if not k.startswith("gate")}
-            variants.append(({**everywhere, name: 0.2 * program.EXPECTED[name]}, deviations))
         values = runs(variants, runs.training)
         self.values = values[0]
         difference = runs.difference
@@ -122,7 +117,6 @@ class Clarity:
         for key in self.inputs:
             columns[key] = difference(values[at], values[at + 1]).reshape(shape)
             at += 2
-        self.library_signal = {name: difference(values[at + i], values[0]) for i, name in enumerate(self.library)}
         self.columns = {}  # by input
         for key, column in columns.items():
             own = [numpy.where(numpy.arange(shape[0])[:, None, None] == i, column, 0.0).ravel() for i in range(shape[0])]
@@ -144,9 +138,12 @@ class Clarity:
 
     def of_effects(self):
         """Each effect that acts, given the others."""
+        return self.of_each(self.signal)
+
+    def of_each(self, signals):
         clear = {}
-        for name, signal in self.signal.items():
-            others = [ANY_STRENGTH * s for other, s in self.signal.items() if other != name]
+        for name, signal in signals.items():
+            others = [ANY_STRENGTH * s for other, s in signals.items() if other != name]
             clear[name] = signal_over_noise(signal, self.variance, self.free() + others)
         return clear
 
@@ -159,9 +156,15 @@ class Clarity:
         values = self.runs([({**self.theta, **self.other}, base)], self.runs.training)[0]
         return self.of(self.runs.difference(self.values, values))
 
+    def library(self):
+        """What a little of each other effect would add, {effect: signal at its expected strength}."""
+        little, names = 0.2, [name for name in self.runs.program.EXPECTED if name not in self.theta]
+        variants = [({**self.everything, name: little * self.runs.program.EXPECTED[name]}, self.deviations) for name in names]
+        values = self.runs(variants, self.runs.training)
+        return {name: self.runs.difference(with_it, self.values) / little for name, with_it in zip(names, values)}
+
     def of_library(self, signal):
-        library = [ANY_STRENGTH * s for s in self.library_signal.values()]
-        return signal_over_noise(signal, self.variance, self.free() + library)
+        return signal_over_noise(signal, self.variance, self.free() + [ANY_STRENGTH * s for s in self.library().values()])
 
 
 def drawn_deviations(program, random, n):
@@ -240,7 +243,7 @@ class Draw:
     def __init__(self, program, kind, random):
         self.program, self.kind, self.random = program, kind, random
         self.points = program.points(random)
-        n = len(self.points)
+        self.runs, n = Runs(program, self.points), len(self.points)
         self.deviations = drawn_deviations(program, random, n)
         self.replicates = int(random.choice([3, 5, 10] if kind in ("null_noise", "null_correlated") else [1, 3, 3, 5, 5, 10]))
         self.theta, self.other, self.mistake = {}, {}, {}
@@ -270,7 +273,15 @@ class Draw:
         self.act(effects_that_fit(self.program, self.random, 2), [1 / 2, 1])
 
     def draw_several(self):
-        self.act(effects_that_fit(self.program, self.random, int(self.random.integers(3, 6))), [1 / 2, 1, 1])
+        """Of a hundred combinations the first that a linear estimate about the base case takes for clear; else nothing, and the next draw."""
+        library = Clarity(self.runs, {}, {}, self.deviations, self.replicates)
+        signals = library.library()
+        for _ in range(100):
+            self.act(effects_that_fit(self.program, self.random, int(self.random.integers(3, 6))), [1 / 2, 1, 1])
+            share = {name: theta / self.program.EXPECTED[name] for name, theta in self.theta.items()}
+            if min(library.of_each({name: share[name] * signals[name] for name in self.theta}).values()) >= 5.5:
+                return
+        self.theta = {}
 
     def draw_outside(self):
         self.subset = list(self.program.OUTSIDE)[self.random.integers(len(self.program.OUTSIDE))]
@@ -300,10 +311,13 @@ class Draw:
             self.act(effects_that_fit(self.program, self.random, 1), [1])
         self.outlier_share = self.random.uniform(0.01, 0.02)
 
-    def measure(self, runs):
-        """Clarity of what acts; the truth of the set without its name."""
+    def measure(self):
+        """Clarity of what acts."""
+        runs, self.clear, self.clear_of_library, self.gap_over_floor, self.detectability = self.runs, {}, None, 0.0, 0.0
+        if self.right == ["none"] or (self.kind == "several" and not self.theta):
+            return
         self.clarity = Clarity(runs, self.theta, self.other, self.deviations, self.replicates, self.noise_factor)
-        self.clear, self.clear_of_library = self.clarity.of_effects(), None
+        self.clear = self.clarity.of_effects()
         gap = numpy.zeros(len(self.clarity.variance))
         if self.kind == "outside":
             self.clear = {"outside": self.clarity.of(self.clarity.other_signal)}
@@ -344,9 +358,9 @@ class Draw:
             "deviations": {key: [float(v) for v in value] for key, value in self.deviations.items()},
         }
 
-    def write(self, folder, runs):
+    def write(self, folder):
         """DIAGNOSIS.toml, data.csv and the base cases."""
-        program, random = self.program, self.random
+        program, random, runs = self.program, self.random, self.runs
         folder.mkdir(parents=True, exist_ok=True)
         scale = [observable["factor"] for observable in program.OBSERVABLES]
         units = [observable["unit"] for observable in program.OBSERVABLES]
@@ -398,13 +412,12 @@ def make_set(program, kind, number, seed, folder):
     name = "set_" + hashlib.sha256(("name of " + key).encode()).hexdigest()[:12]
     for _ in range(1000):
         draw = Draw(program, kind, random)
-        runs = Runs(program, draw.points)
-        draw.measure(runs)
+        draw.measure()
         if draw.clear_enough():
             break
     else:
         raise RuntimeError(f"{key}: no such set in 1000 draws")
-    draw.write(folder / "sets" / name, runs)
+    draw.write(folder / "sets" / name)
     text = json.dumps(draw.truth(number, seed), indent=1) + "\n"
     (folder / "sealed").mkdir(exist_ok=True)
     (folder / "sealed" / f"{name}.json").write_text(text)
