@@ -1,9 +1,10 @@
 # timeout: 900
-# cost: 60
+# cost: 40
 """Requirement: the programs of tests/other_programs are right themselves, and sets of theirs are diagnosed as what was put into them.
 
 The programs share nothing with Snag but the format of the data; diagnose_other_program_long.py makes their whole card.
 """
+import hashlib
 import json
 import sys
 
@@ -69,10 +70,12 @@ class SameBaseCase(harness.CaseTest):
             case = self.work / f"{program.NAME}{i}.toml"
             case.write_text(program.case_text(point))
             rags = self.run_case(case, 1, "--set", "output.report=false", out=f"{program.NAME}{i}").monitor("rags")
+            at = lambda name: numpy.interp(program.TIMES, rags.column("time"), rags.column(name))  # noqa: E731
             for o, observable in enumerate(program.OBSERVABLES):
-                if observable["kind"] == "gaussian":
-                    snag = numpy.interp(program.TIMES, rags.column("time"), rags.column(observable["id"]))
-                    self.assertLess(abs(own[i, o] - snag).max(), 0.5 * observable["noise"], (program.NAME, i, observable["id"]))
+                seen, snag = own[i, o], at(observable["id"]) if observable["kind"] != "angle" else None
+                if snag is None:  # of what is straight, from its extent
+                    seen, snag = abs(numpy.arcsin(numpy.sin(own[i, o]))), numpy.arctan2(at("z_max") - at("z_min"), at("x_max") - at("x_min"))
+                self.assertLess(abs(seen - snag).max(), 0.5 * observable["noise"], (program.NAME, i, observable["id"]))
 
     def test_sphere(self):
         self.compare(sphere)
@@ -82,6 +85,91 @@ class SameBaseCase(harness.CaseTest):
 
     def test_rag(self):
         self.compare(rag)
+
+
+class Scoring(harness.CaseTest):
+    """The card reads verdicts and counts as it says."""
+
+    def test_interval_of_a_share(self):
+        """Clopper and Pearson: of none of n the upper bound is 1 - 0.025^(1/n); what is hit and what is missed are mirrored."""
+        low, high = card.clopper_pearson(0, 40)
+        self.assertEqual(low, 0)
+        self.assertAlmostEqual(high, 1 - 0.025 ** (1 / 40), places=9)
+        for hits in (3, 17, 40):
+            of_hits, of_misses = card.clopper_pearson(hits, 40), card.clopper_pearson(40 - hits, 40)
+            numpy.testing.assert_allclose(of_hits, (1 - of_misses[1], 1 - of_misses[0]), atol=1e-9)
+
+    def test_signal_over_noise(self):
+        """A free direction of any strength takes its part of the signal; an uncertain one takes it as far as its uncertainty allows."""
+        signal, variance = numpy.array([3.0, 4.0]), numpy.ones(2)
+        first = numpy.array([1.0, 0.0])
+        self.assertAlmostEqual(sets.signal_over_noise(signal, variance, [1e6 * first]), 4, places=6)
+        self.assertAlmostEqual(sets.signal_over_noise(signal, variance, [3 * first]), numpy.sqrt(9 / (1 + 9) + 16), places=9)
+
+    def verdict(self, kind, effects=(), tie=(), probability={"none": 1.0}, wording="attributed"):
+        return {"verdict": kind, "effects": list(effects), "tie": list(tie), "probability": probability, "wording": wording, "runs": 1}
+
+    def score(self, right, verdict, kind="single"):
+        truth = {"program": "rag", "number": 0, "seed": 1, "kind": kind, "truth": right[0], "subset": "", "strength": 1, "replicates": 3, "detectability": 9,
+                 "clear_of_library": None, "gap_over_floor": 1, "right": right, "same_cause": rag.SAME_CAUSE}
+        return card.scored(truth, verdict, 1.0, "")
+
+    def test_two_names_of_one_cause_are_one(self):
+        both = {"added_mass": 0.3, "entrained_water": 0.6, "none": 0.1}
+        for verdict in (self.verdict("effects", ["entrained_water"], probability=both), self.verdict("tie", tie=["added_mass", "entrained_water"], probability=both)):
+            row = self.score(["added_mass"], verdict)
+            self.assertEqual((row["said"], row["right"], row["first_right"]), ("added_mass", 1, 1))
+            self.assertAlmostEqual(row["p_truth"], 0.9)
+        for verdict in (self.verdict("tie", tie=["added_mass", "lift"]), self.verdict("effects", ["lift"])):
+            self.assertEqual(self.score(["added_mass"], verdict)["right"], 0)
+
+    def test_blame(self):
+        self.assertEqual(self.score(["clock"], self.verdict("effects", ["clock"]), "blunder")["blames_physics"], 0)
+        self.assertEqual(self.score(["clock"], self.verdict("effects", ["frame_rate"]), "blunder")["blames_physics"], 0)
+        self.assertEqual(self.score(["clock"], self.verdict("effects", ["clock", "lift"]), "blunder")["blames_physics"], 1)
+
+    def test_local_cause_called_outside_is_not_right_but_names_nothing_wrong(self):
+        row = self.score(["lift"], self.verdict("outside"), "local")
+        self.assertEqual((row["right"], row["outside_ok"]), (0, 1))
+
+    def test_calibration_error(self):
+        rows = [{"p_first": 0.8, "first_right": k < 6} for k in range(10)] + [{"p_first": 0.95, "first_right": 1}] * 10
+        self.assertAlmostEqual(card.calibration_error(rows), (0.2 * 10 + 0.05 * 10) / 20)
+
+
+class WrittenData(harness.CaseTest):
+    """A set holds what its sealed truth says of it."""
+
+    def made(self, kind):
+        """Truth, and the samples in stated standard uncertainties: [point, repeat, observable, time]."""
+        name, fingerprint = sets.make_set(sphere, kind, 0, 1, self.work)
+        self.assertIn(f"{name} sha256 {fingerprint}", (self.work / "sealed.log").read_text())
+        text = (self.work / "sealed" / f"{name}.json").read_text()
+        self.assertEqual(hashlib.sha256(text.encode()).hexdigest(), fingerprint)
+        truth, folder = json.loads(text), self.work / "sets" / name
+        self.assertNotIn(kind, "".join(file.read_text() for file in folder.iterdir()))
+        rows = [line.split(",") for line in (folder / "data.csv").read_text().splitlines()[1:]]
+        shape = (len(sphere.groups()), truth["replicates"], len(sphere.OBSERVABLES), len(sphere.TIMES))
+        return truth, numpy.array([float(row[4]) for row in rows]).reshape(shape) / (1e3 * sphere.NOISE)
+
+    def noise(self, kind):
+        truth, values = self.made(kind)
+        return truth, (values - values.mean(1, keepdims=True)) * numpy.sqrt(truth["replicates"] / (truth["replicates"] - 1))
+
+    def test_noise_is_larger_than_stated(self):
+        truth, noise = self.noise("null_noise")
+        self.assertGreaterEqual(truth["noise_factor"], 2)
+        self.assertAlmostEqual(noise.std() / truth["noise_factor"], 1, delta=0.05)
+
+    def test_noise_is_correlated(self):
+        truth, noise = self.noise("null_correlated")
+        self.assertAlmostEqual((noise[..., 1:] * noise[..., :-1]).mean(), truth["correlation"], delta=0.1)
+
+    def test_outliers_are_as_many_as_said(self):
+        truth, values = self.made("outliers")
+        self.assertGreaterEqual(truth["replicates"], 3)
+        out = abs(values - numpy.median(values, axis=1, keepdims=True)) > 12
+        self.assertAlmostEqual(out.mean(), truth["outlier_share"], delta=0.008)
 
 
 class OtherProgram(harness.CaseTest):

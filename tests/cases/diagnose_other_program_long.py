@@ -37,6 +37,9 @@ class Card(harness.CaseTest):
     def test_fibres(self):
         self.compare("fibre", 20)
 
+    def test_rags(self):
+        self.compare("rag", 10)
+
 
 if __name__ == "__main__":
     harness.main()

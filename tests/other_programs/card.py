@@ -3,8 +3,8 @@
     SNAG_BINARY_DIR=build/default /usr/bin/python3 tests/other_programs/card.py --out DIR --program sphere --sets 40 --seed 1
 
 makes the sets (sets.py says what is true of each class and what is right to say of it), diagnoses each without its truth, opens the truth,
-writes a row to DIR/PROGRAM/rows.csv and prints the card. What is in rows.csv is not done again; `--rows FILE ...` prints the card of rows that
-are there, `--markdown` as the tables of docs/diagnosis-scores.md. Seeds below 1000 are those of development.
+writes a row to DIR/PROGRAM/rows.csv and prints the card. What is in rows.csv is not done again; `--rows FILE ...` prints the cards of rows that
+are there beside each other, as the table of docs/diagnosis-scores.md. Seeds below 1000 are those of development.
 
 Two names are one where nothing can tell them apart: in water of one density `entrained_water` acts just as `added_mass` does, so that either
 of them, or the tie of both, is the other.
@@ -189,35 +189,52 @@ def scores(program, rows):
 
 
 def measures(rows):
-    """Name, value, number of sets, largest value aimed at."""
+    """Name, value, number of sets, target as in `scores`."""
     told = [row for row in rows if row["kind"] in NULLS or row["detectability"] >= 3 or (row["kind"] == "outliers" and row["truth"] == "none")]
     brier = lambda some: sum(row["brier"] for row in some) / max(1, len(some))  # noqa: E731
     return [("calibration error, all sets", calibration_error(rows), len(rows), None),
-            ("calibration error, sets that can be told", calibration_error(told), len(told), 0.06),
+            ("calibration error, sets that can be told", calibration_error(told), len(told), -0.06),
             ("Brier score, all sets", brier(rows), len(rows), None),
             ("Brier score, sets that can be told", brier(told), len(told), None)]
 
 
-def card(program, rows, markdown=False):
-    lines = ["| score | found | 95 % interval | target | |", "|---|---|---|---|---|"] if markdown else []
+def judged(target, value):
+    """The target in words, and whether it is met; a negative one is a largest share."""
+    if target is None:
+        return "", ""
+    at_most = math.copysign(1, target) < 0
+    return f"{'<=' if at_most else '>='} {abs(target):g}", "met" if (value <= -target if at_most else value >= target) else "missed"
+
+
+def card(program, rows):
+    """Lines for the terminal."""
+    lines = []
     for name, hits, n, target in scores(program, rows):
-        if n == 0:
-            continue
-        low, high = clopper_pearson(hits, n)
-        at_most = target is not None and math.copysign(1, target) < 0
-        wanted = "" if target is None else f"{'<=' if at_most else '>='} {abs(target):g}"
-        met = "" if target is None else "met" if (hits / n <= -target if at_most else hits / n >= target) else "missed"
-        if markdown:
-            lines.append(f"| {name} | {hits} of {n} = {hits / n:.3f} | {low:.3f} to {high:.3f} | {wanted} | {'**missed**' if met == 'missed' else met} |")
-        else:
+        if n > 0:
+            (low, high), (wanted, met) = clopper_pearson(hits, n), judged(target, hits / n)
             lines.append(f"  {met:7s} {name}: {hits} of {n} = {hits / n:.3f} ({low:.3f} to {high:.3f}) {wanted}")
     for name, value, n, target in measures(rows):
-        wanted = "" if target is None else f"<= {target:g}"
-        met = "" if target is None else "met" if value <= target else "missed"
-        if markdown:
-            lines.append(f"| {name} | {value:.3f} ({n} sets) | | {wanted} | {'**missed**' if met == 'missed' else met} |")
-        else:
-            lines.append(f"  {met:7s} {name}: {value:.3f} of {n} sets {wanted}")
+        wanted, met = judged(target, value)
+        lines.append(f"  {met:7s} {name}: {value:.3f} of {n} sets {wanted}")
+    return "\n".join(lines)
+
+
+def table(rows):
+    """The cards of all programs beside each other, for docs/diagnosis-scores.md."""
+    by_program = {program: [row for row in rows if row["program"] == program] for program in PROGRAMS}
+    lines = ["| score | target | " + " | ".join(f"{program}s" for program in PROGRAMS) + " |", "|---" * (2 + len(PROGRAMS)) + "|"]
+    for one in zip(*(scores(program, some) for program, some in by_program.items())):
+        cells, wanted = [], []
+        for name, hits, n, target in one:
+            words, met = judged(target, hits / n if n else 0)
+            wanted.append(words)
+            interval = "{:.2f} to {:.2f}".format(*clopper_pearson(hits, n))
+            cells.append(f"{hits} of {n}, {interval}{', **missed**' if met == 'missed' else ''}" if n else "-")
+        words = wanted[0] if len(set(wanted)) == 1 else ", ".join([wanted[0]] + [word[3:] for word in wanted[1:]])
+        lines.append(f"| {one[0][0]} | {words} | " + " | ".join(cells) + " |")
+    for one in zip(*(measures(some) for some in by_program.values())):
+        cells = [f"{value:.3f} ({n} sets){', **missed**' if judged(target, value)[1] == 'missed' else ''}" if n else "-" for _, value, n, target in one]
+        lines.append(f"| {one[0][0]} | {judged(one[0][3], 0)[0]} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
@@ -228,14 +245,12 @@ def main():
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--classes", nargs="*", default=list(sets.CLASSES), choices=sets.CLASSES)
     arguments.add_argument("--out", type=pathlib.Path, help="folder of results; what is in it is not done again")
-    arguments.add_argument("--rows", type=pathlib.Path, nargs="*", help="files of rows: only the card of these")
-    arguments.add_argument("--markdown", action="store_true")
+    arguments.add_argument("--rows", type=pathlib.Path, nargs="*", help="files of rows: only their cards beside each other, as in docs/diagnosis-scores.md")
     options = arguments.parse_args()
     if options.rows:
-        rows = [row for file in options.rows for row in read_rows(file) if row["program"] == options.program]
+        print(table([row for file in options.rows for row in read_rows(file)]))
     else:
-        rows = run_card(options.program, options.classes, options.sets, options.seed, options.out)
-    print(card(options.program, rows, options.markdown))
+        print(card(options.program, run_card(options.program, options.classes, options.sets, options.seed, options.out)))
 
 
 if __name__ == "__main__":
