@@ -130,7 +130,8 @@ class Scoring(harness.CaseTest):
 
     def test_local_cause_called_outside_is_not_right_but_names_nothing_wrong(self):
         row = self.score(["lift"], self.verdict("outside"), "local")
-        self.assertEqual((row["right"], row["outside_ok"]), (0, 1))
+        self.assertEqual((row["right"], row["true_enough"]), (0, 1))
+        self.assertEqual(self.score(["lift"], self.verdict("outside"))["true_enough"], 0)
 
     def test_calibration_error(self):
         rows = [{"p_first": 0.8, "first_right": k < 6} for k in range(10)] + [{"p_first": 0.95, "first_right": 1}] * 10

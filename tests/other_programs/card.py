@@ -26,9 +26,8 @@ import sets  # noqa: E402
 
 PROGRAMS = ("sphere", "fibre", "rag")
 COLUMNS = ("program,number,seed,kind,truth,subset,strength,replicates,detectability,clear_of_library,gap_over_floor,verdict,said,wording,first,"
-           "p_first,p_truth,right,first_right,brier,outside_ok,blames_physics,runs,seconds,truth_sha256").split(",")
+           "p_first,p_truth,right,first_right,brier,true_enough,blames_physics,runs,seconds,truth_sha256").split(",")
 OF_MEASUREMENT = ("measurement", "clock", "frame_rate", "sign:", "unit:", "scale:", "offset:")
-NULLS = ("null", "null_noise", "null_correlated")
 LIBRARY = ("single", "pair", "several")
 
 
@@ -49,12 +48,13 @@ def said_of(verdict, same):
 def scored(truth, verdict, seconds, fingerprint):
     same = truth["same_cause"]
     right = {normalised(name, same) for name in truth["right"]}
+    true_enough = right | ({"outside"} if truth["kind"] == "local" else set())  # no law of the library acts everywhere, and none is blamed
     probability = {}
     for name, p in verdict["probability"].items():
         one = normalised(name, same)
         probability[one] = probability.get(one, 0.0) + p
     first = max(probability, key=probability.get)
-    p_truth = sum(probability.get(name, 0.0) for name in right)
+    p_truth = sum(probability.get(name, 0.0) for name in true_enough)
     said = said_of(verdict, same)
     named = said.split("+") if verdict["verdict"] == "effects" else []
     physics = [name for name in named if not name.startswith((*OF_MEASUREMENT, "input:")) and name != "operating_point"]
@@ -62,9 +62,9 @@ def scored(truth, verdict, seconds, fingerprint):
         **{key: truth[key] for key in ("program", "number", "seed", "kind", "truth", "subset", "strength", "replicates", "detectability")},
         "clear_of_library": "" if truth["clear_of_library"] is None else truth["clear_of_library"], "gap_over_floor": truth["gap_over_floor"],
         "verdict": verdict["verdict"], "said": said, "wording": verdict["wording"].replace(",", ";"), "first": first,
-        "p_first": probability[first], "p_truth": p_truth, "right": int(said in right), "first_right": int(first in right),
-        "brier": (1 - p_truth) ** 2 + sum(p * p for name, p in probability.items() if name not in right),
-        "outside_ok": int(said in right or (truth["kind"] == "local" and said == "outside")), "blames_physics": int(bool(physics)),
+        "p_first": probability[first], "p_truth": p_truth, "right": int(said in right), "first_right": int(first in true_enough),
+        "brier": (1 - p_truth) ** 2 + sum(p * p for name, p in probability.items() if name not in true_enough),
+        "true_enough": int(said in true_enough), "blames_physics": int(bool(physics)),
         "runs": verdict["runs"], "seconds": round(seconds, 2), "truth_sha256": fingerprint,
     }
 
@@ -181,21 +181,27 @@ def scores(program, rows):
         ("blunders: named", of("blunder"), right, 0.90),
         ("blunders: blamed on physics", of("blunder"), lambda row: row["blames_physics"], -0.0),
         ("local causes, 5 sd clear: the effect is named", clear(of("local"), 5), right, None),
-        ("local causes, 5 sd clear: the effect, or outside", clear(of("local"), 5), lambda row: row["outside_ok"], None),
+        ("local causes, 5 sd clear: the effect, or outside", clear(of("local"), 5), lambda row: row["true_enough"], None),
         ("outliers: right beside them", of("outliers"), right, None),
         ("stated >= 0.9: right", [row for row in rows if row["p_first"] >= 0.9], lambda row: row["first_right"], 0.90),
+        ("the same, of sets that can be told", [row for row in told(rows) if row["p_first"] >= 0.9], lambda row: row["first_right"], None),
     ]
     return [(name, sum(1 for row in some if hit(row)), len(some), target) for name, some, hit, target in table]
 
 
+def told(rows):
+    """Sets whose data show the truth by 3 sd, or whose truth is nothing."""
+    return [row for row in rows if row["truth"] == "none" or row["detectability"] >= 3]
+
+
 def measures(rows):
     """Name, value, number of sets, target as in `scores`."""
-    told = [row for row in rows if row["kind"] in NULLS or row["detectability"] >= 3 or (row["kind"] == "outliers" and row["truth"] == "none")]
-    brier = lambda some: sum(row["brier"] for row in some) / max(1, len(some))  # noqa: E731
+    some = told(rows)
+    brier = lambda of: sum(row["brier"] for row in of) / max(1, len(of))  # noqa: E731
     return [("calibration error, all sets", calibration_error(rows), len(rows), None),
-            ("calibration error, sets that can be told", calibration_error(told), len(told), -0.06),
+            ("calibration error, sets that can be told", calibration_error(some), len(some), -0.06),
             ("Brier score, all sets", brier(rows), len(rows), None),
-            ("Brier score, sets that can be told", brier(told), len(told), None)]
+            ("Brier score, sets that can be told", brier(some), len(some), None)]
 
 
 def judged(target, value):

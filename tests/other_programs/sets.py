@@ -13,7 +13,7 @@ Classes of sets, and what is right to say of each (`right` of the truth lists al
 | outside | a force that no library holds, 5 sd clear of inputs and noise | outside |
 | input | an input that is off by more than 3 of its standard uncertainties at all points, 5 sd clear | input:KEY; of the whole flow also operating_point |
 | blunder | a wrong unit, sign, clock, frame rate, or calibration of a group of points | unit:UNIT, sign:AXIS, clock, frame_rate, scale:GROUP |
-| local | an effect that acts after a time or in a part of the domain only, 5 sd clear | the effect (the card also counts "outside", which names nothing wrong) |
+| local | an effect that acts after a time or in a part of the domain only, 5 sd clear | the effect (for the calibration "outside" is true, too: it names nothing wrong) |
 | outliers | nothing, or one effect, and 1 to 2 % of the samples 20 to 150 u off | none, or the effect |
 
 How clear: the signal of what acts over noise, with the uncertain inputs free within their priors and every other effect that acts free to any
