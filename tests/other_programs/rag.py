@@ -18,8 +18,8 @@ C_d by Clift and Gauvin (1971) or by Brown and Lawler (2003); c: 1.2 inside, les
 beside, w_n along it, w_t along the sheet (friction of both sides, Blasius 1908). f: size, exponent, shelter 1 - C_sh s, s the share of four
 neighbours that are there, and folding (1 + (|w|/w_0)^4)^(V/4), w_0 = 0.5 m/s. b: accelerations that no library holds.
 
-A strip that is held at one end by heavy nodes hangs through by q L^4/(8 D). The camera looks along the cloth: centroid in whole tenths of a
-millimetre, long axis of the second moments in whole 0.005 rad.
+A strip that is held at one end by heavy nodes hangs through by q L^4/(8 D). The camera looks from above at a slant (along the cloth a sheet without
+thickness has no picture): its up is UP. Centre in whole tenths of a millimetre, long axis of the picture's second moments in whole 0.005 rad.
 """
 import numpy
 import sphere
@@ -31,6 +31,7 @@ DIAMETER, THICKNESS, MASS_PER_AREA = 4e-3, 0.77e-3, 0.785  # spheres of the base
 # Bending stiffness per width, N m: S_nb pi r^4/4 with S_nb = 3.15e6 and 4.05e5 N/m3 of the cloth at r = 2 mm (Jensen 2018, Tables 3.3 and 3.4).
 STIFFNESS_ALONG, STIFFNESS_ACROSS = (s * numpy.pi / 4 * (DIAMETER / 2) ** 4 for s in (3.15e6, 4.05e5))
 
+UP = (0.0, 0.6, 0.8)
 NAME = "rag"
 OBSERVABLES = [
     {"id": "x", "unit": "mm", "kind": "gaussian", "factor": 1e3, "noise": 4e-4, "bias": 2e-4, "smallest": 0.1},
@@ -222,8 +223,9 @@ def simulate(p, duration=END):
         places.append(x)
     x = numpy.array(places)  # [time, run, node, axis]
     centre = x.mean(2)
-    X, Z = x[..., 0] - centre[..., None, 0], x[..., 2] - centre[..., None, 2]
-    axis = 0.5 * numpy.unwrap(numpy.arctan2(2 * (X * Z).mean(2), (X * X - Z * Z).mean(2)), axis=0)
+    picture = x - centre[:, :, None]
+    across, up = picture[..., 0], picture @ numpy.array(UP)
+    axis = 0.5 * numpy.unwrap(numpy.arctan2(2 * (across * up).mean(2), (across**2 - up**2).mean(2)), axis=0)
     return h * numpy.arange(n + 1), numpy.stack([centre[..., 0], centre[..., 2], axis]).transpose(2, 0, 1)
 
 
@@ -252,7 +254,7 @@ lengthwise = [{numpy.cos(p["angle"])}, 0, {numpy.sin(p["angle"])}]
 crosswise = [0, 1, 0]
 [virtual_camera]
 right = [1, 0, 0]
-up = [0, 0, 1]
+up = {list(UP)}
 [coupling]
 mode = "one_way"
 forces = ["schiller_naumann"]
