@@ -184,7 +184,7 @@ def scores(program, rows):
         ("local causes, 5 sd clear: the effect, or outside", clear(of("local"), 5), lambda row: row["true_enough"], None),
         ("outliers: right beside them", of("outliers"), right, None),
         ("stated >= 0.9: right", [row for row in rows if row["p_first"] >= 0.9], lambda row: row["first_right"], 0.90),
-        ("the same, of sets that can be told", [row for row in told(rows) if row["p_first"] >= 0.9], lambda row: row["first_right"], None),
+        ("the same, of sets that can be distinguished", [row for row in told(rows) if row["p_first"] >= 0.9], lambda row: row["first_right"], None),
     ]
     return [(name, sum(1 for row in some if hit(row)), len(some), target) for name, some, hit, target in table]
 
@@ -199,9 +199,9 @@ def measures(rows):
     some = told(rows)
     brier = lambda of: sum(row["brier"] for row in of) / max(1, len(of))  # noqa: E731
     return [("calibration error, all sets", calibration_error(rows), len(rows), None),
-            ("calibration error, sets that can be told", calibration_error(some), len(some), -0.06),
+            ("calibration error, sets that can be distinguished", calibration_error(some), len(some), -0.06),
             ("Brier score, all sets", brier(rows), len(rows), None),
-            ("Brier score, sets that can be told", brier(some), len(some), None)]
+            ("Brier score, sets that can be distinguished", brier(some), len(some), None)]
 
 
 def judged(target, value):
