@@ -16,7 +16,7 @@ runs = {pathlib.Path(folder).name: sample.Sampled(folder, start, radii=radii) fo
 colours = ("#c03020", "#2060b0", "#208040")
 fig, axes = plt.subplots(3, 2, figsize=(8.2, 7.6))
 for axis, instant in zip(axes.flat, sample.INSTANTS):
-    y, cr, cu = measured[instant]
+    y, cr, cu = (values[::2] for values in measured[instant])
     axis.plot(y, cu, ".", color="0.55", markersize=3, label="hot wires, mid-span")
     axis.plot(y, cr, ".", color="0.75", markersize=3)
     for colour, (name, run) in zip(colours, runs.items()):
