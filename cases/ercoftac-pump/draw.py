@@ -24,7 +24,7 @@ for axis, instant in zip(axes.flat, sample.INSTANTS):
         axis.plot(sample.Y, run.profile[instant][0][0], color=colour, linewidth=0.8)
     axis.set_title(f"$t/T_i$ = {instant}", fontsize=9)
     axis.set_xlim(0, 2)
-    axis.set_ylim(-0.1, 0.75)
+    axis.set_ylim(-0.1, 0.95)
     axis.set_xlabel("y, pitches of the impeller")
     axis.set_ylabel("$c_u/U_2$ (above), $c_r/U_2$ (below)", fontsize=8)
     axis.grid(linewidth=0.3)
