@@ -1,6 +1,6 @@
 # labels: long
 # timeout: 5400
-# cost: 500
+# cost: 300
 """Requirement: the plane flow at mid-span of a measured pump (ERCOFTAC test case U3, seven blades, twelve vanes, air) has the blade-to-blade velocity of the hot wires within 0.06 U2 (rms of c_u over two
 pitches and four instants) and the pressure of the casing taps within 0.05 from the blades on; with the measured radial velocity of the mid-span the mean c_u is the measured one within 5 %. The shaft's
 torque is the angular momentum that the water carries out of the rotor."""
