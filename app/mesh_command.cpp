@@ -29,10 +29,10 @@ Action add_mesh(CLI::App& app) {
     double scale = 1;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("mesh",
-                         "Make a mesh: snag mesh pump|pipe|channel|box|tank [PARAMS.toml] --out MESH.msh (snag mesh pump --help lists "
-                         "the parameters); or check one: snag mesh --info MESH.msh, exit code 3 on a bad mesh");
+  CLI::App* command = app.add_subcommand(
+      "mesh",
+      "Make a mesh: snag mesh pump|pipe|channel|box|tank|blade_rows [PARAMS.toml] --out MESH.msh (snag mesh pump --help lists "
+      "the parameters); or check one: snag mesh --info MESH.msh, exit code 3 on a bad mesh");
   command->add_option("--info", options->judged, "Mesh to check, " + readable_mesh_formats() + ": cells, patches, zones, quality, errors");
   command->add_option("--scale", options->scale, "Metres in one unit of length of the checked file");
   command->prefix_command();

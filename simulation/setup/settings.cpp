@@ -23,7 +23,7 @@ Section MeshSettings::section() {
           {file_setting("file", &file, "Mesh file, relative to the case file: " + readable_mesh_formats() + "."),
            {"scale", &scale, "1", 1e-9, 1e9, Basis::assumed, "Metres in one unit of length of the file (0.001 for millimetres)."},
            setting("geometry", &geometry, "Parametric geometry instead of a file: the mesh is generated for this run, as by `snag mesh`.",
-                   {"", "pump", "pipe", "channel", "box", "tank"}),
+                   {"", "pump", "pipe", "channel", "box", "tank", "blade_rows"}),
            file_setting("parameters", &parameters,
                         "Parameter file of the geometry, relative to the case file; by default the parameters have their defaults.")}};
 }

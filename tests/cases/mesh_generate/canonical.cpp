@@ -1,4 +1,4 @@
-// Pipe, channel and box: exact volumes, counts and periodic partners.
+// Pipe, channel, box and blade rows: exact volumes, counts and periodic partners.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,4 +94,45 @@ TEST(PipeMesh, BendTurnsFromUpToAlong) {
     for (const int node : mesh.nodes_of("inlet")) EXPECT_NEAR(mesh.node.at(node).y, -0.7, 1e-9);
     for (const int node : mesh.nodes_of("outlet")) EXPECT_NEAR(mesh.node.at(node).x, 1, 1e-9);
   }
+}
+
+// Blades and vanes that are plane quadrangles: rings less their areas, walls as long as their outlines, both sides of the interface on one
+// circle with nodes of their own.
+TEST(BladeRowsMesh, HoldsTheRingsLessTheBlades) {
+  const std::string sizes =
+      " inlet_radius_mm=100 sliding_radius_mm=160 outlet_radius_mm=220 thickness_mm=4 wall_size_mm=5 edge_size_mm=2 core_size_mm=8";
+  const std::string rows =
+      " blades=3 'blade_radius_mm=[115, 140, 140, 115]' 'blade_angle_deg=[0, 0, 10, 10]' vanes=5 'vane_radius_mm=[180, 205, 205, 180]' "
+      "'vane_angle_deg=[0, 0, 6, 6]'";
+  const auto mesh = made("blade_rows --set" + sizes + rows, "blade_rows.msh");
+  struct Ring {
+    std::string volume, walls, interface;
+    double inner, outer, near, far, angle;
+    int count;
+  };
+  for (const Ring& ring : {Ring{"rotor", "impeller_walls", "interface_rotor", 0.1, 0.16, 0.115, 0.14, pi / 18, 3},
+                           Ring{"stator", "vane_walls", "interface_stator", 0.16, 0.22, 0.18, 0.205, pi / 30, 5}}) {
+    const double blade = (ring.far * ring.far - ring.near * ring.near) / 2 * std::sin(ring.angle);
+    const double outline = 2 * (ring.far - ring.near) + 2 * (ring.far + ring.near) * std::sin(ring.angle / 2);
+    EXPECT_NEAR(mesh.volume(ring.volume) / (0.004 * (pi * (ring.outer * ring.outer - ring.inner * ring.inner) - ring.count * blade)), 1,
+                1e-3);
+    EXPECT_NEAR(mesh.area(ring.walls) / (0.004 * ring.count * outline), 1, 1e-9) << ring.walls;
+    for (const int node : mesh.nodes_of(ring.interface)) EXPECT_NEAR(std::hypot(mesh.node.at(node).x, mesh.node.at(node).y), 0.16, 1e-9);
+  }
+  const auto rotor = mesh.nodes_of("interface_rotor"), stator = mesh.nodes_of("interface_stator");
+  for (const int node : rotor) EXPECT_FALSE(stator.contains(node));
+}
+
+// Layers that would reach over the sliding interface are refused with the place; so is an outline with radii and angles of different
+// numbers.
+TEST(BladeRowsMesh, RefusesRowsWithoutRoom) {
+  const std::string rows =
+      "blade_rows --out blade_rows_refused.msh --set 'blade_angle_deg=[0, 0, 10, 10]' 'vane_radius_mm=[240, 260, 260, 240]' "
+      "'vane_angle_deg=[0, 0, 6, 6]'";
+  const auto close = snag_mesh(rows + " 'blade_radius_mm=[150, 216, 216, 150]'"),
+             short_of_one = snag_mesh(rows + " 'blade_radius_mm=[150, 200, 200]'");
+  EXPECT_EQ(close.code, 2) << close.output;
+  EXPECT_NE(close.output.find("room for the layers"), std::string::npos) << close.output;
+  EXPECT_EQ(short_of_one.code, 2) << short_of_one.output;
+  EXPECT_NE(short_of_one.output.find("complete them"), std::string::npos) << short_of_one.output;
 }
