@@ -37,6 +37,7 @@ struct Attribution {
   std::vector<std::string> notes{};
 
   int first() const;             // the likeliest fit
+  int first_by_effects() const;  // the likeliest fit by what its effects explain, its remainder aside
   int best_with_effect() const;  // the likeliest fit that names an effect; 0 if there is none
   /// The likeliest fit of all effects of this one but one, or but effect `without` (an index of Simulator::effects); -1 if there is none.
   int best_part_of(int fit, int without = -1) const;

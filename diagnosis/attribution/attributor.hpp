@@ -17,7 +17,9 @@ namespace snag {
 inline constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes = 0.1;
 /// A hypothesis is simulated again if the screening puts it at most max(screening_width, share_not_linear G) nats below the best. G: nats
 /// of the best over those of the base model. The screening is linear, and its error grows with G. At least min_candidates are simulated.
-inline constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
+/// Of second effects, which are screened around the fit of a first, G counts from that fit, and the share is larger: the linear model holds
+/// the first effect where it stood alone.
+inline constexpr double screening_width = 10, share_not_linear = 0.05, share_of_second = 0.5, weak_form_threshold = 3;
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
 inline constexpr double blind_detectability = 3;
@@ -69,7 +71,8 @@ class Attributor {
   void fit_pairs(const Screening& first_screening);
   /// Further effects, one a round: around the leading fit, which holds what was found, the others are screened again, and what promises
   /// most is fitted with all that was found; then each effect that was there before is left out in its turn: it may have stood for what was
-  /// missing. The rounds end where none brings a better hypothesis.
+  /// missing. The rounds end where none brings a better hypothesis. They go by what the effects explain: a remainder beside a wrong effect
+  /// could stand for those that are still missing.
   void fit_in_rounds();
   /// A fit without each of the effects that were there before, where there is none yet.
   void fit_without_each(int larger, const Hypothesis& before);

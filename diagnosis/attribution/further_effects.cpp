@@ -20,7 +20,7 @@ std::vector<int> Attributor::best_singles() const {
   std::vector<int> order;
   for (int i = 1; i < static_cast<int>(result_.fits.size()); ++i)
     if (!model_.effects()[result_.fits[i].hypothesis.effects[0]].random) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return result_.weight[a] > result_.weight[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return result_.fits[a].log_evidence > result_.fits[b].log_evidence; });
   return order;
 }
 
@@ -56,19 +56,25 @@ void Attributor::fit_pairs(const Screening& first_screening) {
     return std::any_of(order.begin(), order.end(), [&](const Screened& other) { return other.hypothesis.effects == s.hypothesis.effects; });
   });
   order.resize(std::min<std::size_t>(order.size(), most_pairs));
+  const auto n_around_singles = order.size();
   order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
+  const double none = result_.fits.front().log_evidence,
+               single = singles.empty() ? none : result_.fits[static_cast<std::size_t>(singles.front())].log_evidence;
   for (std::size_t i = 0; i < order.size() && affordable(fitter_.runs_of_fit(2)); ++i) {
-    // This set is far behind the fitted ones. The margin grows with the gap, because the error of a linear model does.
-    const double best = result_.fits[static_cast<std::size_t>(result_.first())].log_evidence, none = result_.fits.front().log_evidence;
-    if (order[i].log_evidence < best - std::max(screening_width, share_not_linear * (best - none))) continue;
+    // This set is far behind the fitted ones. The margin grows with what the linear model was asked to reach over: from a single effect to
+    // the best pair, or from the base model.
+    const double best = result_.fits[static_cast<std::size_t>(result_.first_by_effects())].log_evidence;
+    const double of_gap = share_not_linear * (best - none);
+    const double reach = i < n_around_singles ? std::min(of_gap, share_of_second * (best - single)) : of_gap;
+    if (order[i].log_evidence < best - std::max(screening_width, reach)) continue;
     report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
     add(fit_of(order[i]));
   }
 }
 
 void Attributor::fit_in_rounds() {
-  for (int leader = -1; leader != result_.first();) {
-    leader = result_.first();
+  for (int leader = -1; leader != result_.first_by_effects();) {
+    leader = result_.first_by_effects();
     const Hypothesis found = result_.fits[static_cast<std::size_t>(leader)].hypothesis;
     const auto n = static_cast<int>(found.effects.size());
     if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
@@ -84,7 +90,7 @@ void Attributor::fit_in_rounds() {
     }
     const std::vector<Screened> order = best_first(std::move(larger));
     for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));
-    if (result_.first() != leader) fit_without_each(result_.first(), found);
+    if (result_.first_by_effects() != leader) fit_without_each(result_.first_by_effects(), found);
   }
 }
 

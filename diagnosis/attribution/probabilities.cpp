@@ -16,6 +16,14 @@ namespace snag {
 
 int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
 
+int Attribution::first_by_effects() const {
+  int best = 0;
+  const auto by_effects = [&](int i) { return weight[static_cast<std::size_t>(i)] - remainder[static_cast<std::size_t>(i)].gain; };
+  for (int i = 1; i < static_cast<int>(weight.size()); ++i)
+    if (by_effects(i) > by_effects(best)) best = i;
+  return best;
+}
+
 int Attribution::best_with_effect() const {
   int best = 0;
   for (int i = 1; i < static_cast<int>(weight.size()); ++i)

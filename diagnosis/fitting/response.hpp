@@ -101,6 +101,9 @@ class Responses {
   /// The same state at several points.
   std::vector<Response> run(const State& state, const std::vector<int>& points, double step_factor = 1);
 
+  /// Adds a share of the difference between two responses of a point, within what a row can be.
+  void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
+
  private:
   int seeds_of(const Request& request) const { return request.n_seeds > 0 ? request.n_seeds : n_seeds(request.state); }
   std::vector<RunRequest> requests_of(const Request& request) const;
@@ -109,7 +112,6 @@ class Responses {
     double share = 0;
   };
   std::vector<Part> parts_of(const Request& request) const;
-  void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
   Response response(const Request& request, std::span<const RunResult> results) const;
   void find_randomness();
   void note_rows_left_out(std::size_t point, const Response& answer);

@@ -1,10 +1,10 @@
-# cost: 68
+# cost: 80
 """Requirement: spheres computed by another program, with its own integrator and drag law and inputs off at each point, are diagnosed as what was put into them.
 
 The program is in this file and shares nothing with Snag but the format of the data. Equation of motion, from rest in an unsteady shear
 over a wall:
 
-    (m + C_A m_f) dv/dt = 1/2 rho A C_d |w| w lambda + (m - m_f) g + (C_A + C_P) m_f Du/Dt
+    (m + C_A m_f) dv/dt = 1/2 rho A (1 + f) C_d |w| w lambda + (m - m_f) g + (C_A + C_P) m_f Du/Dt
                           + C_H 6 a^2 rho sqrt(pi nu) int dw/dtau/sqrt(t - tau) dtau + C_L (lift of the shear) + m b,   w = u - v
 
 C_d by Clift and Gauvin (1971), lambda by Faxen's series beside the wall, the lift of Saffman (1965) with Mei's (1992) factor, the slip at
@@ -29,6 +29,14 @@ SETS = [
     ("wall", "wall", {"wall": 1.0}, None),
     ("pair", "added_mass+pressure_gradient", {"added_mass": 0.5, "pressure_gradient": 1.0}, None),
     ("stratified", "outside", {}, lambda t, x: numpy.array([0.0, 0.0, -25 * x[2]])),
+    ("three", "added_mass+history+pressure_gradient", {"added_mass": 0.5, "history": 1.0, "pressure_gradient": 1.0}, None),
+    ("four", "added_mass+history+pressure_gradient+wall", {"added_mass": 0.5, "history": 1.0, "pressure_gradient": 1.0, "wall": 1.0}, None),
+    (
+        "five",
+        "added_mass+drag_magnitude+history+pressure_gradient+wall",
+        {"added_mass": 0.5, "drag_magnitude": 0.4, "history": 1.0, "pressure_gradient": 1.0, "wall": 1.0},
+        None,
+    ),
 ]
 
 
@@ -65,7 +73,7 @@ def path(water, d, density, height, strengths, other_force):
         w = water.at(t, x) - v
         speed = numpy.linalg.norm(w)
         Re = max(speed * d / water.nu, 1e-9)
-        drag = RHO / 8 * numpy.pi * d * d * drag_coefficient(Re) * Re * water.nu / d
+        drag = RHO / 8 * numpy.pi * d * d * (1 + strengths.get("drag_magnitude", 0.0)) * drag_coefficient(Re) * Re * water.nu / d
         k = d / 2 / x[1]
         beside = 1 / (1 - 9 / 16 * k + k**3 / 8 - 45 / 256 * k**4 - k**5 / 16)
         force = drag * w * (1 + strengths.get("wall", 0.0) * (beside - 1)) + (mass - displaced) * G + history
@@ -155,7 +163,7 @@ def write_set(folder, seed, strengths, other_force):
 
 
 class OtherProgram(harness.CaseTest):
-    sets = ("pair", "stratified")  # diagnose_other_program_long.py has all of them
+    sets = ("pair", "stratified", "three")  # diagnose_other_program_long.py has all of them
 
     def test_spheres(self):
         for seed, (name, expected, strengths, other_force) in enumerate(SETS):

@@ -52,6 +52,15 @@ TEST(Probabilities, WeighEvidence) {
   EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
 }
 
+/// Requirement: further effects are looked for beside what explains most by itself, not beside a wrong effect with a large remainder.
+TEST(Probabilities, RemainderDoesNotLeadTheSearch) {
+  Attribution attribution = with_evidence(0, 10, 90, 100, 0);
+  for (const Fit& fit : attribution.fits) attribution.weight.push_back(fit.log_evidence);
+  attribution.remainder[1].gain = 200, attribution.weight[1] += 200;
+  EXPECT_EQ(attribution.first(), 1);
+  EXPECT_EQ(attribution.first_by_effects(), 3);
+}
+
 /// Requirement: an effect acts in every hypothesis that holds it; one whose name is part of another's does not.
 TEST(Probabilities, ThatAnEffectActs) {
   Attribution attribution;
