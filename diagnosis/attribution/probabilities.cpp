@@ -43,6 +43,8 @@ int Attribution::best_part_of(int fit, int without) const {
   return best;
 }
 
+double Attribution::outside_leads_by() const { return discrepancy.log_evidence - log_evidence(first()); }
+
 double Attribution::log_evidence(int fit) const {
   const auto i = static_cast<std::size_t>(fit);
   return fits[i].log_evidence + remainder[i].gain - evidence_penalty[i];

@@ -61,6 +61,16 @@ TEST(Probabilities, RemainderDoesNotLeadTheSearch) {
   EXPECT_EQ(attribution.first_by_effects(), 3);
 }
 
+/// Requirement: the process alone is weighed against the evidence of the leading set of effects; the price of a further effect is a matter
+/// among sets of effects.
+TEST(Probabilities, OutsideLeadsByEvidence) {
+  Attribution attribution = with_evidence(0, 80, 2, 100, 104);
+  attribution.weight = {0, 80, 2, 94};  // a further effect costs 6
+  EXPECT_NEAR(attribution.outside_leads_by(), 4, 1e-12);
+  attribution.remainder[3].gain = 3, attribution.weight[3] += 3;
+  EXPECT_NEAR(attribution.outside_leads_by(), 1, 1e-12);
+}
+
 /// Requirement: an effect acts in every hypothesis that holds it; one whose name is part of another's does not.
 TEST(Probabilities, ThatAnEffectActs) {
   Attribution attribution;

@@ -52,6 +52,20 @@ TEST(Mistakes, UnitSignClockFrameRate) {
   EXPECT_EQ(right, n);
 }
 
+// An input that is far off is told where it is no hypothesis, too; one that is within its uncertainty is not.
+TEST(Mistakes, InputFarOffIsTold) {
+  const auto told = [](double off) {
+    Experiment experiment = formula::experiment({.nuisances = {{"flow.viscosity", off}}}, 6, 0, 3, noise, 7310);
+    experiment.candidates = {"added_mass"};
+    const Verdict verdict = judged(experiment);
+    return std::any_of(verdict.notes.begin(), verdict.notes.end(), [](const std::string& note) {
+      return note.find("flow.viscosity is fitted") != std::string::npos && note.find("above what is stated") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told(0.12));
+  EXPECT_FALSE(told(0.01));
+}
+
 // Three groups of three points, two of each for training: the numbers of one group are 4 to 8 % too large, or shifted by 4 mm. Without a
 // mistake the groups change nothing.
 TEST(Mistakes, CalibrationOfAGroupOfPoints) {
