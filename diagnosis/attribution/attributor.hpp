@@ -74,6 +74,12 @@ class Attributor {
   /// missing. The rounds end where none brings a better hypothesis. They go by what the effects explain: a remainder beside a wrong effect
   /// could stand for those that are still missing.
   void fit_in_rounds();
+  /// One round around this fit.
+  void fit_round(int found_so_far);
+  /// Rounds add one effect at a time, so that one that stands for two may stay. Each effect of the leader is exchanged for each other one,
+  /// screened around the fit without it; what comes nearest to the leader, by the rule of the verdict, is fitted. Its index; -1: none.
+  int fit_exchange(int leader);
+  bool is_fitted(const Hypothesis& hypothesis) const;
   /// A fit without each of the effects that were there before, where there is none yet.
   void fit_without_each(int larger, const Hypothesis& before);
   /// An effect that was screened only is behind the best fit by what it was behind in the screening; a random one, until it is fitted,

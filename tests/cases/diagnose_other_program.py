@@ -37,6 +37,12 @@ SETS = [
         {"added_mass": 0.5, "drag_magnitude": 0.4, "history": 1.0, "pressure_gradient": 1.0, "wall": 1.0},
         None,
     ),
+    (  # here a wrong density stands for two of them until it is exchanged for one
+        "five_others",
+        "added_mass+drag_magnitude+history+pressure_gradient+wall",
+        {"added_mass": 0.5, "drag_magnitude": 0.4, "history": 1.0, "pressure_gradient": 1.0, "wall": 1.0},
+        None,
+    ),
 ]
 
 
