@@ -35,8 +35,9 @@ struct Attribution {
   double placebo_rate = 0;
   std::vector<std::string> notes{};
 
-  int first() const;             // the likeliest fit
-  int first_by_effects() const;  // the likeliest fit by what its effects explain, its remainder aside
+  int first() const;  // the likeliest fit
+  /// The likeliest fit by what its effects explain, its remainder aside; of those that do not hold effect `without`.
+  int first_by_effects(int without = -1) const;
   int best_with_effect() const;  // the likeliest fit that names an effect; 0 if there is none
   /// The likeliest fit of all effects of this one but one, or but effect `without` (an index of Simulator::effects); -1 if there is none.
   int best_part_of(int fit, int without = -1) const;

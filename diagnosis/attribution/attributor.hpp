@@ -74,8 +74,11 @@ class Attributor {
   /// missing. The rounds end where none brings a better hypothesis. They go by what the effects explain: a remainder beside a wrong effect
   /// could stand for those that are still missing.
   void fit_in_rounds();
+  /// Among the sets that do not hold effect `without` (-1: all). A mistake may stand for several effects: where one is part of the best
+  /// set, the rounds go on without it, too.
+  void fit_in_rounds(int without);
   /// One round around this fit.
-  void fit_round(int found_so_far);
+  void fit_round(int found_so_far, int without);
   /// Rounds add one effect at a time, so that one that stands for two may stay. Each effect of the leader is exchanged for each other one,
   /// screened around the fit without it; what comes nearest to the leader, by the rule of the verdict, is fitted. Its index; -1: none.
   int fit_exchange(int leader);

@@ -74,32 +74,41 @@ void Attributor::fit_pairs(const Screening& first_screening) {
 }
 
 void Attributor::fit_in_rounds() {
-  for (int leader = -1; leader != result_.first_by_effects();) {
-    leader = result_.first_by_effects();
-    fit_round(leader);
-    if (result_.first_by_effects() != leader) continue;
-    if (const int other = fit_exchange(leader); other >= 0) fit_round(other);
+  fit_in_rounds(-1);
+  const Hypothesis found = result_.fits[static_cast<std::size_t>(result_.first_by_effects())].hypothesis;
+  if (found.effects.size() < 2) return;
+  for (const int k : found.effects)
+    if (model_.effects()[k].is_mistake) fit_in_rounds(k);
+}
+
+void Attributor::fit_in_rounds(int without) {
+  for (int leader = -1; leader != result_.first_by_effects(without);) {
+    leader = result_.first_by_effects(without);
+    fit_round(leader, without);
+    if (without >= 0 || result_.first_by_effects() != leader) continue;
+    if (const int other = fit_exchange(leader); other >= 0) fit_round(other, without);
   }
 }
 
-void Attributor::fit_round(int found_so_far) {
+void Attributor::fit_round(int found_so_far, int without) {
   const Fit around = result_.fits[static_cast<std::size_t>(found_so_far)];
   const Hypothesis& found = around.hypothesis;
   const auto n = static_cast<int>(found.effects.size());
   if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
   report("a further effect beside " + result_.names[static_cast<std::size_t>(found_so_far)], 0.86);
-  const int leader = result_.first_by_effects();
+  const int leader = result_.first_by_effects(without);
   const Screening further(model_, fitter_, candidates_, around.at);
   std::map<std::string, Screened> larger;
   for (const int k : candidates_) {
-    if (std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further) continue;
+    if (k == without || std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further)
+      continue;
     Screened screened = further.screen(with(found, k));
     if (screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted && !is_fitted(screened.hypothesis))
       larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
   }
   const std::vector<Screened> order = best_first(std::move(larger));
   for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));
-  if (result_.first_by_effects() != leader) fit_without_each(result_.first_by_effects(), found);
+  if (const int next = result_.first_by_effects(without); next != leader) fit_without_each(next, found);
 }
 
 int Attributor::fit_exchange(int leader) {

@@ -16,11 +16,13 @@ namespace snag {
 
 int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
 
-int Attribution::first_by_effects() const {
+int Attribution::first_by_effects(int without) const {
   int best = 0;
   const auto by_effects = [&](int i) { return weight[static_cast<std::size_t>(i)] - remainder[static_cast<std::size_t>(i)].gain; };
-  for (int i = 1; i < static_cast<int>(weight.size()); ++i)
-    if (by_effects(i) > by_effects(best)) best = i;
+  for (int i = 1; i < static_cast<int>(weight.size()); ++i) {
+    const auto& effects = fits[static_cast<std::size_t>(i)].hypothesis.effects;
+    if (std::count(effects.begin(), effects.end(), without) == 0 && by_effects(i) > by_effects(best)) best = i;
+  }
   return best;
 }
 

@@ -59,6 +59,10 @@ TEST(Probabilities, RemainderDoesNotLeadTheSearch) {
   attribution.remainder[1].gain = 200, attribution.weight[1] += 200;
   EXPECT_EQ(attribution.first(), 1);
   EXPECT_EQ(attribution.first_by_effects(), 3);
+  attribution.fits[1].hypothesis.effects = {0}, attribution.fits[2].hypothesis.effects = {1},
+  attribution.fits[3].hypothesis.effects = {0, 1};
+  EXPECT_EQ(attribution.first_by_effects(0), 2);
+  EXPECT_EQ(attribution.first_by_effects(1), 1);
 }
 
 /// Requirement: the process alone is weighed against the evidence of the leading set of effects; the price of a further effect is a matter
