@@ -43,7 +43,6 @@ Attribution Attributor::attribute() {
   refine_random_leader();
   if (model_.experiment().pairs) credit_other_pairs(live);
   result_.discrepancy = fit_discrepancy(model_, fitter_, result_.fits.front());
-  result_.discrepancy_weight = result_.discrepancy.log_evidence + std::log(prior_outside);
   for (const Fit& fit : result_.fits) result_.leave_one_out.push_back(leave_one_out(fit));
   set_probabilities(result_);
   return std::move(result_);

@@ -29,17 +29,21 @@ struct Attribution {
   std::vector<Remainder> remainder;   // beside each fit; its gain is in the weight
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Discrepancy discrepancy;
-  double discrepancy_weight = 0;
   std::map<std::string, double> screening{}, weak_form{};  // gains over none
   std::map<std::string, double> probability{};
   Identifiability identifiability;
   double placebo_rate = 0;
   std::vector<std::string> notes{};
 
-  int first() const;             // the likeliest fit
+  int first() const;  // the likeliest fit
+  /// The likeliest fit by what its effects explain, its remainder aside; of those that do not hold effect `without`.
+  int first_by_effects(int without = -1) const;
   int best_with_effect() const;  // the likeliest fit that names an effect; 0 if there is none
   /// The likeliest fit of all effects of this one but one, or but effect `without` (an index of Simulator::effects); -1 if there is none.
   int best_part_of(int fit, int without = -1) const;
+  /// Nats by which the process alone explains the data better than the likeliest fit. What a further effect is priced at is a rule among
+  /// sets of effects: a process has shapes of its own, which its evidence pays for.
+  double outside_leads_by() const;
   /// Evidence of a fit with the choice of a remainder, without what a guard takes away.
   double log_evidence(int fit) const;
 };

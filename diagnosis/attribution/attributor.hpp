@@ -17,7 +17,9 @@ namespace snag {
 inline constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes = 0.1;
 /// A hypothesis is simulated again if the screening puts it at most max(screening_width, share_not_linear G) nats below the best. G: nats
 /// of the best over those of the base model. The screening is linear, and its error grows with G. At least min_candidates are simulated.
-inline constexpr double screening_width = 10, share_not_linear = 0.05, weak_form_threshold = 3;
+/// Of second effects, which are screened around the fit of a first, G counts from that fit, and the share is larger: the linear model holds
+/// the first effect where it stood alone.
+inline constexpr double screening_width = 10, share_not_linear = 0.05, share_of_second = 0.5, weak_form_threshold = 3;
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
 inline constexpr double blind_detectability = 3;
@@ -69,8 +71,18 @@ class Attributor {
   void fit_pairs(const Screening& first_screening);
   /// Further effects, one a round: around the leading fit, which holds what was found, the others are screened again, and what promises
   /// most is fitted with all that was found; then each effect that was there before is left out in its turn: it may have stood for what was
-  /// missing. The rounds end where none brings a better hypothesis.
+  /// missing. The rounds end where none brings a better hypothesis. They go by what the effects explain: a remainder beside a wrong effect
+  /// could stand for those that are still missing.
   void fit_in_rounds();
+  /// Among the sets that do not hold effect `without` (-1: all). A mistake may stand for several effects: where one is part of the best
+  /// set, the rounds go on without it, too.
+  void fit_in_rounds(int without);
+  /// One round around this fit.
+  void fit_round(int found_so_far, int without);
+  /// Rounds add one effect at a time, so that one that stands for two may stay. Each effect of the leader is exchanged for each other one,
+  /// screened around the fit without it; what comes nearest to the leader, by the rule of the verdict, is fitted. Its index; -1: none.
+  int fit_exchange(int leader);
+  bool is_fitted(const Hypothesis& hypothesis) const;
   /// A fit without each of the effects that were there before, where there is none yet.
   void fit_without_each(int larger, const Hypothesis& before);
   /// An effect that was screened only is behind the best fit by what it was behind in the screening; a random one, until it is fitted,

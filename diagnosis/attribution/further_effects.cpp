@@ -1,6 +1,7 @@
 // Attribution: pairs, further effects in rounds, and rivals of the leader.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/attributor.hpp"
@@ -20,7 +21,7 @@ std::vector<int> Attributor::best_singles() const {
   std::vector<int> order;
   for (int i = 1; i < static_cast<int>(result_.fits.size()); ++i)
     if (!model_.effects()[result_.fits[i].hypothesis.effects[0]].random) order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return result_.weight[a] > result_.weight[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return result_.fits[a].log_evidence > result_.fits[b].log_evidence; });
   return order;
 }
 
@@ -56,36 +57,92 @@ void Attributor::fit_pairs(const Screening& first_screening) {
     return std::any_of(order.begin(), order.end(), [&](const Screened& other) { return other.hypothesis.effects == s.hypothesis.effects; });
   });
   order.resize(std::min<std::size_t>(order.size(), most_pairs));
+  const auto n_around_singles = order.size();
   order.insert(order.end(), of_base.begin(), of_base.begin() + std::min<std::ptrdiff_t>(std::ssize(of_base), most_pairs_around_base));
+  const double none = result_.fits.front().log_evidence,
+               single = singles.empty() ? none : result_.fits[static_cast<std::size_t>(singles.front())].log_evidence;
   for (std::size_t i = 0; i < order.size() && affordable(fitter_.runs_of_fit(2)); ++i) {
-    // This set is far behind the fitted ones. The margin grows with the gap, because the error of a linear model does.
-    const double best = result_.fits[static_cast<std::size_t>(result_.first())].log_evidence, none = result_.fits.front().log_evidence;
-    if (order[i].log_evidence < best - std::max(screening_width, share_not_linear * (best - none))) continue;
+    // This set is far behind the fitted ones. The margin grows with what the linear model was asked to reach over: from a single effect to
+    // the best pair, or from the base model.
+    const double best = result_.fits[static_cast<std::size_t>(result_.first_by_effects())].log_evidence;
+    const double of_gap = share_not_linear * (best - none);
+    const double reach = i < n_around_singles ? std::min(of_gap, share_of_second * (best - single)) : of_gap;
+    if (order[i].log_evidence < best - std::max(screening_width, reach)) continue;
     report("fit of " + name_of(order[i].hypothesis, model_.effects()), 0.65 + 0.2 * static_cast<double>(i) / most_pairs);
     add(fit_of(order[i]));
   }
 }
 
 void Attributor::fit_in_rounds() {
-  for (int leader = -1; leader != result_.first();) {
-    leader = result_.first();
-    const Hypothesis found = result_.fits[static_cast<std::size_t>(leader)].hypothesis;
-    const auto n = static_cast<int>(found.effects.size());
-    if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
-    report("a further effect beside " + result_.names[static_cast<std::size_t>(leader)], 0.86);
-    const Fit around = result_.fits[static_cast<std::size_t>(leader)];
-    const Screening further(model_, fitter_, candidates_, around.at);
-    std::map<std::string, Screened> larger;
-    for (const int k : candidates_) {
-      if (std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further) continue;
-      Screened screened = further.screen(with(found, k));
-      if (screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted)
-        larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
-    }
-    const std::vector<Screened> order = best_first(std::move(larger));
-    for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));
-    if (result_.first() != leader) fit_without_each(result_.first(), found);
+  fit_in_rounds(-1);
+  const Hypothesis found = result_.fits[static_cast<std::size_t>(result_.first_by_effects())].hypothesis;
+  if (found.effects.size() < 2) return;
+  for (const int k : found.effects)
+    if (model_.effects()[k].is_mistake) fit_in_rounds(k);
+}
+
+void Attributor::fit_in_rounds(int without) {
+  for (int leader = -1; leader != result_.first_by_effects(without);) {
+    leader = result_.first_by_effects(without);
+    fit_round(leader, without);
+    if (without >= 0 || result_.first_by_effects() != leader) continue;
+    if (const int other = fit_exchange(leader); other >= 0) fit_round(other, without);
   }
+}
+
+void Attributor::fit_round(int found_so_far, int without) {
+  const Fit around = result_.fits[static_cast<std::size_t>(found_so_far)];
+  const Hypothesis& found = around.hypothesis;
+  const auto n = static_cast<int>(found.effects.size());
+  if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
+  report("a further effect beside " + result_.names[static_cast<std::size_t>(found_so_far)], 0.86);
+  const int leader = result_.first_by_effects(without);
+  const Screening further(model_, fitter_, candidates_, around.at);
+  std::map<std::string, Screened> larger;
+  for (const int k : candidates_) {
+    if (k == without || std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further)
+      continue;
+    Screened screened = further.screen(with(found, k));
+    if (screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted && !is_fitted(screened.hypothesis))
+      larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
+  }
+  const std::vector<Screened> order = best_first(std::move(larger));
+  for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));
+  if (const int next = result_.first_by_effects(without); next != leader) fit_without_each(next, found);
+}
+
+int Attributor::fit_exchange(int leader) {
+  const Fit all = result_.fits[static_cast<std::size_t>(leader)];
+  if (all.hypothesis.effects.size() < 2) return -1;
+  const auto by_rule = [&](const Hypothesis& hypothesis, double log_evidence) { return log_evidence + log_prior_of_verdict(hypothesis); };
+  double best = by_rule(all.hypothesis, all.log_evidence) - (nats_of_rule - gain_wanted);
+  std::optional<Screened> exchanged;
+  for (const int e : all.hypothesis.effects) {
+    const auto rest = std::find_if(result_.fits.begin(), result_.fits.end(), [&](const Fit& fit) {
+      Hypothesis one_more = fit.hypothesis;
+      if (one_more.effects.size() + 1 != all.hypothesis.effects.size()) return false;
+      return with(std::move(one_more), e).effects == all.hypothesis.effects;
+    });
+    if (rest == result_.fits.end() || !affordable(static_cast<int>(candidates_.size()))) continue;
+    const Screening others(model_, fitter_, candidates_, rest->at);
+    const double price = price_of_inputs(*rest);
+    for (const int k : candidates_) {
+      if (std::count(all.hypothesis.effects.begin(), all.hypothesis.effects.end(), k) > 0 || others.detectability(k) < least_of_further)
+        continue;
+      Screened screened = others.screen(with(rest->hypothesis, k));
+      if (const double reached = by_rule(screened.hypothesis, screened.log_evidence + price);
+          reached > best && !is_fitted(screened.hypothesis))
+        best = reached, exchanged = std::move(screened);
+    }
+  }
+  if (!exchanged || !affordable(runs_of(*exchanged))) return -1;
+  report("another effect in the place of one of " + result_.names[static_cast<std::size_t>(leader)], 0.86);
+  add(fit_of(*exchanged));
+  return static_cast<int>(result_.fits.size()) - 1;
+}
+
+bool Attributor::is_fitted(const Hypothesis& hypothesis) const {
+  return std::count(result_.names.begin(), result_.names.end(), name_of(hypothesis, model_.effects())) > 0;
 }
 
 void Attributor::fit_without_each(int larger, const Hypothesis& before) {
@@ -97,8 +154,7 @@ void Attributor::fit_without_each(int larger, const Hypothesis& before) {
       rest.theta[static_cast<Eigen::Index>(rest.hypothesis.effects.size())] = all.theta[static_cast<Eigen::Index>(e)];
       rest.hypothesis.effects.push_back(all.hypothesis.effects[e]), rest.forms.push_back(all.at.state.form(e));
     }
-    const std::string name = name_of(rest.hypothesis, model_.effects());
-    if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+    if (is_fitted(rest.hypothesis)) continue;
     if (!affordable(runs_of(rest))) return;
     add(fit_of(rest));
   }
@@ -146,10 +202,9 @@ void Attributor::fit_rivals_of_leader() {
     for (const int k : candidates_) {
       if (!look_alike(leader.effects[e], k) || std::count(leader.effects.begin(), leader.effects.end(), k) > 0) continue;
       const Screened rival = with_instead(leader, theta, e, k);
-      const std::string name = name_of(rival.hypothesis, model_.effects());
-      if (std::count(result_.names.begin(), result_.names.end(), name) > 0) continue;
+      if (is_fitted(rival.hypothesis)) continue;
       if (!affordable(runs_of(rival))) return;
-      report("fit of " + name, 0.85);
+      report("fit of " + name_of(rival.hypothesis, model_.effects()), 0.85);
       add(fit_of(rival));
     }
   }

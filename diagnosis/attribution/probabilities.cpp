@@ -16,6 +16,16 @@ namespace snag {
 
 int Attribution::first() const { return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin()); }
 
+int Attribution::first_by_effects(int without) const {
+  int best = 0;
+  const auto by_effects = [&](int i) { return weight[static_cast<std::size_t>(i)] - remainder[static_cast<std::size_t>(i)].gain; };
+  for (int i = 1; i < static_cast<int>(weight.size()); ++i) {
+    const auto& effects = fits[static_cast<std::size_t>(i)].hypothesis.effects;
+    if (std::count(effects.begin(), effects.end(), without) == 0 && by_effects(i) > by_effects(best)) best = i;
+  }
+  return best;
+}
+
 int Attribution::best_with_effect() const {
   int best = 0;
   for (int i = 1; i < static_cast<int>(weight.size()); ++i)
@@ -34,6 +44,8 @@ int Attribution::best_part_of(int fit, int without) const {
   }
   return best;
 }
+
+double Attribution::outside_leads_by() const { return discrepancy.log_evidence - log_evidence(first()); }
 
 double Attribution::log_evidence(int fit) const {
   const auto i = static_cast<std::size_t>(fit);

@@ -14,6 +14,8 @@ namespace snag {
 namespace {
 
 constexpr std::array amplitudes{0.01, 0.03, 0.1, 0.3};
+/// Of what no input can be, the effects explain more than the process does, or it is no remainder of theirs.
+constexpr double largest_share = 0.5;
 
 class RemainderFit {
  public:
@@ -36,8 +38,9 @@ class RemainderFit {
       }
     }
     result.log_evidence = log_sum_exp(gains) - std::log(static_cast<double>(gains.size()));
-    result.gain = log_sum_exp(std::array{0.0, result.log_evidence}) - std::numbers::ln2;
     find_shares(result, best_amplitude, best_shape);
+    const bool is_small = !(result.share > largest_share);
+    result.gain = (is_small ? log_sum_exp(std::array{0.0, result.log_evidence}) : 0) - std::numbers::ln2;
     return result;
   }
 

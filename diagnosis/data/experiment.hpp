@@ -62,7 +62,7 @@ struct Experiment {
   std::vector<Alternative> alternatives{};
   std::vector<Region> regions{};
   bool pairs = true;
-  int max_runs = 6000;
+  int max_runs = 20000;
   std::filesystem::path runs;  // table of runs that were made elsewhere or before; empty: none
   std::uint64_t seed = 1;
   std::string data_sha256, withheld_sha256;  // of all rows, of the rows of withheld points

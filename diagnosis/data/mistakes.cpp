@@ -41,22 +41,41 @@ Effect fixed_effect(const std::string& name, const std::string& parameter) {
           .is_mistake = true};
 }
 
-/// Of a path at another time: the cubic through the four nearest samples, beyond the ends the line through the last two.
-double at_time(const std::vector<std::pair<double, double>>& path, double t) {
-  const auto n = static_cast<int>(path.size());
-  if (n == 1) return path[0].second;
-  const auto next = std::lower_bound(path.begin(), path.end(), t, [](const auto& sample, double time) { return sample.first < time; });
-  const int after = std::clamp(static_cast<int>(next - path.begin()), 1, n - 1);
-  const bool beyond = t < path.front().first || t > path.back().first;
-  const int begin = beyond ? after - 1 : std::max(0, after - 2), end = beyond ? after + 1 : std::min(n, after + 2);
+struct Interpolated {
+  double value = 0, u = 0;
+};
+
+using Path = std::vector<std::pair<double, double>>;
+
+/// The polynomial through the samples [begin, end).
+double through(const Path& path, int begin, int end, double t) {
   double sum = 0;
   for (int i = begin; i < end; ++i) {
+    const auto at = static_cast<std::size_t>(i);
     double weight = 1;
-    for (int j = begin; j < end; ++j)
-      if (j != i) weight *= (t - path[j].first) / (path[i].first - path[j].first);
-    sum += weight * path[i].second;
+    for (int j = begin; j < end; ++j) {
+      const auto other = static_cast<std::size_t>(j);
+      if (j != i) weight *= (t - path[other].first) / (path[at].first - path[other].first);
+    }
+    sum += weight * path[at].second;
   }
   return sum;
+}
+
+/// Of a path at another time: the cubic through the four nearest samples, beyond the ends the line through the last two, which is as
+/// uncertain as the parabola through the last three is away from it.
+Interpolated at_time(const Path& path, double t) {
+  const auto n = static_cast<int>(path.size());
+  if (n == 1) return {path[0].second, 0};
+  if (t >= path.front().first && t <= path.back().first) {
+    const auto next = std::lower_bound(path.begin(), path.end(), t, [](const auto& sample, double time) { return sample.first < time; });
+    const int after = std::clamp(static_cast<int>(next - path.begin()), 1, n - 1);
+    return {through(path, std::max(0, after - 2), std::min(n, after + 2), t), 0};
+  }
+  const bool before = t < path.front().first;
+  const double line = before ? through(path, 0, 2, t) : through(path, n - 2, n, t);
+  const double parabola = before ? through(path, 0, std::min(n, 3), t) : through(path, std::max(0, n - 3), n, t);
+  return {line, std::abs(parabola - line)};
 }
 
 }  // namespace
@@ -219,21 +238,22 @@ std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::s
   return {};
 }
 
-void mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& slots, std::vector<double>& values) {
+std::vector<double> mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& slots, std::vector<double>& values) {
+  std::vector<double> u(values.size(), 0);
   const auto changes = [&](std::size_t s) {
     return std::count(mistake.observables.begin(), mistake.observables.end(), slots[s].observable) > 0;
   };
   if (mistake.kind == Mistake::Kind::sign || mistake.kind == Mistake::Kind::unit) {
     for (std::size_t s = 0; s < values.size(); ++s)
       if (changes(s)) values[s] *= mistake.kind == Mistake::Kind::sign ? -1 : mistake.factor;
-    return;
+    return u;
   }
   if (mistake.kind == Mistake::Kind::scale || mistake.kind == Mistake::Kind::offset) {
     for (std::size_t s = 0; s < values.size(); ++s)
       if (changes(s)) values[s] = mistake.kind == Mistake::Kind::scale ? (1 + theta) * values[s] : values[s] + theta * mistake.factor;
-    return;
+    return u;
   }
-  std::map<int, std::vector<std::pair<double, double>>> paths;  // by observable
+  std::map<int, Path> paths;  // by observable
   for (std::size_t s = 0; s < values.size(); ++s)
     if (changes(s) && !std::isnan(slots[s].time) && std::isfinite(values[s]))
       paths[slots[s].observable].emplace_back(slots[s].time, values[s]);
@@ -241,9 +261,11 @@ void mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& s
   for (std::size_t s = 0; s < values.size(); ++s) {
     const double t = slots[s].time;
     if (!changes(s) || std::isnan(t) || !std::isfinite(values[s])) continue;
-    values[s] = at_time(paths[slots[s].observable], mistake.kind == Mistake::Kind::clock ? t + theta : (1 + theta) * t);
-    if (std::count(mistake.rates.begin(), mistake.rates.end(), slots[s].observable) > 0) values[s] *= 1 + theta;
+    const Interpolated there = at_time(paths[slots[s].observable], mistake.kind == Mistake::Kind::clock ? t + theta : (1 + theta) * t);
+    const bool is_rate = std::count(mistake.rates.begin(), mistake.rates.end(), slots[s].observable) > 0;
+    values[s] = there.value * (is_rate ? 1 + theta : 1), u[s] = there.u * (is_rate ? 1 + theta : 1);
   }
+  return u;
 }
 
 }  // namespace snag

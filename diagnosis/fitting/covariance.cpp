@@ -94,6 +94,7 @@ Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& resp
   const Eigen::VectorXd e = numerical_error.head(g);
   C += e * e.transpose();
   C.diagonal() += (0.1 * e).cwiseAbs2();
+  if (response.beyond.size() > 0) C.diagonal() += response.beyond.head(g).cwiseAbs2();
   if (response.paths.cols() > 1) add_scatter(point, response, C);
   add_form_error(point, parts, form_error, C);
   // Row by row: rows have units of their own.

@@ -65,7 +65,7 @@ void Fitter::descend(Fit& fit, Eigen::VectorXd& x, int iterations) {
   for (int i = 0; i < iterations; ++i) {
     LinearModel& linear = fit.linear;
     linear.rho = residual(fit.at.responses, fit.whitening);
-    if (!as_promised) linear.J.leftCols(k) = effect_columns(fit.hypothesis, fit.at.state, fit.at.responses, fit.whitening);
+    if (!as_promised) linear.J.leftCols(k) = effect_columns(fit.hypothesis, fit.at, fit.whitening);
     linear.prior = -x;
     for (int e = 0; e < k; ++e) {
       const Effect& effect = model_.effects()[fit.hypothesis.effects[e]];
@@ -83,7 +83,7 @@ void Fitter::descend(Fit& fit, Eigen::VectorXd& x, int iterations) {
       if (promised < converged * coarseness(value, linear.rho.size())) return;
       const Eigen::VectorXd moved = x + step.d;
       const State state = state_of(fit, moved);
-      auto responses = model_.run(state, model_.training());
+      auto responses = run_near(fit.at, state);
       const double reached = objective(fit, moved, responses);
       // Where nothing runs there is no fit, however far off the state before was.
       const bool runs = std::none_of(responses.begin(), responses.end(), [](const Response& r) { return !r.failure.empty(); });
@@ -121,7 +121,7 @@ void Fitter::linearize_at_fit(Fit& fit, const Eigen::VectorXd& x, double form_er
   fit.whitening = whiten(fit.at, fit.form_error);
   fit.linear.rho = residual(fit.at.responses, fit.whitening);
   fit.linear.J.resize(fit.first_row.back(), x.size());
-  fit.linear.J.leftCols(k) = effect_columns(fit.hypothesis, fit.at.state, fit.at.responses, fit.whitening);
+  fit.linear.J.leftCols(k) = effect_columns(fit.hypothesis, fit.at, fit.whitening);
   fit.linear.J.middleCols(k, m) = nuisance_columns(fit.at, fit.whitening);
   fit.linear.J.rightCols(x.size() - k - m) = share_columns(fit.at, fit.whitening);
   fit.linear.prior = -x;
@@ -166,8 +166,15 @@ Fit Fitter::fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& 
     fit.linear.J.resize(fit.first_row.back(), x.size());
     fit.linear.J.middleCols(k, m) = nuisance_columns(turn == 0 ? base_ : fit.at, fit.whitening);
     fit.linear.J.rightCols(s) = share_columns(fit.at, fit.whitening);
+    const Linearization at = fit.at;
+    const Eigen::VectorXd from = x;
     descend(fit, x, steps);
+    if (fit.at.state.shares.size() > 0) fit.at.responses = model_.run(fit.at.state, model_.training());
     const double reached = objective(fit, x, fit.at.responses);
+    if (reached > before) {  // what the shares add had changed too much on the way
+      fit.at = at, x = from;
+      break;
+    }
     if (turn > 0 && before - reached < gain * coarseness(reached, fit.first_row.back())) break;
     // What is off by more than four times the expected chi2 and does not come near fast will not come near.
     if (turn > 0 && reached > 2 * fit.first_row.back() && reached > 0.5 * before) break;

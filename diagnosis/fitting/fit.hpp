@@ -33,6 +33,7 @@ struct Linearization {
   std::vector<std::vector<Response>> by_nuisance;   // [nuisance][training point] after half a standard uncertainty; empty: not there
   std::vector<std::vector<Response>> by_share;      // [other form][training point] with half more of it
   std::vector<Response> origin;                     // responses that these two depart from
+  std::vector<double> origin_theta;                 // strengths of the effects there
   std::vector<std::vector<Eigen::VectorXd>> parts;  // [effect of the hypothesis][training point]: what it adds to f
 };
 
@@ -93,8 +94,11 @@ class Fitter {
   State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
   Linearization start_from_base(const State& state);
   void add_shares(Linearization& at);
-  Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
-                                 const Whitening& whitening);
+  /// States near a linearization: the leading forms are run, what the shares of the others add is taken from it, in proportion to the
+  /// strength. Saves a run a form.
+  std::vector<Response> run_near(const Linearization& at, const std::vector<Responses::Request>& requests);
+  std::vector<Response> run_near(const Linearization& at, const State& state);
+  Eigen::MatrixXd effect_columns(const Hypothesis& hypothesis, const Linearization& at, const Whitening& whitening);
   void descend(Fit& fit, Eigen::VectorXd& x, int iterations);
   void linearize_at_fit(Fit& fit, const Eigen::VectorXd& x, double form_error);
   double objective(const Fit& fit, const Eigen::VectorXd& x, const std::vector<Response>& responses) const;

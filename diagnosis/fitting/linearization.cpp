@@ -51,6 +51,7 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
 }
 
 void Fitter::add_shares(Linearization& at) {
+  for (const auto& [k, theta] : at.state.effects) at.origin_theta.push_back(theta);
   const auto others = other_forms(at.state, model_.effects());
   std::vector<Responses::Request> requests;
   for (std::size_t s = 0; s < others.size(); ++s) {
@@ -105,8 +106,33 @@ Eigen::MatrixXd Fitter::columns(const Linearization& at, const std::vector<std::
   return J;
 }
 
-Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const State& state, const std::vector<Response>& responses,
-                                       const Whitening& whitening) {
+std::vector<Response> Fitter::run_near(const Linearization& at, const std::vector<Responses::Request>& requests) {
+  std::vector<Responses::Request> leading = requests;
+  for (Responses::Request& request : leading) request.state = lead_of(request.state);
+  std::vector<Response> responses = model_.run(leading);
+  const auto& training = model_.training();
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const State& state = requests[i].state;
+    const auto p = static_cast<std::size_t>(std::find(training.begin(), training.end(), requests[i].point) - training.begin());
+    const auto others = other_forms(state, model_.effects());
+    for (Eigen::Index s = 0; s < state.shares.size(); ++s) {
+      const std::size_t e = others[static_cast<std::size_t>(s)].effect;
+      const double strength = at.origin_theta[e] != 0 ? state.effects[e].second / at.origin_theta[e] : 1;
+      model_.add_share(responses[i], at.origin[p], at.by_share[static_cast<std::size_t>(s)][p], strength * state.shares[s] / nuisance_step,
+                       requests[i].point);
+    }
+  }
+  return responses;
+}
+
+std::vector<Response> Fitter::run_near(const Linearization& at, const State& state) {
+  std::vector<Responses::Request> requests;
+  for (const int p : model_.training()) requests.push_back({state, p});
+  return run_near(at, requests);
+}
+
+Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const Linearization& at, const Whitening& whitening) {
+  const State& state = at.state;
   const auto& training = model_.training();
   // Where runs are random their difference needs a step that stands out.
   const double size = model_.base_is_random() ? 0.5 : 0.1;
@@ -124,8 +150,8 @@ Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const State
     steps.push_back((moved.effects[e].second - state.effects[e].second) / effect.sd);
     for (const int p : training) requests.push_back({moved, p});
   }
-  const auto moved = model_.run(requests);
-  const Eigen::VectorXd rho = residual(responses, whitening);
+  const auto moved = run_near(at, requests);
+  const Eigen::VectorXd rho = residual(at.responses, whitening);
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rho.size(), static_cast<Eigen::Index>(steps.size()));
   auto next = moved.begin();
   for (std::size_t e = 0; e < steps.size(); ++e) {

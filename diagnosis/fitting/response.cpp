@@ -120,14 +120,20 @@ const Mistake* Responses::mistake(int effect) const {
 }
 
 // What the data would say of these runs if the mistakes of the state were made.
-void Responses::mismeasure(const State& state, int point, std::span<RunResult> results) const {
+std::vector<double> Responses::mismeasure(const State& state, int point, std::span<RunResult> results) const {
+  std::vector<double> largest;
   for (const auto& [k, theta] : state.effects) {
     const Mistake* made = mistake(k);
     if (made == nullptr || made->kind == Mistake::Kind::input || theta == 0) continue;
     if (!made->points.empty() && std::count(made->points.begin(), made->points.end(), point) == 0) continue;
-    for (RunResult& result : results)
-      if (result.failure.empty()) snag::mismeasure(*made, theta, simulator_.slots(point), result.values);
+    for (RunResult& result : results) {
+      if (!result.failure.empty()) continue;
+      const std::vector<double> u = snag::mismeasure(*made, theta, simulator_.slots(point), result.values);
+      largest.resize(u.size(), 0);
+      for (std::size_t s = 0; s < u.size(); ++s) largest[s] = std::max(largest[s], u[s]);
+    }
   }
+  return largest;
 }
 
 bool Responses::acts_at(int nuisance, int point) const {
@@ -207,10 +213,11 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
   return runs;
 }
 
-Response Responses::response(const Request& request, std::span<const RunResult> results) const {
+Response Responses::response(const Request& request, std::span<const RunResult> results, const std::vector<double>& u) const {
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
-  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n), {}, n_seeds, "", std::vector<bool>(n, false)};
+  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),   {}, n_seeds, "",
+                    Eigen::VectorXd::Zero(n), std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
@@ -235,6 +242,12 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
     }
     response.value[i] = row.kind == Row::Kind::spread ? variance_between(row, observable, results) : mean;
     response.scatter[i] = counted > 1 ? square / (counted - 1) : 0;
+    for (std::size_t k = 0; k < row.slots.size() && !u.empty(); ++k) {
+      const auto slot = static_cast<std::size_t>(row.slots[k]);
+      if (u[slot] == 0) continue;
+      response.beyond[i] +=
+          row.weights[k] * u[slot] / (observable.kind == Observable::Kind::lognormal ? std::abs(results[0].values[slot]) : 1);
+    }
   }
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     if (nuisances_[j].bias_observable < 0) continue;
@@ -290,8 +303,8 @@ std::vector<Response> Responses::run(const std::vector<Request>& requests) {
     std::vector<Response> of_parts;
     for (const Part& part : all) {
       const std::size_t n = static_cast<std::size_t>(seeds_of(part.request));
-      mismeasure(part.request.state, part.request.point, std::span(results).subspan(begin, n));
-      of_parts.push_back(response(part.request, std::span(results).subspan(begin, n)));
+      const std::vector<double> u = mismeasure(part.request.state, part.request.point, std::span(results).subspan(begin, n));
+      of_parts.push_back(response(part.request, std::span(results).subspan(begin, n), u));
       begin += n;
     }
     responses.push_back(of_parts.front());

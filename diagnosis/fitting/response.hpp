@@ -39,6 +39,7 @@ struct Response {
   Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
   int n_runs = 1;
   std::string failure;      // why none of its runs came through; empty: one did
+  Eigen::VectorXd beyond;   // by row: standard uncertainty, where a mistake of times asks for what the runs do not reach (mistakes.hpp)
   std::vector<bool> later;  // by row: no run came to this time before it ended; `value` is the end
 };
 
@@ -101,6 +102,9 @@ class Responses {
   /// The same state at several points.
   std::vector<Response> run(const State& state, const std::vector<int>& points, double step_factor = 1);
 
+  /// Adds a share of the difference between two responses of a point, within what a row can be.
+  void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
+
  private:
   int seeds_of(const Request& request) const { return request.n_seeds > 0 ? request.n_seeds : n_seeds(request.state); }
   std::vector<RunRequest> requests_of(const Request& request) const;
@@ -109,14 +113,14 @@ class Responses {
     double share = 0;
   };
   std::vector<Part> parts_of(const Request& request) const;
-  void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
-  Response response(const Request& request, std::span<const RunResult> results) const;
+  Response response(const Request& request, std::span<const RunResult> results, const std::vector<double>& u) const;
   void find_randomness();
   void note_rows_left_out(std::size_t point, const Response& answer);
   void leave_out_rows_without_answer(const std::vector<Response>& answers);
   void find_mistakes(const std::vector<Response>& answers);
   const Mistake* mistake(int effect) const;
-  void mismeasure(const State& state, int point, std::span<RunResult> results) const;
+  /// Returns the largest uncertainty of the values, by slot; empty: there is none.
+  std::vector<double> mismeasure(const State& state, int point, std::span<RunResult> results) const;
 
   const Experiment& experiment_;
   Simulator& simulator_;

@@ -113,7 +113,7 @@ class Judge {
     }
     v_.log_evidence["outside"] = a_.discrepancy.log_evidence - a_.fits[0].log_evidence;
     const int first = a_.first();
-    discrepancy_leads_by_ = a_.discrepancy_weight - a_.weight[first];
+    discrepancy_leads_by_ = a_.outside_leads_by();
     v_.checks = predictive_checks(model_, a_.fits[first], model_.experiment().seed);
     if (discrepancy_leads_by_ > nats_of_rule)
       discrepancy();
@@ -272,10 +272,17 @@ class Judge {
     return hold;
   }
 
+  // An input that is far off is a finding, too, whether or not it is named for the gap.
   void note_inputs(const Fit& fit) {
+    constexpr double far = 3;
     const Eigen::VectorXd fitted = fit.solution.d - fit.linear.prior;
-    for (std::size_t j = 0; j < model_.nuisances().size(); ++j)
-      v_.nuisances[model_.name_of_nuisance(static_cast<int>(j))] = fitted[fit.linear.lower.size() + static_cast<Eigen::Index>(j)];
+    for (std::size_t j = 0; j < model_.nuisances().size(); ++j) {
+      const std::string name = model_.name_of_nuisance(static_cast<int>(j));
+      const double off = v_.nuisances[name] = fitted[fit.linear.lower.size() + static_cast<Eigen::Index>(j)];
+      if (std::abs(off) > far)
+        v_.notes.push_back("With " + name_of(fit.hypothesis, model_.effects()) + ", " + name + " is fitted " + rounded(std::abs(off)) +
+                           " of its standard uncertainties " + (off > 0 ? "above" : "below") + " what is stated: check it.");
+    }
   }
 
   void note_parameters(int fit) {

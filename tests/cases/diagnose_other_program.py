@@ -1,5 +1,5 @@
 # timeout: 900
-# cost: 40
+# cost: 60
 """Requirement: the programs of tests/other_programs are right themselves, and sets of theirs are diagnosed as what was put into them.
 
 The programs share nothing with Snag but the format of the data; diagnose_other_program_long.py makes their whole card.
@@ -178,8 +178,8 @@ class WrittenData(harness.CaseTest):
 
 class OtherProgram(harness.CaseTest):
     def test_spheres(self):
-        """A pair of effects and a force of no library."""
-        for kind, number in (("pair", 0), ("outside", 0)):
+        """A pair of effects, three of them, and a force of no library."""
+        for kind, number in (("pair", 0), ("several", 2), ("outside", 0)):
             with self.subTest(kind):
                 row, truth, verdict = card.run_set(sphere, kind, number, 1, self.work)
                 print(row, verdict["parameters"], flush=True)

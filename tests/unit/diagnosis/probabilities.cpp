@@ -52,6 +52,29 @@ TEST(Probabilities, WeighEvidence) {
   EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
 }
 
+/// Requirement: further effects are looked for beside what explains most by itself, not beside a wrong effect with a large remainder.
+TEST(Probabilities, RemainderDoesNotLeadTheSearch) {
+  Attribution attribution = with_evidence(0, 10, 90, 100, 0);
+  for (const Fit& fit : attribution.fits) attribution.weight.push_back(fit.log_evidence);
+  attribution.remainder[1].gain = 200, attribution.weight[1] += 200;
+  EXPECT_EQ(attribution.first(), 1);
+  EXPECT_EQ(attribution.first_by_effects(), 3);
+  attribution.fits[1].hypothesis.effects = {0}, attribution.fits[2].hypothesis.effects = {1},
+  attribution.fits[3].hypothesis.effects = {0, 1};
+  EXPECT_EQ(attribution.first_by_effects(0), 2);
+  EXPECT_EQ(attribution.first_by_effects(1), 1);
+}
+
+/// Requirement: the process alone is weighed against the evidence of the leading set of effects; the price of a further effect is a matter
+/// among sets of effects.
+TEST(Probabilities, OutsideLeadsByEvidence) {
+  Attribution attribution = with_evidence(0, 80, 2, 100, 104);
+  attribution.weight = {0, 80, 2, 94};  // a further effect costs 6
+  EXPECT_NEAR(attribution.outside_leads_by(), 4, 1e-12);
+  attribution.remainder[3].gain = 3, attribution.weight[3] += 3;
+  EXPECT_NEAR(attribution.outside_leads_by(), 1, 1e-12);
+}
+
 /// Requirement: an effect acts in every hypothesis that holds it; one whose name is part of another's does not.
 TEST(Probabilities, ThatAnEffectActs) {
   Attribution attribution;

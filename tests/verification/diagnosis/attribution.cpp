@@ -162,6 +162,11 @@ TEST(Attribution, OutsideOfTheLibrary) {
   EXPECT_LE(attributed, 3);
 }
 
+// A gust is in no library either. A process as large as the gust, beside a wrong effect that takes the rest, is no remainder.
+TEST(Attribution, OutsideIsNoEffectWithALargeRemainder) {
+  for (const double gust : {1.0, 5.0}) EXPECT_EQ(formula::said(judged({.gust = gust}, 9001)), "outside") << gust;
+}
+
 // Two effects that move a particle in the same way are a tie, never one of them; the tie is told before any data as well.
 TEST(Attribution, IndistinguishableEffectsTie) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 4, 0, 3, noise, 11);
