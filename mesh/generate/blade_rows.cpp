@@ -197,7 +197,10 @@ Row row_of(const std::vector<Plane>& outline, int count, const std::vector<Piece
     }
     const auto curve = [&](const std::vector<int>& points, const Piece& piece) {
       std::vector<int> part{points[piece.from]};
-      for (std::size_t j = piece.from; j != piece.to;) part.push_back(points[j = (j + 1) % n]);
+      for (std::size_t j = piece.from; j != piece.to;) {
+        j = j + 1 < n ? j + 1 : 0;
+        part.push_back(points[j]);
+      }
       const int tag = part.size() > 2 ? geo::addSpline(part) : geo::addLine(part[0], part[1]);
       geo::mesh::setTransfiniteCurve(tag, piece.grading.cells + 1, "Progression", piece.grading.ratio);
       return tag;
