@@ -1,6 +1,9 @@
 // Outlet with a given static pressure, or with a given flow:
 //
-//   p = p_out,   du/dn = 0;      where fluid enters instead, it comes along the normal:   u = (flux/|S|) n
+//   p = p_out,   du/dn = 0
+//
+// Where fluid enters instead, it comes along the normal, u = (flux/|S|) n, and from rest: p_out is its total pressure there
+// (solver/boundaries/entering_head.hpp).
 //
 // p_out is as the case gives it, or with a target of the flow the level that leads there (solver/boundaries/flow_target.hpp).
 #include <algorithm>
@@ -11,6 +14,7 @@
 #include "base/words.hpp"
 #include "parallel/sum.hpp"
 #include "solver/boundaries/boundary.hpp"
+#include "solver/boundaries/entering_head.hpp"
 #include "solver/boundaries/flow_target.hpp"
 #include "solver/boundaries/time_course.hpp"
 #include "solver/boundaries/water_column.hpp"
@@ -27,11 +31,14 @@ struct PressureOutlet final : Boundary {
   std::optional<double> target_flow_rate, response_time;
   TimeCourse course;
   std::optional<FlowTarget> control;
+  EnteringHead head;
 
   Section section() override {
     Section section{
         .name = name,
-        .meaning = "Static pressure; fluid leaves with zero normal gradient and enters along the normal.",
+        .meaning =
+            "Static pressure; fluid leaves with zero normal gradient. Where it enters it comes along the normal and from rest, with this "
+            "pressure as its total pressure.",
         .parameters = {
             {"pressure", &pressure, "Pa", -infinity, infinity, Basis::assumed,
              "Static pressure, relative; with target_flow_rate the initial level, unless the initial field has a pressure."},
@@ -61,6 +68,7 @@ struct PressureOutlet final : Boundary {
   }
 
   void respond(const Flow& flow, const Patch& patch, double time) override {
+    head.begin_step(flow, patch, time, level(flow.time));
     if (!control) return;
     const double dt = time - flow.time;
     if (!(dt > 0)) {
@@ -79,8 +87,7 @@ struct PressureOutlet final : Boundary {
   }
 
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
-    const double level = control ? control->level() : pressure * course.at(time);
-    for (int f = patch.first; f < patch.end(); ++f) values.pressure[f - flow.mesh.n_interior] = level;
+    for (int f = patch.first; f < patch.end(); ++f) values.pressure[f - flow.mesh.n_interior] = level(time) - head.at(flow, f);
   }
 
   std::vector<double> state() const override { return control ? control->state() : std::vector<double>{}; }
@@ -89,6 +96,9 @@ struct PressureOutlet final : Boundary {
   }
 
  private:
+  /// p_out at a time; with a target that of the controller's last step.
+  double level(double time) const { return control ? control->level() : pressure * course.at(time); }
+
   static double through(const Flow& flow, const Patch& patch, const std::vector<double>& flux) {
     return sum(flow.mesh.comm, std::span(flux).subspan(static_cast<std::size_t>(patch.first), static_cast<std::size_t>(patch.count)));
   }
