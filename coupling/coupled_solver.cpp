@@ -50,6 +50,7 @@ void CoupledSolver::step(double dt) {
   timed(seconds_.coupling, [&] { spread(dt); });  // particles -> fluid, conservative: solid fraction, reaction
   timed(seconds_.flow, [&] { advance_flow_(dt); });
   timed(seconds_.coupling, [&] {
+    if (coupling_.settings.two_way()) load_->set_missed_rates(rags_.tiles(), kernel_field_->missed_rates(impulses_));
     if (flow_->mesh.turning.zone >= 0) mesh_moved();
     prediction_->end_step();
     write_report(dt);
@@ -60,8 +61,9 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
   require_turbulence(coupling_.forces, flow);
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
-  kernel_ = std::make_unique<Kernel>(*coupling_.shape, coupling_.kernel_width(rags.rags()), flow.mesh);
-  prediction_ = std::make_unique<WaterPrediction>(flow);
+  const double width = coupling_.kernel_width(rags.rags());
+  kernel_ = std::make_unique<Kernel>(*coupling_.shape, width, flow.mesh);
+  prediction_ = std::make_unique<WaterPrediction>(flow, coupling_.shape->has_width() ? width : 0);
   kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), *prediction_, coupling_.settings.two_way());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
   exchange_ = std::make_unique<Exchange>(*kernel_, flow);

@@ -16,6 +16,8 @@ class FluidField {
   /// Fluid at the particles of tile `index`, `elapsed` seconds into the step, without the answer to their forces in this step. Valid until
   /// the next call.
   virtual FluidSamples at(std::size_t index, const Tile& tile, double elapsed) = 0;
+  /// True if the fluid answers to the forces on the particles.
+  virtual bool answers() const { return false; }
 };
 
 }  // namespace snag

@@ -54,6 +54,7 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
   if (needs_impulse_) n_particle_state_ += 3;
   drag_begin_ = n_particle_state_;
   if (needs_drag_) n_particle_state_ += 1;
+  if (field.answers()) missed_rate_begin_ = n_particle_state_, n_particle_state_ += 3;
 }
 
 void FluidLoad::set_walls(const WallSet& walls) {
@@ -68,6 +69,12 @@ void FluidLoad::begin_step(std::span<const Tile> tiles, double time) {
   scratch_size_ = 0;
   for (const Tile& tile : tiles) scratch_size_ = std::max(scratch_size_, tile.exists.size());
   scratch_.assign(n_arrays * scratch_size_, 0.0);
+}
+
+void FluidLoad::set_missed_rates(std::span<Tile> tiles, std::span<const Vec3> rates) {
+  const ParticleList particles(tiles);
+  for (std::size_t b = 0; b < particles.size(); ++b)
+    for (int i = 0; i < 3; ++i) state(tiles[particles.tile(b)], missed_rate_begin_ + i)[particles.place(b)] = rates[b][i];
 }
 
 void FluidLoad::add(std::size_t index, Tile& tile, double step) {
@@ -139,7 +146,7 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   silent.force = vector(one_way_force);
   // The middle of the sub-step is where the integrator evaluates forces.
   FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
-  if (fluid.velocity_rate.x) follow(fluid, index, particles);
+  if (fluid.velocity_rate.x) follow(fluid, index, tile, particles);
   if (changes_fluid_) {
     if (fluid.velocity.x != array(seen_velocity))
       for (int i = 0; i < 3; ++i) {
@@ -189,20 +196,21 @@ void FluidLoad::keep_drag(Tile& tile, const FluidSamples& fluid, const Particles
   }
 }
 
-/// The water on the way of the particles, at the start of the sub-step, where their velocities are: u + r t + G (x - x_0) - d J, its rate r
-/// + G v without the answer, and Du/Dt there.
-void FluidLoad::follow(FluidSamples& fluid, std::size_t index, const Particles& particles) {
+/// The water on the way of the particles, at the start of the sub-step, where their velocities are: u + (c + e) t + G (x - x_0) - d J, its
+/// rate c + e + G v without the answer, and Du/Dt there.
+void FluidLoad::follow(FluidSamples& fluid, std::size_t index, Tile& tile, const Particles& particles) {
   const auto component = [](const VectorArray& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
   const double elapsed = elapsed_[index], *d = fluid.response ? fluid.response : array(zero);
   const VectorArray x = particles.position, x_0 = fluid.start, v = particles.velocity;
   for (int i = 0; i < 3; ++i) {
-    const double *u = component(fluid.velocity, i), *r = component(fluid.velocity_rate, i), *J = sums_.field(index, impulse_x + i);
+    const double *u = component(fluid.velocity, i), *c = component(fluid.velocity_rate, i), *J = sums_.field(index, impulse_x + i);
+    const double* e = missed_rate_begin_ < 0 ? array(zero) : state(tile, missed_rate_begin_ + i);
     const VectorArray G = fluid.velocity_gradient[i];
     double *seen = array(seen_velocity + i), *rate = array(rate_on_way + i);
 #pragma omp simd
     for (int k = particles.begin; k < particles.end; ++k) {
-      seen[k] = u[k] + elapsed * r[k] + dot(G[k], x[k] - x_0[k]) - d[k] * J[k];
-      rate[k] = r[k] + dot(G[k], v[k]);
+      seen[k] = u[k] + elapsed * (c[k] + e[k]) + dot(G[k], x[k] - x_0[k]) - d[k] * J[k];
+      rate[k] = c[k] + e[k] + dot(G[k], v[k]);
     }
   }
   const auto vector = [&](int f) { return VectorArray{array(f), array(f + 1), array(f + 2)}; };

@@ -37,6 +37,8 @@ class FluidLoad final : public TileForce {
   const SampleSet& needed() const { return needed_; }
   /// Samples the fluid at `time` (s) and sets all sums to zero. Collective.
   void begin_step(std::span<const Tile> tiles, double time);
+  /// After a step of a fluid that answers: what its answer in the next one is predicted with (KernelField::missed_rates), m/s2.
+  void set_missed_rates(std::span<Tile> tiles, std::span<const Vec3> rates);
   /// Numbers that the forces keep for each particle (Tile::particle_state).
   int n_particle_state() const { return n_particle_state_; }
   void add(std::size_t index, Tile& tile, double step) override;
@@ -55,7 +57,7 @@ class FluidLoad final : public TileForce {
 
  private:
   FluidSamples evaluate(std::size_t index, Tile& tile, double step);
-  void follow(FluidSamples& fluid, std::size_t index, const Particles& particles);
+  void follow(FluidSamples& fluid, std::size_t index, Tile& tile, const Particles& particles);
   void add_torque(Tile& tile, double step);
   void keep_drag(Tile& tile, const FluidSamples& fluid, const Particles& particles);
   double* state(Tile& tile, int i) const { return tile.particle_state.data() + i * tile.exists.size(); }
@@ -75,7 +77,7 @@ class FluidLoad final : public TileForce {
   SampleSet needed_;
   bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false, screen_ = false;  // what the forces give
   bool needs_impulse_ = false, needs_drag_ = false;
-  int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0;
+  int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0, missed_rate_begin_ = -1;
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s

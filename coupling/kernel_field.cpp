@@ -19,7 +19,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     fields.push_back({static_cast<const double*>(values), components});
     for (int j = 0; j < components; ++j) field_of_component.push_back(first + j);
   };
-  add(flow_.velocity.data(), 3, velocity);
+  add(prediction_.velocity().data(), 3, velocity);
   add(flow_.velocity_gradient.data(), 9, gradient);
   add(prediction_.change().data(), 3, change);
   const CellSource source{flow_, kernel_, rags_, prediction_, two_way_, particles_, tiles};
@@ -49,6 +49,12 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     if (two_way_) arrays_.field(t, sampled::response)[k] = answers[b];
   }
   if (needed.coverage) find_edge_distances(flow_.mesh.comm, rags_, tiles, arrays_, coverage, edge_distance);
+}
+
+std::vector<Vec3> KernelField::missed_rates(std::span<const Vec3> impulse) const {
+  std::vector<double> response(particles_.size());
+  for (std::size_t b = 0; b < response.size(); ++b) response[b] = this->response(b);
+  return prediction_.missed_rates(kernel_, response, impulse);
 }
 
 FluidSamples KernelField::at(std::size_t index, const Tile&, double) {

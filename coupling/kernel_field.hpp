@@ -16,6 +16,10 @@ class KernelField final : public FluidField {
       : flow_(flow), kernel_(kernel), rags_(rags), prediction_(prediction), two_way_(two_way) {}
   void sample(std::span<const Tile> tiles, const SampleSet& needed) override;
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
+  bool answers() const override { return two_way_; }
+  /// After a step of the flow: by how much the prediction missed its answers (WaterPrediction::missed_rates), in the order of particles().
+  /// `impulse`: of the particles in that step, N s. Two-way; collective.
+  std::vector<Vec3> missed_rates(std::span<const Vec3> impulse) const;
   /// The particles of the last sample(), in the order of the kernel.
   const ParticleList& particles() const { return particles_; }
   /// Their places then, m.

@@ -1,8 +1,29 @@
 #include "coupling/water_prediction.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
+
+namespace {
+std::vector<Vec3> read_vectors(CheckpointReader& reader, const std::string& name, std::span<const std::int64_t> ids) {
+  const std::vector<double> rows = reader.rows(name, ids, 3);
+  std::vector<Vec3> vectors(rows.size() / 3);
+  for (std::size_t c = 0; c < vectors.size(); ++c) vectors[c] = {rows[3 * c], rows[3 * c + 1], rows[3 * c + 2]};
+  return vectors;
+}
+
+std::span<const double> numbers(const std::vector<Vec3>& vectors) {
+  return {vectors.empty() ? nullptr : &vectors[0].x, 3 * vectors.size()};
+}
+}  // namespace
+
+WaterPrediction::WaterPrediction(const Flow& flow, double kernel_width) : flow_(flow) {
+  for (int c = 0; c < flow.mesh.n_cells; ++c)
+    resolved_.push_back(std::clamp(4 * kernel_width / std::cbrt(flow.mesh.cell_volume[c]) - 2, 0.0, 1.0));
+}
 
 void WaterPrediction::begin_step(double dt) {
   scheme_ = bdf(dt, flow_.time_step_size);
@@ -11,6 +32,7 @@ void WaterPrediction::begin_step(double dt) {
   const Vec3 omega = zone ? zone->rotation_speed(flow_.time) : Vec3{};
   const Mat3 R = zone && zone->slides() ? rotation(zone->axis(), zone->angle(flow_.time + dt) - zone->angle(flow_.time)) : Mat3{};
   const bool slides = zone && zone->slides();
+  if (!known_) velocity_.assign(flow_.velocity.begin(), flow_.velocity.begin() + mesh.n_cells);
   change_.resize(mesh.n_cells), acceleration_.resize(mesh.n_cells);
   for (int c = 0; c < mesh.n_cells; ++c) {
     const bool turns = zone && mesh.cell_zone[c] == zone->zone();
@@ -43,6 +65,27 @@ void WaterPrediction::end_step() {
     const Vec3 difference = scheme_.now * flow_.velocity[c] + scheme_.old * flow_.velocity_old[c] + scheme_.older * flow_.velocity_older[c];
     rate_[c] = (1 / scheme_.dt) * difference - (1 / flow_.density) * flow_.reaction[c];
   }
+  take_velocity();
+}
+
+/// While the facets of the sliding interface are those that the fluxes belong to.
+void WaterPrediction::take_velocity() {
+  const Mesh& mesh = flow_.mesh;
+  std::vector<Vec3> moments(mesh.n_cells);
+  const auto add = [&](int c, int f, double sign) {
+    if (c >= mesh.n_cells || resolved_[c] == 0) return;
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[c];
+    moments[c] += sign * (flow_.flux[f] - dot(flow_.velocity_gradient[c] * way, mesh.face_vector[f])) * way;
+  };
+  for (int f = 0; f < mesh.n_faces; ++f) {
+    add(mesh.owner[f], f, 1);
+    if (f < mesh.n_interior) add(mesh.neighbour[f], f, -1);
+  }
+  velocity_.resize(mesh.n_cells);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const Vec3& u = flow_.velocity[c];
+    velocity_[c] = u + resolved_[c] * ((1 / mesh.cell_volume[c]) * moments[c] - u);
+  }
 }
 
 std::vector<double> WaterPrediction::response(const Kernel& kernel) const {
@@ -54,16 +97,37 @@ std::vector<double> WaterPrediction::response(const Kernel& kernel) const {
   return at_particles;
 }
 
+std::vector<Vec3> WaterPrediction::missed_rates(const Kernel& kernel, std::span<const double> response,
+                                                std::span<const Vec3> impulse) const {
+  const std::vector<Vec3> reaction = kernel.average(std::span<const Vec3>(flow_.reaction));
+  std::vector<double> missed(4 * impulse.size());  // m, 1
+  for (std::size_t b = 0; b < impulse.size(); ++b) {
+    const Vec3 m = (response[b] / scheme_.dt) * impulse[b] + (1 / (scheme_.now * flow_.density)) * reaction[b];
+    for (int i = 0; i < 3; ++i) missed[4 * b + i] = m[i];
+    missed[4 * b + 3] = 1;
+  }
+  std::vector<double> spread(4 * resolved_.size());
+  kernel.spread(missed, 4, spread);
+  for (std::size_t c = 0; c < resolved_.size(); ++c)
+    for (int i = 0; i < 3; ++i) spread[4 * c + i] *= resolved_[c];
+  const CellField field{spread.data(), 4};
+  const std::vector<double> sums = kernel.average(std::span(&field, 1));
+  std::vector<Vec3> rates(impulse.size());
+  for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = (1 / sums[4 * b + 3]) * Vec3{sums[4 * b], sums[4 * b + 1], sums[4 * b + 2]};
+  return rates;
+}
+
 void WaterPrediction::save(CheckpointWriter& writer) const {
-  if (known_) writer.rows("coupling/rate", owned_ids(), std::span(rate_.empty() ? nullptr : &rate_[0].x, 3 * rate_.size()), 3);
+  if (!known_) return;
+  writer.rows("coupling/rate", owned_ids(), numbers(rate_), 3);
+  writer.rows("coupling/velocity", owned_ids(), numbers(velocity_), 3);
 }
 
 void WaterPrediction::load(CheckpointReader& reader) {
   known_ = reader.has("coupling/rate");
   if (!known_) return;
-  const std::vector<double> rows = reader.rows("coupling/rate", owned_ids(), 3);
-  rate_.resize(rows.size() / 3);
-  for (std::size_t c = 0; c < rate_.size(); ++c) rate_[c] = {rows[3 * c], rows[3 * c + 1], rows[3 * c + 2]};
+  rate_ = read_vectors(reader, "coupling/rate", owned_ids());
+  velocity_ = read_vectors(reader, "coupling/velocity", owned_ids());
 }
 
 std::span<const std::int64_t> WaterPrediction::owned_ids() const {

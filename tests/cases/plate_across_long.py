@@ -3,6 +3,7 @@
 # cost: 3200
 """Requirement: plate_across.py for more kernels, widths, meshes, steps, particles and loss coefficients, over 30 times the plate's side over the speed."""
 import harness
+import numpy
 import plate_across
 
 
@@ -31,7 +32,15 @@ class PlateAcrossLong(plate_across.SheetInAStream):
             self.compare(f"K 1000, kernel {1e3 * delta:g} mm, cells of 6.25 mm, 0.5 to 2 s", self.mean(self.sheet_drag(1000, delta, 2, 0.004, 0.00625), 0.5, 2), rigid, 0.10)
 
     def test_cloth_across_a_channel_by_a_narrow_kernel(self):
-        self.across_a_channel(0.008, 0.05)
+        self.assertLess(abs(self.across_a_channel(10, 0.008, 0.01, 0.3)[-1] - 1), 0.05)
+        self.assertLess(abs(self.across_a_channel(10, 0.008, 0.04, 2)[-1] - 1), 0.02)
+
+    def test_nearly_closed_cloth_across_a_channel(self):
+        """It comes to hold 500 times the dynamic pressure of the stream that is forced through it; the eddies behind it leave through the outlet."""
+        for delta, bound in ((0.016, 0.15), (0.008, 0.25)):
+            flow = self.across_a_channel(1000, delta, 0.01, 4, length=0.4)
+            self.assertLess(abs(flow[-1] - 1), bound)
+            self.assertTrue((numpy.diff(flow[100:]) < 0.01).all())
 
     def test_narrowest_kernel(self):
         """One cell: any loss coefficient is stable."""

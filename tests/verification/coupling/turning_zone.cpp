@@ -48,7 +48,7 @@ TEST_P(SolidBodyRotation, AcceleratesTowardsTheAxis) {
     pieces.push_back(make_piece(settings, "test"));
   }
   const RagSystem rags(MPI_COMM_WORLD, {}, pieces);
-  WaterPrediction prediction(flow);
+  WaterPrediction prediction(flow, 0);
   prediction.begin_step(dt);
   if (GetParam().begun) flow.time_step_size = dt, prediction.end_step();
   prediction.begin_step(dt);
@@ -90,7 +90,10 @@ struct TurningWater {
     for (Mat3& G : flow.velocity_gradient) G = {Vec3{0, -speed, 0}, Vec3{speed, 0, 0}, Vec3{}};
   }
   void set_velocity() {
-    for (int c = 0; c < mesh.n_all_cells(); ++c) flow.velocity[c] = cross({0, 0, speed}, mesh.cell_centre[c] - shells.origin);
+    const auto u = [&](const Vec3& x) { return cross({0, 0, speed}, x - shells.origin); };
+    for (int c = 0; c < mesh.n_all_cells(); ++c) flow.velocity[c] = u(mesh.cell_centre[c]);
+    flow.flux.resize(static_cast<std::size_t>(mesh.n_faces));
+    for (int f = 0; f < mesh.n_faces; ++f) flow.flux[f] = dot(u(mesh.face_centre[f]), mesh.face_vector[f]);
   }
   void advance(double dt) {
     flow.velocity_older = flow.velocity_old, flow.velocity_old = flow.velocity;
