@@ -22,7 +22,7 @@ std::span<const double> numbers(const std::vector<Vec3>& vectors) {
 
 WaterPrediction::WaterPrediction(const Flow& flow, double kernel_width) : flow_(flow) {
   for (int c = 0; c < flow.mesh.n_cells; ++c)
-    resolved_.push_back(std::clamp(4 * kernel_width / std::cbrt(flow.mesh.cell_volume[c]) - 2, 0.0, 1.0));
+    resolved_.push_back(std::clamp(8 * kernel_width / std::cbrt(flow.mesh.cell_volume[c]) - 3, 0.0, 1.0));
 }
 
 void WaterPrediction::begin_step(double dt) {

@@ -41,8 +41,8 @@
 //
 //   u_c = 1/V_c sum_f (x_f - x_c) (phi_f - S_f . G (x_f - x_c))
 //
-// s_c = 4 delta/V_c^(1/3) - 2, within 0 and 1: a kernel narrower than half a cell reads single cells, where neither the fluxes (a force in
-// one tetrahedron moves its own faces more than predicted) nor e are steady. There u_c is that of the cell, and e is zero.
+// s_c = 8 delta/V_c^(1/3) - 3, within 0 and 1: a kernel narrower than 3/8 of a cell reads single cells, where neither the fluxes (a force
+// in one tetrahedron moves its own faces more than predicted) nor e are steady. There u_c is that of the cell, and e is zero.
 #include <vector>
 
 #include "coupling/kernel.hpp"
