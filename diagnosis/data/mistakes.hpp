@@ -42,7 +42,7 @@ std::vector<Mistake> mistakes_of_groups(const Experiment& experiment);
 std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::string& unit, double ratio);
 
 /// What is measured of a run by mistake: its values at these slots. Returns by slot how uncertain they are, because the run has no number
-/// there: it is continued beyond its first and last sample along a line, and is off by what a parabola would add; else 0.
+/// there: it is continued beyond its first and last sample along a line, which differs by what a parabola would add; else 0.
 std::vector<double> mismeasure(const Mistake& mistake, double theta, const std::vector<Slot>& slots, std::vector<double>& values);
 
 }  // namespace snag

@@ -23,6 +23,7 @@ zeta the drag and kappa the couple per length (zeta w, kappa (-S/2 - theta')), i
 The camera gives the centroid of the picture in whole twentieths of a millimetre, and the long axis of its second moments in whole 0.002 rad.
 """
 import numpy
+import sets
 import sphere
 
 RHO, G = 1000.0, 9.81
@@ -217,20 +218,7 @@ def simulate(p, duration=END):
 
 def case_text(point):
     p = point
-    return f"""[time]
-end_s = {END}
-step_s = 0.001
-[gravity]
-acceleration_m_s2 = [0, 0, -9.81]
-[flow]
-kind = "prescribed"
-density_kg_m3 = {RHO}
-kinematic_viscosity_m2_s = {p["viscosity"]}
-velocity_m_s = [{p["velocity"]}, 0, 0]
-gradient_per_s = [[0, 0, {p["shear"]}], [0, 0, 0], [0, 0, 0]]
-amplitude_m_s = [{p["amplitude"]}, 0, 0]
-angular_frequency_rad_s = [{p["omega"]}, 0, 0]
-[[fibre]]
+    return sets.head_of_case(END, RHO, p) + f"""[[fibre]]
 length_m = {p["length"]}
 n_points = {N_BEADS}
 youngs_modulus_Pa = {p["modulus"]}

@@ -1,10 +1,10 @@
 """Small rags that move in water, by a program that shares nothing with Snag but the format of the data.
 
 The sheet is a grid of N x N nodes, each in the middle of a square of its own of the side a. Membrane: springs along edges and diagonals, whose
-rest length is kept by projection; bending: the squares of second differences along and across (the quadratic energy of a sheet that does not
-stretch, Bergou et al. 2006), stiffness D_l and D_w per width. Both have one constant matrix, so that the step is implicit in them and solved by
-alternating projections (Bouaziz et al. 2014) with the matrix inverted once. Time: the second backward difference formula, the load of the water
-extrapolated from two steps before,
+rest length is kept by projection; bending: the sum of the squares of second differences along and across (the quadratic energy of a sheet that
+does not stretch, Bergou et al. 2006), stiffness D_l and D_w per width. Both have one constant matrix, so that the step is implicit in them and
+solved by alternating projections (Bouaziz et al. 2014) with the matrix inverted once. Time: the second backward difference formula, the load of
+the water extrapolated from two steps before,
 
     x = (4 x_1 - x_2)/3 + 2/3 h v,   v = (4 v_1 - v_2)/3 + 2/3 h (F_elastic(x) + 2 F_1 - F_2)/m
 
@@ -22,6 +22,7 @@ A strip that is held at one end by heavy nodes hangs through by q L^4/(8 D). The
 thickness has no picture): its up is UP. Centre in whole tenths of a millimetre, long axis of the picture's second moments in whole 0.005 rad.
 """
 import numpy
+import sets
 import sphere
 
 RHO, G = 1000.0, 9.81
@@ -231,20 +232,7 @@ def simulate(p, duration=END):
 
 def case_text(point):
     p = point
-    return f"""[time]
-end_s = {END}
-step_s = 0.001
-[gravity]
-acceleration_m_s2 = [0, 0, -9.81]
-[flow]
-kind = "prescribed"
-density_kg_m3 = {RHO}
-kinematic_viscosity_m2_s = {p["viscosity"]}
-velocity_m_s = [{p["velocity"]}, 0, 0]
-gradient_per_s = [[0, 0, {p["shear"]}], [0, 0, 0], [0, 0, 0]]
-amplitude_m_s = [{p["amplitude"]}, 0, 0]
-angular_frequency_rad_s = [{p["omega"]}, 0, 0]
-[[rag]]
+    return sets.head_of_case(END, RHO, p) + f"""[[rag]]
 length_m = {SIDE}
 width_m = {SIDE}
 radius_m = {DIAMETER / 2}

@@ -11,7 +11,7 @@ Classes of sets, and what is right to say of each (`right` of the truth lists al
 | pair | two, at 1/2 or 1, each 3 sd clear given the other | both |
 | several | three to five, at 1/2 or 1, each 5 sd clear given the others | all of them |
 | outside | a force that no library holds, 5 sd clear of inputs and noise | outside |
-| input | an input that is off by more than 3 of its standard uncertainties at all points, 5 sd clear | input:KEY; of the whole flow also operating_point |
+| input | an input that differs from what is stated by more than 3 standard uncertainties at all points, 5 sd clear | input:KEY; of the whole flow also operating_point |
 | blunder | a wrong unit, sign, clock, frame rate, or calibration of a group of points | unit:UNIT, sign:AXIS, clock, frame_rate, scale:GROUP |
 | local | an effect that acts after a time or in a part of the domain only, 5 sd clear | the effect (for the calibration "outside" is true, too: it names nothing wrong) |
 | outliers | nothing, or one effect, and 1 to 2 % of the samples 20 to 150 u off | none, or the effect |
@@ -151,7 +151,7 @@ class Clarity:
         return signal_over_noise(signal, self.variance, self.free())
 
     def of_input(self, key, deviation):
-        """Of an input that is off by more than is known: what its prior, which stays free, cannot take."""
+        """Of an input that differs by more than is known: the part of the deviation that the prior does not explain."""
         base = {**self.deviations, key: self.deviations[key] - deviation}
         values = self.runs([({**self.theta, **self.other}, base)], self.runs.training)[0]
         return self.of(self.runs.difference(self.values, values))
@@ -221,6 +221,24 @@ def mismeasured(program, mistake, values):
             if observable["unit"] in ("m", "mm"):
                 values[of_group, o] *= mistake["factor"]
     return values
+
+
+def head_of_case(end, density, p):
+    """First lines of the base case of a point, which all programs share."""
+    return f"""[time]
+end_s = {end}
+step_s = 0.001
+[gravity]
+acceleration_m_s2 = [0, 0, -9.81]
+[flow]
+kind = "prescribed"
+density_kg_m3 = {density}
+kinematic_viscosity_m2_s = {p["viscosity"]}
+velocity_m_s = [{p["velocity"]}, 0, 0]
+gradient_per_s = [[0, 0, {p["shear"]}], [0, 0, 0], [0, 0, 0]]
+amplitude_m_s = [{p["amplitude"]}, 0, 0]
+angular_frequency_rad_s = [{p["omega"]}, 0, 0]
+"""
 
 
 def effects_that_fit(program, random, number):

@@ -19,6 +19,7 @@ The camera sees the mean of three instants over 2 ms and writes whole fiftieths 
 All numbers are arrays, one entry a run: `simulate` makes all runs of a set at once.
 """
 import numpy
+import sets
 
 RHO, G = 1000.0, 9.81
 END, STEP, N_SAMPLES = 0.7, 1e-3, 20
@@ -176,20 +177,7 @@ def simulate(p, duration=END):
 
 def case_text(point):
     p = point
-    return f"""[time]
-end_s = {END}
-step_s = 0.001
-[gravity]
-acceleration_m_s2 = [0, 0, -9.81]
-[flow]
-kind = "prescribed"
-density_kg_m3 = {RHO}
-kinematic_viscosity_m2_s = {p["viscosity"]}
-velocity_m_s = [{p["velocity"]}, 0, 0]
-gradient_per_s = [[0, 0, {p["shear"]}], [0, 0, 0], [0, 0, 0]]
-amplitude_m_s = [{p["amplitude"]}, 0, 0]
-angular_frequency_rad_s = [{p["omega"]}, 0, 0]
-[[particle]]
+    return sets.head_of_case(END, RHO, p) + f"""[[particle]]
 diameter_m = {p["diameter"]}
 density_kg_m3 = {p["density"]}
 shear_modulus_Pa = 1e4  # it touches nothing: a soft sphere needs a fifth of the sub-steps

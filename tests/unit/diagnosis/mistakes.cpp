@@ -36,7 +36,7 @@ TEST(Mistakes, PathsWithinARunAreCertain) {
   EXPECT_GT(u.back(), 0);
 }
 
-/// The line through the last two samples of t^2 is off by (t - t_1)(t - t_2), which is what the parabola adds.
+/// The line through the last two samples of t^2 differs from it by (t - t_1)(t - t_2), which is what the parabola adds.
 TEST(Mistakes, BeyondARunTheyAreAsUncertainAsItBends) {
   for (const double moved : {theta, -h - theta}) {
     std::vector<double> values, straight;
