@@ -27,8 +27,9 @@ namespace snag {
 
 namespace {
 
-/// Slots of a point: what the data have, by observable and time, each once.
-std::vector<Slot> slots_of(const Experiment& experiment, int point) {
+/// Slots of a point: what the data have, by observable and time, each once. Of a path also two times before its first sample: a clock that
+/// starts early asks for them (mistakes.hpp). Not of whole runs, whose numbers may not be known at their start.
+std::vector<Slot> slots_of(const Experiment& experiment, int point, bool is_whole_run) {
   std::set<std::pair<int, double>> timed;
   std::set<int> whole;
   for (const Datum& datum : experiment.data) {
@@ -38,6 +39,10 @@ std::vector<Slot> slots_of(const Experiment& experiment, int point) {
     else
       timed.emplace(datum.observable, datum.time);
   }
+  std::map<int, double> first;  // sample of an observable
+  for (const auto& [observable, time] : timed) first.emplace(observable, time);
+  for (const auto& [observable, time] : first)
+    if (!is_whole_run && time > 0) timed.emplace(observable, 0), timed.emplace(observable, 0.5 * time);
   std::vector<Slot> slots;
   for (const auto& [observable, time] : timed) slots.push_back({observable, time});
   for (const int observable : whole) slots.push_back({.observable = observable});
@@ -144,7 +149,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
       throw Error(ExitCode::usage, point.case_file.string() + ": has a mesh; its runs need an output folder");
     for (const std::string& note : base.former_names()) log::warning_once(note);
     check_inputs(base, point);
-    std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p));
+    std::vector<Slot> slots = slots_of(experiment, static_cast<int>(p), base.is_whole_run());
     std::vector<ObservableRequest> asked;
     const std::string of_case = base.sha256() + program_;
     std::string fingerprint = base.sha256();

@@ -113,6 +113,18 @@ TEST_F(CaseSimulatorTest, EffectsChangeTheRun) {
   }
 }
 
+/// Requirement: a run answers before the first sample of a path too, at its start and half-way: a clock that starts early looks there.
+TEST_F(CaseSimulatorTest, AnswersBeforeTheFirstSample) {
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  std::vector<double> times;
+  for (const Slot& slot : simulator.slots(0)) times.push_back(slot.time);
+  EXPECT_EQ(times, (std::vector<double>{0, 0.01, 0.02, 0.05, 0.1}));
+  const auto x = values(simulator, RunRequest());
+  EXPECT_DOUBLE_EQ(x[0], 0.5);
+  EXPECT_GT(x[1], x[0]);
+  EXPECT_LT(x[1], x[2]);
+}
+
 /// Requirement: a camera's scale multiplies lengths; a calibration shifts them by its uncertainty; neither takes a run of its own.
 TEST_F(CaseSimulatorTest, Camera) {
   CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
