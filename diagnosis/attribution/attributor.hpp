@@ -72,7 +72,8 @@ class Attributor {
   /// Further effects, one a round: around the leading fit, which holds what was found, the others are screened again, and what promises
   /// most is fitted with all that was found; then each effect that was there before is left out in its turn: it may have stood for what was
   /// missing. The rounds end where none brings a better hypothesis. They go by what the effects explain: a remainder beside a wrong effect
-  /// could stand for those that are still missing.
+  /// could stand for those that are still missing. Where another set leads with its remainder at the end, there is a round around it, too:
+  /// a remainder that brings evidence says that something is missing beside that set.
   void fit_in_rounds();
   /// Among the sets that do not hold effect `without` (-1: all). A mistake may stand for several effects: where one is part of the best
   /// set, the rounds go on without it, too.

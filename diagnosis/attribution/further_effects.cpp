@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/attributor.hpp"
@@ -82,10 +83,12 @@ void Attributor::fit_in_rounds() {
 }
 
 void Attributor::fit_in_rounds(int without) {
-  for (int leader = -1; leader != result_.first_by_effects(without);) {
-    leader = result_.first_by_effects(without);
-    fit_round(leader, without);
-    if (without >= 0 || result_.first_by_effects() != leader) continue;
+  std::set<int> done;
+  for (;;) {
+    const int leader = result_.first_by_effects(without), around = without < 0 && done.contains(leader) ? result_.first() : leader;
+    if (!done.insert(around).second) return;
+    fit_round(around, without);
+    if (without >= 0 || around != leader || result_.first_by_effects() != leader) continue;
     if (const int other = fit_exchange(leader); other >= 0) fit_round(other, without);
   }
 }

@@ -1,5 +1,5 @@
 # timeout: 900
-# cost: 60
+# cost: 70
 """Requirement: the programs of tests/other_programs are right themselves, and sets of theirs are diagnosed as what was put into them.
 
 The programs share nothing with Snag but the format of the data; diagnose_other_program_long.py makes their whole card.
@@ -178,8 +178,8 @@ class WrittenData(harness.CaseTest):
 
 class OtherProgram(harness.CaseTest):
     def test_spheres(self):
-        """A pair of effects, three of them, and a force of no library."""
-        for kind, number in (("pair", 0), ("several", 2), ("outside", 0)):
+        """A pair of effects, three of them, three of which two lead with a remainder and two others without, and a force of no library."""
+        for kind, number in (("pair", 0), ("several", 2), ("several", 3), ("outside", 0)):
             with self.subTest(kind):
                 row, truth, verdict = card.run_set(sphere, kind, number, 1, self.work)
                 print(row, verdict["parameters"], flush=True)
