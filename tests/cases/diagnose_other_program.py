@@ -114,7 +114,7 @@ class Scoring(harness.CaseTest):
 
     def score(self, right, verdict, kind="single"):
         truth = {"program": "rag", "number": 0, "seed": 1, "kind": kind, "truth": right[0], "subset": "", "strength": 1, "replicates": 3, "detectability": 9,
-                 "clear_of_library": None, "gap_over_floor": 1, "right": right, "same_cause": rag.SAME_CAUSE}
+                 "clear_of_library": None, "clear_of_forms": None, "gap_over_floor": 1, "right": right, "same_cause": rag.SAME_CAUSE}
         return card.scored(truth, verdict, 1.0, "")
 
     def test_two_names_of_one_cause_are_one(self):

@@ -25,7 +25,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import sets  # noqa: E402
 
 PROGRAMS = ("sphere", "fibre", "rag")
-COLUMNS = ("program,number,seed,kind,truth,subset,strength,replicates,detectability,clear_of_library,gap_over_floor,verdict,said,wording,first,"
+COLUMNS = ("program,number,seed,kind,truth,subset,strength,replicates,detectability,clear_of_library,clear_of_forms,gap_over_floor,verdict,said,wording,first,"
            "p_first,p_truth,right,first_right,brier,true_enough,blames_physics,runs,seconds,truth_sha256").split(",")
 OF_MEASUREMENT = ("measurement", "clock", "frame_rate", "sign:", "unit:", "scale:", "offset:")
 LIBRARY = ("single", "pair", "several")
@@ -60,7 +60,7 @@ def scored(truth, verdict, seconds, fingerprint):
     physics = [name for name in named if not name.startswith((*OF_MEASUREMENT, "input:")) and name != "operating_point"]
     return {
         **{key: truth[key] for key in ("program", "number", "seed", "kind", "truth", "subset", "strength", "replicates", "detectability")},
-        "clear_of_library": "" if truth["clear_of_library"] is None else truth["clear_of_library"], "gap_over_floor": truth["gap_over_floor"],
+        **{key: "" if truth[key] is None else truth[key] for key in ("clear_of_library", "clear_of_forms")}, "gap_over_floor": truth["gap_over_floor"],
         "verdict": verdict["verdict"], "said": said, "wording": verdict["wording"].replace(",", ";"), "first": first,
         "p_first": probability[first], "p_truth": p_truth, "right": int(said in right), "first_right": int(first in true_enough),
         "brier": (1 - p_truth) ** 2 + sum(p * p for name, p in probability.items() if name not in true_enough),
@@ -160,6 +160,7 @@ def scores(program, rows):
     of = lambda *kinds: [row for row in rows if row["kind"] in kinds]  # noqa: E731
     strong = [row for row in of("single") if row["strength"] >= 0.4]
     clear = lambda some, low, high=math.inf: [row for row in some if low <= row["detectability"] < high]  # noqa: E731
+    whatever_the_form = lambda some, low: [row for row in some if row["clear_of_forms"] != "" and row["clear_of_forms"] >= low]  # noqa: E731
     right = lambda row: row["right"]  # noqa: E731
     attributed = lambda row: row["verdict"] == "effects" and row["wording"].startswith("attributed")  # noqa: E731
     table = [
@@ -168,7 +169,9 @@ def scores(program, rows):
         ("single effects of less strength: named", [row for row in of("single") if row["strength"] < 0.4], right, None),
         ("pairs, 3 sd clear of each other: both right", clear(of("pair"), 3), right, 0.75),
         ("the same, 5 sd clear", clear(of("pair"), 5), right, None),
+        ("the same, 3 sd clear with the forms of the laws open", whatever_the_form(of("pair"), 3), right, None),
         ("three to five effects, each 5 sd clear: all right", clear(of("several"), 5), right, 0.70),
+        ("the same, 5 sd clear with the forms of the laws open", whatever_the_form(of("several"), 5), right, None),
         ("outside, 5 sd clear: says outside", clear(of("outside"), 5), right, 0.90),
         ("the same, 5 sd clear of the library too", [row for row in of("outside") if row["clear_of_library"] >= 5], right, None),
         ("effects of the library: says outside", of(*LIBRARY), lambda row: row["said"] == "outside", -0.03),

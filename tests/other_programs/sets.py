@@ -22,7 +22,9 @@ strength (each 100 times its signal), all by differences of this program's own r
     d^2 = S^T C^-1 S - b^T (I + J^T C^-1 J)^-1 b,   b = J^T C^-1 S
 
 C: variances of the means of the repeats, with the true noise. `detectability` is that of the least clear of what acts. `clear_of_library`:
-the same with all effects of the library free: what is small there no diagnosis can tell from the library.
+the same with all effects of the library free: what is small there no diagnosis can tell from the library. `clear_of_forms`: the least clear
+again, with the laws of what acts free between their two forms by a third of the difference, as far as a diagnosis leaves it open
+(docs/theory.md, "Forms of a law"): the force S v_z along x, by which the two forms of the pressure gradient differ, is much like lift.
 
 The truth goes to sealed/NAME.json; NAME does not tell it, and its SHA-256 is in sealed.log before the set is diagnosed.
 """
@@ -140,12 +142,22 @@ class Clarity:
         """Each effect that acts, given the others."""
         return self.of_each(self.signal)
 
-    def of_each(self, signals):
+    def of_each(self, signals, columns=()):
         clear = {}
         for name, signal in signals.items():
             others = [ANY_STRENGTH * s for other, s in signals.items() if other != name]
-            clear[name] = signal_over_noise(signal, self.variance, self.free() + others)
+            clear[name] = signal_over_noise(signal, self.variance, self.free() + others + list(columns))
         return clear
+
+    def of_forms(self):
+        """The least clear effect that acts, given the others and the open forms."""
+        program, columns = self.runs.program, []
+        for flag, effect in program.FORMS.items():
+            if effect in self.theta:
+                points = [{**point, flag: 1 - point[flag]} for point in self.runs.points]
+                values = Runs(program, points)([(self.everything, self.deviations)], self.runs.training)[0]
+                columns.append(self.runs.difference(values, self.values) / 3)
+        return min(self.of_each(self.signal, columns).values())
 
     def of(self, signal):
         return signal_over_noise(signal, self.variance, self.free())
@@ -370,7 +382,7 @@ class Draw:
             "program": self.program.NAME, "number": number, "seed": seed, "kind": self.kind, "subset": self.subset, "truth": self.right[0],
             "right": self.right, "same_cause": self.program.SAME_CAUSE, "theta": self.theta, "strength": self.strength,
             "replicates": self.replicates, "detectability": self.detectability, "clear": self.clear,
-            "clear_of_library": self.clear_of_library, "gap_over_floor": self.gap_over_floor,
+            "clear_of_library": self.clear_of_library, "clear_of_forms": self.clarity.of_forms() if self.theta else None, "gap_over_floor": self.gap_over_floor,
             "other": {k: float(v) for k, v in self.other.items()}, "mistake": {k: v for k, v in self.mistake.items() if k != "right"},
             "noise_factor": self.noise_factor, "correlation": self.correlation, "outlier_share": self.outlier_share,
             "deviations": {key: [float(v) for v in value] for key, value in self.deviations.items()},
