@@ -18,7 +18,10 @@ inline constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes 
 /// A hypothesis is simulated again if the screening puts it at most max(screening_width, share_not_linear G) nats below the best. G: nats
 /// of the best over those of the base model. The screening is linear, and its error grows with G. At least min_candidates are simulated.
 /// Of second effects, which are screened around the fit of a first, G counts from that fit, and the share is larger: the linear model holds
-/// the first effect where it stood alone.
+/// the first effect where it stood alone. Of the nats that a pair brings, the screening shows the square of the cosine of the angle between
+/// what the pair changes and what its linear model changes: one half at 45 degrees. Without this limit 31 pairs of 26 sets of development
+/// (spheres of tests/other_programs) brought more than 20 nats over the first effect; 29 of them showed half of these or more, the median
+/// all. The verdicts are the same with 0.5, 0.7 and 1; with 0.3 one of three effects that act is lost.
 inline constexpr double screening_width = 10, share_not_linear = 0.05, share_of_second = 0.5, weak_form_threshold = 3;
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
