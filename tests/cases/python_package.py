@@ -108,10 +108,17 @@ class PythonPackage(harness.CaseTest):
         self.assertEqual(len(verdict.curves), sum(len(curve["t_s"]) for curve in content["curves"]))
 
     def test_posterior(self):
-        """Mean and standard deviation of the draws are those of the verdict, to the error of their number; the layout is ArviZ's."""
+        """Mean and standard deviation of the draws are those of the verdict, to the error of their number; the layout is ArviZ's.
+
+        By the InferenceData schema a group has variables of [chain, draw, ...], none named as a dimension, and attributes that name what made it; its
+        created_at is when a reader makes the group. arviz.from_json of ArviZ 0.21 read such a file and wrote the same draws back."""
         folder = self.shared / "results" / "diagnose-sphere"
         verdict, content = snag.Verdict(folder), json.loads((folder / "posterior.json").read_text())
         self.assertEqual(set(content), {"posterior", "posterior_attrs"})  # groups, and attributes of them, of arviz.from_dict
+        self.assertFalse({"chain", "draw"} & set(content["posterior"]))
+        self.assertEqual(content["posterior_attrs"]["inference_library"], "snag")
+        self.assertRegex(content["posterior_attrs"]["inference_library_version"], r"^\d+\.\d+")
+        self.assertTrue(all(numpy.isfinite(chains).all() for chains in content["posterior"].values()))
         for value in content["posterior_attrs"].values():
             self.assertIsInstance(value, str)  # netCDF holds no tables
         shapes = {numpy.shape(chains) for chains in content["posterior"].values()}
