@@ -49,6 +49,15 @@ void check_budget(const Experiment& experiment, const Simulator& simulator) {
                                      " runs; raise it, or name fewer candidates");
 }
 
+void check_costs(const Experiment& experiment, const Simulator& simulator) {
+  std::vector<std::string> inputs;
+  for (const Nuisance& nuisance : simulator.nuisances())
+    if (std::count(inputs.begin(), inputs.end(), nuisance.name) == 0) inputs.push_back(nuisance.name);
+  for (const auto& [key, cost] : experiment.costs)
+    if (std::count(inputs.begin(), inputs.end(), key) == 0)
+      throw Error(ExitCode::usage, "[budget.cost] \"" + key + "\" is no uncertain input of these points; there are " + joined(inputs));
+}
+
 void note_noise(const Experiment& experiment, Verdict& verdict) {
   const std::vector<NoiseModel> all = noise_of_repeats(experiment);
   for (std::size_t o = 0; o < all.size(); ++o) {
@@ -125,6 +134,7 @@ ImprovedModel improved_model(Responses& model, const Fit& fit) {
 
 Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisOptions& options) {
   check_budget(given, simulator);
+  check_costs(given, simulator);
   Verdict verdict;
   const std::vector<OutliersFound> outliers = find_outliers(given);
   const Experiment experiment = without(given, outliers);

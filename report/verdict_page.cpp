@@ -349,12 +349,13 @@ std::string next(const Verdict& v) {
     text += "<p>" + escaped(v.identifiability.next_experiment) + "</p>\n";
   std::vector<std::vector<std::string>> conditions;
   for (const NewCondition& c : v.identifiability.new_conditions)
-    conditions.push_back({escaped(condition_in_words(c)), escaped(c.observable), html::number(c.nats), html::number(c.nats_of_repeat)});
+    conditions.push_back({escaped(condition_in_words(c)), escaped(c.observable), html::number(c.nats), html::number(c.cost),
+                          html::number(c.nats_of_repeat)});
   if (!conditions.empty())
     text +=
         "<p>Conditions that were not measured, and the evidence (nats) that one test there is expected to give between the two most "
         "probable hypotheses:</p>\n" +
-        html::table({"Condition", "observable", "nats", "of one more repeat, nats"}, conditions);
+        html::table({"Condition", "observable", "nats", "cost, repeats", "of one more repeat, nats"}, conditions);
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, d] : v.identifiability.detectability) rows.push_back({escaped(name), html::number(d), d < 3 ? "blind" : ""});
   return text + (rows.empty() ? "" : html::table({"Effect at its expected strength", "signal over uncertainty", ""}, rows));

@@ -245,20 +245,22 @@ struct SingleTables {
   std::vector<Section> sections(Experiment& experiment) {
     Parameter data_file = file_setting("data", &data, "CSV file with the measurements.");
     data_file.required = true;
-    return {{"experiment",
-             "The measurements.",
-             {setting("name", &experiment.name, "Name of the experiment; by default that of the file."), data_file}},
-            {"model",
-             "Effects that may cause the gap.",
-             {setting("candidates", &experiment.candidates,
-                      "Names of the effects that are examined, or \"all\"; by default all that fit the case."),
-              setting("pairs", &experiment.pairs, "Whether pairs of effects are examined, too.")}},
-            {"budget",
-             "Effort of the diagnosis.",
-             {{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Largest number of runs of the model."},
-              {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Seed of the random numbers."},
-              renamed(file_setting("runs_table", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv."),
-                      {.key = "runs"})}}};
+    return {
+        {"experiment",
+         "The measurements.",
+         {setting("name", &experiment.name, "Name of the experiment; by default that of the file."), data_file}},
+        {"model",
+         "Effects that may cause the gap.",
+         {setting("candidates", &experiment.candidates,
+                  "Names of the effects that are examined, or \"all\"; by default all that fit the case."),
+          setting("pairs", &experiment.pairs, "Whether pairs of effects are examined, too.")}},
+        {"budget",
+         "Effort of the diagnosis. The table [budget.cost] states what a test with another value of an uncertain input costs, in repeats "
+         "of a test; 1 where it does not.",
+         {{"max_runs", &experiment.max_runs, "1", 10, 1e9, Basis::assumed, "Largest number of runs of the model."},
+          {"seed", &seed, "1", 0, 2147483647, Basis::assumed, "Seed of the random numbers."},
+          renamed(file_setting("runs_table", &runs, "Table of runs that were made before, by whatever build: a copy of a runs.tsv."),
+                  {.key = "runs"})}}};
   }
 };
 
@@ -313,6 +315,11 @@ Experiment read_experiment(const CaseFile& file) {
   experiment.alternatives = read_alternatives(root, points);
   if (!keys.runs.empty()) experiment.runs = file.path(keys.runs);
   experiment.seed = static_cast<std::uint64_t>(keys.seed);
+  const Table costs = root.table("budget").table("cost");
+  experiment.costs = costs.numbers();
+  for (const auto& [key, cost] : experiment.costs)
+    if (!(cost > 0))
+      throw Error(ExitCode::usage, costs.where() + " \"" + key + "\" is " + number_text(cost) + "; a cost is more than 0 repeats");
   file.reject_unread();
   if (experiment.name.empty()) experiment.name = path.stem().string();
   const std::string name = path.string();

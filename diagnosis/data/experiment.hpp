@@ -65,7 +65,8 @@ struct Experiment {
   int max_runs = 20000;
   std::filesystem::path runs;  // table of runs that were made elsewhere or before; empty: none
   std::uint64_t seed = 1;
-  std::string data_sha256, withheld_sha256;  // of all rows, of the rows of withheld points
+  std::vector<std::pair<std::string, double>> costs{};  // of a test with another value of this input, in repeats; absent: 1
+  std::string data_sha256, withheld_sha256;             // of all rows, of the rows of withheld points
 };
 
 /// Reads DIAGNOSIS.toml and the data file beside it. Throws Error(usage, io) that names file and line: missing unit, point without data,

@@ -67,7 +67,8 @@ Json identifiability(const Identifiability& i) {
                                       {"factor", c.factor},
                                       {"observable", c.observable},
                                       {"nats", number(c.nats)},
-                                      {"nats_of_repeat", number(c.nats_of_repeat)}});
+                                      {"nats_of_repeat", number(c.nats_of_repeat)},
+                                      {"cost", number(c.cost)}});
   for (const auto& [name, row] : i.cosines) json["cosines"][name] = numbers(row);
   return json;
 }

@@ -67,6 +67,7 @@ struct NewCondition {
   double factor = 1;
   std::string observable;               // that tells most there
   double nats = 0, nats_of_repeat = 0;  // of one test there; of one more repeat where that tells most
+  double cost = 1;                      // of the test, in repeats
 };
 
 /// What the experiment can detect, before any data are used.
@@ -76,7 +77,7 @@ struct Identifiability {
   std::vector<std::vector<std::string>> ties{};
   std::map<std::string, std::string> blind{};  // effect -> why this base case or these data cannot show it
   std::string next_experiment;
-  std::vector<NewCondition> new_conditions{};  // of a tie: those that tell twice as much as a repeat or more, the best first
+  std::vector<NewCondition> new_conditions{};  // of a tie: those that tell twice as much per cost as a repeat or more, the best first
 };
 
 /// A posterior predictive check of the first hypothesis.

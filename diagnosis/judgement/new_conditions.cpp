@@ -38,6 +38,12 @@ std::vector<Tried> all_conditions(const Responses& model) {
   return all;
 }
 
+double cost_of(const Experiment& experiment, const std::string& input) {
+  for (const auto& [key, cost] : experiment.costs)
+    if (key == input) return cost;
+  return 1;
+}
+
 State at_condition(const Responses& model, State state, const Tried& tried) {
   state.nuisances[tried.input] += (tried.factor - 1) / model.nuisances()[static_cast<std::size_t>(tried.input)].u;
   return lead_of(std::move(state));
@@ -78,11 +84,13 @@ std::vector<NewCondition> new_conditions(Responses& model, const Attribution& at
     }
     if (!of_a.failure.empty() || !of_b.failure.empty()) continue;
     const Separation separation = best_separation(model, static_cast<std::size_t>(tried.point), predictions);
-    if (separation.T > worth_it * of_repeat)
-      ranked.push_back({separation.point, model.nuisances()[static_cast<std::size_t>(tried.input)].name, tried.factor,
-                        separation.observable, 0.5 * separation.T, 0.5 * of_repeat});
+    const std::string& input = model.nuisances()[static_cast<std::size_t>(tried.input)].name;
+    const double cost = cost_of(model.experiment(), input);
+    if (separation.T > worth_it * cost * of_repeat)
+      ranked.push_back({separation.point, input, tried.factor, separation.observable, 0.5 * separation.T, 0.5 * of_repeat, cost});
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const NewCondition& x, const NewCondition& y) { return x.nats > y.nats; });
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const NewCondition& x, const NewCondition& y) { return x.nats / x.cost > y.nats / y.cost; });
   if (ranked.size() > most_named) ranked.resize(most_named);
   return ranked;
 }

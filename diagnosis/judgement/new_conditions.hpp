@@ -4,15 +4,17 @@
 //   T/2 = 1/2 d . C^-1 d,   d = f_a - f_b at the condition
 //
 // C: covariance of one repeat of an observable, and of the inputs at that condition (next_experiment.hpp). Conditions are the known inputs
-// of a point, halved and doubled one by one; a test costs the same at each, so that nats rank nats per cost. Runs are made for it, at most
-// a quarter of those that the verdict took. Source: Hunter and Reiner (1965), Technometrics 7, 307-323.
+// of a point, halved and doubled one by one, and ranked by nats over the cost of a test with another value of that input, in repeats
+// (Experiment::costs). Runs are made for it, at most a quarter of those that the verdict took. Source: Hunter and Reiner (1965),
+// Technometrics 7, 307-323.
 #include <vector>
 
 #include "diagnosis/attribution/attribution.hpp"
 
 namespace snag {
 
-/// The best first; none where no condition tells twice as much as a repeat at the best point, or where the budget has no runs left for it.
+/// The best first; none where no condition tells twice as much per cost as a repeat at the best point, or where the budget has no runs left
+/// for it.
 std::vector<NewCondition> new_conditions(Responses& model, const Attribution& attribution);
 
 }  // namespace snag

@@ -51,9 +51,10 @@ const std::string columns = "point,replicate,t_s,observable,value\n";
 }  // namespace
 
 TEST_F(ReadExperiment, ConvertsAndSorts) {
-  const auto e =
-      read_experiment(write(head + x_mm + A + B + "[model]\ncandidates = [\"lift\"]\npairs = false\n[budget]\nmax_runs = 50\nseed = 7\n",
-                            columns + "B,0,0.1,x,7\r\n# a remark\nA,0,0.2,x,2\nA,0,0.1,x,+1\n\nA,1,0.1,x,1.5\n"));
+  const auto e = read_experiment(
+      write(head + x_mm + A + B +
+                "[model]\ncandidates = [\"lift\"]\npairs = false\n[budget]\nmax_runs = 50\nseed = 7\ncost = { \"flow.amplitude\" = 2.5 }\n",
+            columns + "B,0,0.1,x,7\r\n# a remark\nA,0,0.2,x,2\nA,0,0.1,x,+1\n\nA,1,0.1,x,1.5\n"));
   ASSERT_EQ(e.data.size(), 4u);
   EXPECT_DOUBLE_EQ(e.data[0].value, 1e-3);
   EXPECT_DOUBLE_EQ(e.data[1].time, 0.2);
@@ -67,6 +68,7 @@ TEST_F(ReadExperiment, ConvertsAndSorts) {
   EXPECT_FALSE(e.pairs);
   EXPECT_EQ(e.max_runs, 50);
   EXPECT_EQ(e.seed, 7u);
+  EXPECT_EQ(e.costs, (std::vector<std::pair<std::string, double>>{{"flow.amplitude", 2.5}}));
   EXPECT_EQ(e.data_sha256.size(), 64u);
   // The fingerprint of what is withheld does not depend on the training data.
   const auto other =
@@ -84,6 +86,7 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheFile) {
   EXPECT_TOLD(message(head + x_mm + B, columns + "B,0,0.1,x,1\n"), "every point is withheld");
   EXPECT_TOLD(message(head + x_mm + B + "[[point]]\nid = \"B\"\ncase = \"b.toml\"\n", row), "never both");
   EXPECT_TOLD(message(head + x_mm + "kind = \"gauss\"\n" + A, row), "gaussian");
+  EXPECT_TOLD(message(head + x_mm + A + "[budget]\ncost = { \"flow.amplitude\" = 0 }\n", row), "more than 0 repeats");
   EXPECT_TOLD(message(head + x_mm + A + "[model]\ncandidate = \"all\"\n", row), "did you mean \"candidates\"");
   std::string copied = columns;
   for (int i = 0; i < 10; ++i)
@@ -199,11 +202,12 @@ TEST_F(ReadExperiment, MillionRows) {
 
 TEST_F(ReadExperiment, EveryKeyIsInTheManual) {
   // Requirement: what the reader reads, the manual has; a key of its own would be read and nowhere explained.
-  const CaseFile file =
-      experiment_file(write(head + x_mm + A + B + "[[region]]\nid = \"front\"\n[model]\ncandidates = \"all\"\n[budget]\nseed = 7\n" +
-                                "[[alternative]]\neffect = \"lift\"\n[[alternative.at]]\npoint = \"A\"\nset = [\"time.end_s=1\"]\n",
-                            columns + "A,0,0.1,x,1\nB,0,0.1,x,2\n"));
+  const CaseFile file = experiment_file(
+      write(head + x_mm + A + B +
+                "[[region]]\nid = \"front\"\n[model]\ncandidates = \"all\"\n[budget]\nseed = 7\ncost = { \"flow.amplitude\" = 2 }\n" +
+                "[[alternative]]\neffect = \"lift\"\n[[alternative.at]]\npoint = \"A\"\nset = [\"time.end_s=1\"]\n",
+            columns + "A,0,0.1,x,1\nB,0,0.1,x,2\n"));
   read_experiment(file);
-  EXPECT_EQ(keys_without_section(file, experiment_sections(), {"point.input_u"}), std::vector<std::string>{});
+  EXPECT_EQ(keys_without_section(file, experiment_sections(), {"point.input_u", "budget.cost"}), std::vector<std::string>{});
   EXPECT_FALSE(keys_without_section(file, {}).empty());
 }

@@ -5,6 +5,7 @@
 // twice the nats of a repeat, in 8 of 10 ties; none is proposed for effects that are one at every condition.
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
@@ -39,6 +40,38 @@ TEST(NewConditions, TellMoreThanRepeats) {
   std::printf("%d of %d ties with a condition that tells more\n", proposed, ties);
   EXPECT_EQ(ties, 10);
   EXPECT_GE(proposed, 8);
+}
+
+/// Requirement: conditions are ranked by nats over cost; one that costs more than half of what its nats are worth in repeats is not
+/// proposed.
+TEST(NewConditions, AreRankedByNatsOverCost) {
+  Experiment experiment;
+  const auto proposed = [&] { return judged(experiment).identifiability.new_conditions; };
+  std::vector<NewCondition> cheap;
+  for (int i = 0; cheap.empty() && i < 20; ++i) {
+    experiment = formula::experiment({.effects = {{"added_mass", 0.3}}}, 2, 0, 1, 3e-3, 8900 + i);
+    cheap = proposed();
+  }
+  ASSERT_FALSE(cheap.empty());
+  const NewCondition& best = cheap[0];
+  const double worth = best.nats / (2 * best.nats_of_repeat);  // repeats at which it is just proposed
+  experiment.costs = {{best.input, 0.99 * worth}};
+  const auto dear = proposed();
+  double before = infinity;
+  bool is_there = dear.size() == 3;  // so many are named, and it may be the fourth
+  for (const NewCondition& c : dear) {
+    EXPECT_LE(c.nats / c.cost, before);
+    before = c.nats / c.cost;
+    if (c.point != best.point || c.input != best.input || c.factor != best.factor) continue;
+    is_there = true;
+    EXPECT_DOUBLE_EQ(c.nats, best.nats);
+    EXPECT_DOUBLE_EQ(c.cost, 0.99 * worth);
+  }
+  EXPECT_TRUE(is_there);
+  experiment.costs[0].second = 1.01 * worth;
+  for (const NewCondition& c : proposed()) EXPECT_NE(c.input, best.input);
+  experiment.costs = {{"no.such_input", 2}};
+  EXPECT_THROW(judged(experiment), Error);
 }
 
 TEST(NewConditions, NoneForTwins) {
