@@ -16,13 +16,17 @@ namespace {
 // Solid fraction of a random packing of spheres: what lies denser has no room for the water that the model puts there.
 constexpr double densest_packing = 0.6;
 
-/// Throws Error(usage) that names the forces of the case that need k and epsilon, if the flow has none. Collective.
-void require_turbulence(const FluidForces& forces, const Flow& flow) {
+/// Collective.
+bool has_turbulence(const Flow& flow) {
+  return sum(flow.mesh.comm, static_cast<std::int64_t>(flow.turbulent_kinetic_energy.size())) > 0;  // none on a rank without cells
+}
+
+/// Throws Error(usage) that names the forces of the case that need k and epsilon, if the flow has none.
+void require_turbulence(const FluidForces& forces, bool there) {
   std::vector<std::string> names;
   for (const auto& force : forces)
     if (const ForceDescription description = force->description(); description.samples.turbulence) names.push_back(description.name);
-  const auto n_values = static_cast<std::int64_t>(flow.turbulent_kinetic_energy.size());  // none on a rank without cells
-  if (names.empty() || sum(flow.mesh.comm, n_values) > 0) return;
+  if (names.empty() || there) return;
   throw Error(ExitCode::usage, "[coupling] forces: " + joined(names) + (names.size() > 1 ? " need" : " needs") +
                                    " k and epsilon, but this flow has none; give [turbulence] model = \"k_epsilon\", or remove " +
                                    (names.size() > 1 ? "the forces" : "the force"));
@@ -59,7 +63,8 @@ void CoupledSolver::step(double dt) {
 
 CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double)> advance_flow)
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
-  require_turbulence(coupling_.forces, flow);
+  const bool turbulent = has_turbulence(flow);
+  require_turbulence(coupling_.forces, turbulent);
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   const double width = coupling_.kernel_width(rags.rags());
   kernel_ = std::make_unique<Kernel>(*coupling_.shape, width, flow.mesh);
@@ -67,6 +72,7 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
   kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), *prediction_, coupling_.settings.two_way());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
   exchange_ = std::make_unique<Exchange>(*kernel_, flow);
+  screens_ = turbulent && load_->gives_screen();
 }
 
 CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, const PrescribedFlow& flow)
@@ -100,7 +106,7 @@ void CoupledSolver::spread(double dt) {
   report_.max_solid_fraction = exchange_->spread_volumes(volume);
   warn_of_packing();
   if (!coupling_.settings.two_way()) return;
-  if (load_->gives_screen()) {
+  if (screens_) {
     std::vector<double> screens(particles.size());
     for (std::size_t b = 0; b < particles.size(); ++b) screens[b] = load_->screen(particles.tile(b), particles.place(b));
     exchange_->spread_screens(screens);

@@ -81,6 +81,7 @@ class CoupledSolver {
   std::unique_ptr<PrescribedField> prescribed_field_;
   std::unique_ptr<FluidLoad> load_;
   std::unique_ptr<Exchange> exchange_;
+  bool screens_ = false;  // a force gives screens, and the water has eddies that they hinder
   std::vector<Vec3> impulses_;
   CouplingReport report_;
   bool warned_of_packing_ = false;

@@ -57,8 +57,7 @@ struct Forces {
   VectorSum fluid_velocity = {};   // m/s, what all others see: for Role::fluid only
   double* slip_growth = nullptr;   // d(slip that all others see)/d(slip of the samples), 1 where nobody sets it: for Role::fluid only
   double* relief = nullptr;        // slip that the force loses per impulse of this sub-step beside the answer of the water, 1/kg
-  double* screen =
-      nullptr;  // of cloth that eddies do not cross (solver/turbulence/two_equation_model.hpp): its area A ((1 + K)^(1/2) - 1), m2
+  double* screen = nullptr;        // A ((1 + K)^(1/2) - 1) of cloth that eddies do not cross, m2 (Flow::screen)
 };
 
 /// What a model changes; models act in this order, those of one role in the order of their names.

@@ -34,6 +34,9 @@
 //   layers   U = |w_t|/(1 - q),   q = D/(4 pi (delta^2 + (D/1.328)^2))^(1/2). The boundary layers of both sides slow the water that the
 //            kernel averages. Their deficit, D U, is distributed over the widths of the kernel and of the layers. q is at most 0.375.
 //
+// Two-way a sheet also hinders eddies: the particle gives the screen theta A ((1 + K)^(1/2) - 1) to the models of turbulence, which say
+// what it does (solver/turbulence/two_equation_model.hpp).
+//
 // Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have. Layers begin at the
 // edge of the lattice, of a disc at that of the square around it; a tear is no edge.
 // Source: resistance of screens, Taylor and Batchelor (1949), Q. J. Mech. Appl. Math. 2, 1-29; plate across the flow C_n = 1.17, Hoerner

@@ -224,9 +224,9 @@ void TwoEquationModel::set_viscosity(Flow& flow) {
 
 /// L s of the cells, with nu_t as it is for this k.
 void TwoEquationModel::set_hindrance(const Flow& flow, const std::vector<double>& k) {
+  const double root = std::pow(C_mu_, 0.25);
   hindrance_.resize(flow.screen.size());
-  for (std::size_t c = 0; c < hindrance_.size(); ++c)
-    hindrance_[c] = flow.screen[c] * flow.eddy_viscosity[c] / (std::pow(C_mu_, 0.25) * std::sqrt(k[c]));
+  for (std::size_t c = 0; c < hindrance_.size(); ++c) hindrance_[c] = flow.screen[c] * flow.eddy_viscosity[c] / (root * std::sqrt(k[c]));
 }
 
 /// Raises what is too small to compute with; returns in how many cells of all ranks. Positive by construction, k and phi get there only by

@@ -6,7 +6,7 @@ import os
 import signal
 
 import harness
-from small_cases import CHANNEL, COARSE_CHANNEL_MESH
+from small_cases import CHANNEL, COARSE_CHANNEL_MESH, K_EPSILON
 
 STEP = 1e-3  # s
 
@@ -48,6 +48,16 @@ class ResumedRun(harness.CaseTest):
     @harness.parallel
     def test_crash_on_two_ranks(self):
         self.crash_and_resume(2)
+
+    def test_crash_with_turbulence_and_screens(self):
+        """The first correction after the resume reads the screens of the sheet."""
+        case = self.channel()
+        text = case.read_text().replace('velocity_m_s = [0.5, 0, 0]\n\n', 'velocity_m_s = [0.5, 0, 0]\nturbulence_intensity = 0.1\n\n')
+        text = text.replace('["free_stream_drag"]', '["free_stream_drag", "sheet_drag"]').replace("viscosity_Pa_s = 0.05", "viscosity_Pa_s = 0.001")
+        case = self.case(text + K_EPSILON, "turbulent")
+        whole = self.run_once(case, 1)
+        resumed = self.crashed_and_resumed(whole, case, self.final_fields, self.n_before_checkpoint * STEP)
+        self.assert_equal(whole, resumed)
 
     def stopped_run(self, case, ranks, stop):
         """A run that is told to stop by stop(mpirun, folder) after some steps; it must end with code 7 and leave steps to do."""
