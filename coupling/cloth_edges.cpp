@@ -60,7 +60,7 @@ void find_edge_distances(MPI_Comm comm, const std::vector<Rag>& rags, std::span<
   });
   MPI_Allreduce(MPI_IN_PLACE, open.data(), static_cast<int>(open.size()), MPI_DOUBLE, MPI_SUM, comm);
   for_each_particle(rags, tiles, [&](std::size_t t, const Rag& rag, int k, int column, int row) {
-    const double x = (2 * column - (rag.n_columns - 1)) * rag.radius, y = (2 * row - (rag.n_rows - 1)) * rag.radius;
+    const auto [x, y] = rag.place(column, row);
     const auto inverse = [&](double place, double half, std::size_t end) {
       return open[end] / std::max(half + place, rag.radius) + open[end + 1] / std::max(half - place, rag.radius);
     };

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/vec3.hpp"
+#include "dem/particles/cut.hpp"
 
 namespace snag {
 
@@ -25,6 +27,7 @@ struct Rag {
   std::string name;
   int n_columns = 1, n_rows = 1;  // lattice; columns run along the length (x of the lattice frame), rows along the width (y)
   double mask_radius = 0;         // > 0: only places within this distance of the lattice's centre exist (disc), m
+  std::vector<Cut> cuts;
   std::int64_t first_particle =
       0;  // id of the lattice's first place; id = first_particle + row * n_columns + column, places outside the mask included
   std::int64_t n_particles = 0, n_bonds = 0;  // that exist
@@ -50,9 +53,16 @@ struct Rag {
   bool exists(int column, int row) const {
     if (column < 0 || row < 0 || column >= n_columns || row >= n_rows) return false;
     if (mask_radius <= 0) return true;
-    const double x = (2 * column - (n_columns - 1)) * radius, y = (2 * row - (n_rows - 1)) * radius;
+    const auto [x, y] = place(column, row);
     return x * x + y * y <= mask_radius * mask_radius * (1 + 1e-12);
   }
+  /// Of a particle from the centre of the flat lattice, lengthwise and crosswise, m.
+  std::array<double, 2> place(int column, int row) const {
+    return {(2 * column - (n_columns - 1)) * radius, (2 * row - (n_rows - 1)) * radius};
+  }
+  /// Whether a bond is made from this place to the next one of its row (direction 0) or of its column (1): both particles are there, and no
+  /// cut lies between them.
+  bool has_bond(int column, int row, int direction) const;
   /// Distance from a wall below which a particle touches it, and its share of that from another particle, m.
   double wall_reach() const { return contact_thickness > 0 ? contact_thickness / 2 : radius; }
   double layer_reach() const { return layer_thickness > 0 ? layer_thickness / 2 : radius; }

@@ -39,8 +39,8 @@ ParticlePose RagPiece::pose(int column, int row) const {
     const ParticlePose& placed = poses[static_cast<std::size_t>(row) * rag.n_columns + column];
     return {centre + placed.position, placed.orientation};
   }
-  const Vec3 local{(2 * column - (rag.n_columns - 1)) * rag.radius, (2 * row - (rag.n_rows - 1)) * rag.radius, 0};
-  return {centre + rotate(orientation, local), orientation};
+  const auto [x, y] = rag.place(column, row);
+  return {centre + rotate(orientation, {x, y, 0}), orientation};
 }
 
 namespace {
@@ -89,8 +89,8 @@ Tile make_tile(const RagPiece& piece, int rag_index, const TileGrid& grid, int t
       tile.set_vector(Tile::vx, k, piece.velocity + cross(piece.spin, pose.position - piece.centre));
       tile.set_vector(Tile::wx, k, piece.spin);
       // Only bonds with an end in the tile: those between two particles of the ring are the neighbours' business.
-      if (row_inside && i < tile.nx && piece.exists(column + 1, row)) tile.bond_x[k] = 1;
-      if (column_inside && j < tile.ny && piece.exists(column, row + 1)) tile.bond_y[k] = 1;
+      if (row_inside && i < tile.nx && piece.rag.has_bond(column, row, 0)) tile.bond_x[k] = 1;
+      if (column_inside && j < tile.ny && piece.rag.has_bond(column, row, 1)) tile.bond_y[k] = 1;
     }
   }
   return tile;
@@ -107,7 +107,7 @@ std::int64_t count_bonds(const RagPiece& piece) {
   std::int64_t n = 0;
   for (int row = 0; row < piece.rag.n_rows; ++row)
     for (int column = 0; column < piece.rag.n_columns; ++column)
-      if (piece.exists(column, row)) n += piece.exists(column + 1, row) + piece.exists(column, row + 1);
+      n += piece.rag.has_bond(column, row, 0) + piece.rag.has_bond(column, row, 1);
   return n;
 }
 

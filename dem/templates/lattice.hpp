@@ -66,7 +66,7 @@ TileGrid tile_grid(int n_columns, int n_rows);
 /// Tile `t` (within the piece) with mask, bonds (ring included) and poses (ring included).
 Tile make_tile(const RagPiece& piece, int rag_index, const TileGrid& grid, int t);
 
-/// Particles and bonds of a piece that exist, by its mask.
+/// Particles and bonds of a piece that exist, by its mask and its cuts.
 std::int64_t count_particles(const RagPiece& piece);
 std::int64_t count_bonds(const RagPiece& piece);
 

@@ -63,6 +63,31 @@ void set_lattice(const RagSettings& s, RagPiece& piece) {
   if (s.shape == Shape::particle) rag.radius = s.diameter / 2;
 }
 
+/// A cut without effect is refused.
+void set_cuts(const RagSettings& s, const std::string& where, Rag& rag) {
+  for (std::size_t c = 0; c < s.cuts.size(); ++c) {
+    const std::string which = where + " cut " + std::to_string(c + 1) + ": ";
+    for (const auto& [key, end] : {std::pair{"from", &s.cuts[c].from}, {"to", &s.cuts[c].to}})
+      if (end->size() != 2)
+        throw Error(ExitCode::usage, which + key + " has " + counted(end->size(), "number") +
+                                         ", must have 2: lengthwise and crosswise from the centre of the cloth; correct it");
+    const Cut cut{{s.cuts[c].from[0], s.cuts[c].from[1]}, {s.cuts[c].to[0], s.cuts[c].to[1]}};
+    const auto crosses_a_bond = [&] {
+      for (int row = 0; row < rag.n_rows; ++row)
+        for (int column = 0; column < rag.n_columns; ++column)
+          for (const int direction : {0, 1})
+            if (rag.has_bond(column, row, direction) && crosses(cut, rag, column, row, direction)) return true;
+      return false;
+    };
+    if (!crosses_a_bond())
+      throw Error(ExitCode::usage, which + "from (" + number_text(cut.from[0]) + ", " + number_text(cut.from[1]) + ") to (" +
+                                       number_text(cut.to[0]) + ", " + number_text(cut.to[1]) +
+                                       ") m it crosses no bond of the cloth, whose lattice spacing is " + number_text(2 * rag.radius) +
+                                       " m; correct the ends, which count from the centre of the cloth, or remove the cut");
+    rag.cuts.push_back(cut);
+  }
+}
+
 /// Thicker than a particle, neighbours on the lattice would touch each other.
 void set_thickness(const RagSettings& s, const std::string& where, Rag& rag) {
   const double largest = 2 * rag.radius;
@@ -177,6 +202,7 @@ RagPiece make_piece(const RagSettings& s, const std::string& where, const std::f
   piece.rag.name = s.name;
   check_size(s, where);
   set_lattice(s, piece);
+  set_cuts(s, where, piece.rag);
   set_thickness(s, where, piece.rag);
   piece.rag.wall_friction = s.wall_friction, piece.rag.cloth_friction = s.cloth_friction;
   set_mass(s, piece.rag);

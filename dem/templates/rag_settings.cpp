@@ -214,6 +214,18 @@ const bool disc_table = add_case_table<RagSettings>(140, RagSettings::Shape::dis
 const bool fibre_table = add_case_table<RagSettings>(150, RagSettings::Shape::fibre);
 const bool particle_table = add_case_table<RagSettings>(160, RagSettings::Shape::particle);
 
+Section CutSettings::section() {
+  return {
+      "rag.cut",
+      "A straight cut in a `[[rag]]`; in a `[[disc]]` the table is `[[disc.cut]]`. Bonds that cross the line from one end to the other are "
+      "not made, so that both sides can move apart. Places are those of the flat cloth, from its centre: lengthwise, crosswise. A particle "
+      "on the line belongs to the left of it. A cut that crosses no bond is an error.",
+      {{.key = "from", .target = &from, .unit = "m", .meaning = "One end of the cut, two numbers."},
+       {.key = "to", .target = &to, .unit = "m", .meaning = "The other end."}},
+      true};
+}
+const bool cut_table = add_case_table<CutSettings>(145);
+
 Section DemSettings::section() {
   return {"dem",
           "Motion of the rags within a step of the water.",
@@ -246,6 +258,8 @@ std::vector<RagPiece> read_pieces(const CaseFile& file) {
     for (const Table& table : file.root().tables(name)) {
       RagSettings settings(shape);
       table.read(settings.section().parameters);
+      if (shape == Shape::rag || shape == Shape::disc)
+        for (const Table& cut : table.tables("cut")) cut.read(settings.cuts.emplace_back().section().parameters);
       if (shape != Shape::particle) settings.law = read_bond_law(settings.bond_law, table);
       for (RagPiece& piece : copies_of(make_piece(settings, table.where(), file.path(".")), settings.copies, table.where())) {
         ++count;

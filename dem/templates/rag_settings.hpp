@@ -19,6 +19,12 @@ namespace snag {
 /// lengthwise, 1 crosswise. Throws Error(usage) outside 1.0 .. 2.0 mm, where the properties must be given.
 BondProperties published_bond(double radius, int direction);
 
+/// [[rag.cut]], [[disc.cut]].
+struct CutSettings {
+  std::vector<double> from, to;  // m
+  Section section();
+};
+
 struct RagSettings {
   enum class Shape { rag, disc, fibre, particle };
   explicit RagSettings(Shape piece_shape = Shape::rag);
@@ -31,6 +37,7 @@ struct RagSettings {
   double diameter = 0;                   // of a disc, a fibre (hydrodynamic) or a particle, m
   double radius = 1e-3;                  // r_p, m
   int n_points = 0;                      // fibre: particles; 0: from length and radius
+  std::vector<CutSettings> cuts;         // of a rag or a disc
   // mass
   double thickness = 0.77e-3;                                // m
   std::optional<double> contact_thickness, layer_thickness;  // m; none: 2 r_p

@@ -48,8 +48,8 @@ Silhouette seen_along(const RagPiece& piece, const Vec3& up, const Vec3& right) 
   for (int row = 0; row < rag.n_rows; ++row)
     for (int column = 0; column < rag.n_columns; ++column) {
       points.push_back(piece.pose(column, row).position);
-      if (!piece.exists(column, row) || !piece.exists(column + 1, row) || !piece.exists(column, row + 1) ||
-          !piece.exists(column + 1, row + 1))
+      if (!rag.has_bond(column, row, 0) || !rag.has_bond(column, row, 1) || !rag.has_bond(column, row + 1, 0) ||
+          !rag.has_bond(column + 1, row, 1))
         continue;
       const int a = row * rag.n_columns + column, b = a + rag.n_columns;
       triangles.push_back({a, a + 1, b + 1}), triangles.push_back({a, b + 1, b});

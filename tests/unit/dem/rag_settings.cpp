@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <set>
 
 #include "base/error.hpp"
 #include "dem/rag_system.hpp"
@@ -37,6 +38,54 @@ TEST(RagSettings, PublishedClothHasItsParticlesAndBonds) {
   EXPECT_EQ(rag.bond[1].normal_stiffness, 4.23e8);
   EXPECT_EQ(rag.bond[1].normal_strength, 2.23e5);
   EXPECT_EQ(rag.name, "rag 1");
+}
+
+/// Bonds that a cut of a sheet of 6 x 4 particles of 1 mm takes away, as "column,row,direction".
+std::set<std::string> cut_bonds(const std::string& from, const std::string& to) {
+  const std::string sheet = "[[rag]]\nlength_mm = 12\nwidth_mm = 8\n";
+  const Rag whole = piece_of(sheet).rag, cut = piece_of(sheet + "[[rag.cut]]\nfrom_mm = " + from + "\nto_mm = " + to + "\n").rag;
+  std::set<std::string> gone;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 6; ++column)
+      for (const int direction : {0, 1}) {
+        EXPECT_LE(cut.has_bond(column, row, direction), whole.has_bond(column, row, direction));
+        if (cut.has_bond(column, row, direction) != whole.has_bond(column, row, direction))
+          gone.insert(std::to_string(column) + "," + std::to_string(row) + "," + std::to_string(direction));
+      }
+  return gone;
+}
+
+TEST(RagSettings, ACutTakesAwayTheBondsThatCrossIt) {
+  // Requirement: exactly the bonds whose line from particle to particle crosses the cut are gone; the lattice has its particles at -5, -3
+  // .. 5 mm along and -3, -1, 1, 3 mm across.
+  using Bonds = std::set<std::string>;
+  EXPECT_EQ(cut_bonds("[-9, 0]", "[-2, 0]"), (Bonds{"0,1,1", "1,1,1"})) << "along, from the edge into the cloth";
+  EXPECT_EQ(cut_bonds("[-2, 0]", "[-9, 0]"), (Bonds{"0,1,1", "1,1,1"})) << "the other way";
+  EXPECT_EQ(cut_bonds("[0, -9]", "[0, 9]"), (Bonds{"2,0,0", "2,1,0", "2,2,0", "2,3,0"})) << "right across";
+  EXPECT_EQ(cut_bonds("[-3.5, -0.5]", "[-0.5, 2.5]"), (Bonds{"1,1,1", "1,2,0", "2,2,1"})) << "oblique, x - y = -3: a staircase";
+  EXPECT_EQ(cut_bonds("[-3, -9]", "[-3, 9]"), (Bonds{"1,0,0", "1,1,0", "1,2,0", "1,3,0"}))
+      << "through a column, upwards: it stays on the left";
+  EXPECT_EQ(cut_bonds("[-3, 9]", "[-3, -9]"), (Bonds{"0,0,0", "0,1,0", "0,2,0", "0,3,0"})) << "downwards";
+  EXPECT_EQ(cut_bonds("[-4, -0.1]", "[-4, -1]"), (Bonds{"0,1,0"})) << "as far as a bond";
+}
+
+TEST(RagSettings, ACutWithoutEffectIsRefused) {
+  // Requirement: a cut that crosses no bond, between particles, beside the cloth or where another one is, ends with the remedy.
+  const std::string sheet = "[[rag]]\nlength_mm = 12\nwidth_mm = 8\n", cut = "[[rag.cut]]\nfrom_mm = [-9, 0]\nto_mm = [-2, 0]\n";
+  for (const std::string& useless : {std::string("[[rag.cut]]\nfrom_mm = [-3.5, 0.2]\nto_mm = [-3.2, 0.7]\n"),
+                                     std::string("[[rag.cut]]\nfrom_mm = [7, -4]\nto_mm = [7, 4]\n"),
+                                     std::string("[[rag.cut]]\nfrom_mm = [0, 0]\nto_mm = [0, 0]\n"), cut + cut}) {
+    try {
+      piece_of(sheet + useless);
+      ADD_FAILURE() << "no error: " << useless;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage);
+      EXPECT_NE(std::string(error.what()).find("crosses no bond"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW(piece_of(sheet + "[[rag.cut]]\nfrom_mm = [-9]\nto_mm = [-2, 0]\n"), Error);
+  EXPECT_THROW(piece_of(sheet + "[[rag.cut]]\nto_mm = [-2, 0]\n"), Error);
+  EXPECT_THROW(piece_of("[[fibre]]\n[[fibre.cut]]\nfrom_mm = [-9, 0]\nto_mm = [9, 0]\n"), Error) << "a key that nobody reads";
 }
 
 TEST(RagSettings, APieceBeyondTheMemoryIsRefused) {
