@@ -11,22 +11,6 @@ namespace {
 
 constexpr double farthest = 1e3;  // m
 
-/// Numbers of the two ends of each row, then of each column, of all rags one after the other.
-class Ends {
- public:
-  explicit Ends(const std::vector<Rag>& rags) {
-    for (const Rag& rag : rags) first_.push_back(first_.back() + 2 * static_cast<std::size_t>(rag.n_rows + rag.n_columns));
-  }
-  std::size_t count() const { return first_.back(); }
-  std::size_t of_row(const Tile& tile, int row) const {
-    return first_[static_cast<std::size_t>(tile.rag)] + 2 * static_cast<std::size_t>(row);
-  }
-  std::size_t of_column(const Tile& tile, const Rag& rag, int column) const { return of_row(tile, rag.n_rows + column); }
-
- private:
-  std::vector<std::size_t> first_{0};
-};
-
 /// Half of the cloth's extent along a lattice line that is `across` from the middle; `places` on the longest line.
 double half_extent(const Rag& rag, int places, double across) {
   const double R = rag.mask_radius;
@@ -46,26 +30,56 @@ void for_each_particle(const std::vector<Rag>& rags, std::span<const Tile> tiles
 
 }  // namespace
 
-void find_edge_distances(MPI_Comm comm, const std::vector<Rag>& rags, std::span<const Tile> tiles, TileArrays& arrays, int coverage,
-                         int edge_distance) {
-  const Ends ends(rags);
-  std::vector<double> open(ends.count(), 0.0);  // one particle fills each: a sum over the ranks adds zeros
-  for_each_particle(rags, tiles, [&](std::size_t t, const Rag& rag, int k, int column, int row) {
+ClothEdges::ClothEdges(const std::vector<Rag>& rags) : rags_(rags) {
+  for (const Rag& rag : rags) {
+    std::vector<Line>& lines = lines_.emplace_back(static_cast<std::size_t>(rag.n_rows + rag.n_columns));
+    if (!rag.cuts.empty())
+      for (int j = 0; j < rag.n_rows; ++j)
+        for (int i = 0; i < rag.n_columns; ++i) {
+          if (!rag.exists(i, j)) continue;
+          if (rag.exists(i + 1, j) && !rag.has_bond(i, j, 0)) lines[j].cuts.push_back(i);
+          if (rag.exists(i, j + 1) && !rag.has_bond(i, j, 1)) lines[rag.n_rows + i].cuts.push_back(j);
+        }
+    for (Line& line : lines) line.first = n_ends_, n_ends_ += 2 * (line.cuts.size() + 1);
+  }
+}
+
+void ClothEdges::find_distances(MPI_Comm comm, std::span<const Tile> tiles, TileArrays& arrays, int coverage, int edge_distance) const {
+  const auto part_of = [](const Line& line, int place) {
+    return static_cast<std::size_t>(std::lower_bound(line.cuts.begin(), line.cuts.end(), place) - line.cuts.begin());
+  };
+  std::vector<double> open(n_ends_, 0.0);  // one particle fills each: a sum over the ranks adds zeros
+  for_each_particle(rags_, tiles, [&](std::size_t t, const Rag& rag, int k, int i, int j) {
     const double share = open_share(arrays.field(t, coverage)[k]);
-    const std::size_t in_row = ends.of_row(tiles[t], row), in_column = ends.of_column(tiles[t], rag, column);
-    if (!rag.exists(column - 1, row)) open[in_row] = share;
-    if (!rag.exists(column + 1, row)) open[in_row + 1] = share;
-    if (!rag.exists(column, row - 1)) open[in_column] = share;
-    if (!rag.exists(column, row + 1)) open[in_column + 1] = share;
+    const auto fill = [&](const Line& line, int place, bool exists_before, bool exists_after) {
+      const std::size_t part = part_of(line, place), end = line.first + 2 * part;
+      if (!exists_before || (part > 0 && line.cuts[part - 1] == place - 1)) open[end] = share;
+      if (!exists_after || (part < line.cuts.size() && line.cuts[part] == place)) open[end + 1] = share;
+    };
+    fill(row(tiles[t], j), i, rag.exists(i - 1, j), rag.exists(i + 1, j));
+    fill(column(tiles[t], i), j, rag.exists(i, j - 1), rag.exists(i, j + 1));
   });
   MPI_Allreduce(MPI_IN_PLACE, open.data(), static_cast<int>(open.size()), MPI_DOUBLE, MPI_SUM, comm);
-  for_each_particle(rags, tiles, [&](std::size_t t, const Rag& rag, int k, int column, int row) {
-    const auto [x, y] = rag.place(column, row);
-    const auto inverse = [&](double place, double half, std::size_t end) {
-      return open[end] / std::max(half + place, rag.radius) + open[end + 1] / std::max(half - place, rag.radius);
+  for_each_particle(rags_, tiles, [&](std::size_t t, const Rag& rag, int k, int i, int j) {
+    const auto [x, y] = rag.place(i, j);
+    // Of the edges to both sides: from `from` at the place `number` of a line of n places that ends at -half and half.
+    const auto inverse = [&](const Line& line, int number, int n, double from, double half) {
+      const auto at_cut = [&](std::size_t cut) { return (2 * line.cuts[cut] + 1 - (n - 1)) * rag.radius; };
+      const std::size_t own = part_of(line, number);
+      double sum = 0, closed = 1;
+      for (std::size_t p = own + 1; p-- > 0;) {
+        const double o = open[line.first + 2 * p], edge = p > 0 ? at_cut(p - 1) : -half;
+        sum += closed * o / std::max(from - edge, rag.radius), closed *= 1 - o;
+      }
+      closed = 1;
+      for (std::size_t p = own; p <= line.cuts.size(); ++p) {
+        const double o = open[line.first + 2 * p + 1], edge = p < line.cuts.size() ? at_cut(p) : half;
+        sum += closed * o / std::max(edge - from, rag.radius), closed *= 1 - o;
+      }
+      return sum;
     };
-    const double along = inverse(x, half_extent(rag, rag.n_columns, y), ends.of_row(tiles[t], row)),
-                 across = inverse(y, half_extent(rag, rag.n_rows, x), ends.of_column(tiles[t], rag, column));
+    const double along = inverse(row(tiles[t], j), i, rag.n_columns, x, half_extent(rag, rag.n_columns, y)),
+                 across = inverse(column(tiles[t], i), j, rag.n_rows, y, half_extent(rag, rag.n_rows, x));
     arrays.field(t, edge_distance)[k] = 1 / std::max(std::hypot(along, across), 1 / farthest);
   });
 }

@@ -7,6 +7,11 @@
 // most 1; kappa is the coverage at the last particle before the edge. No water passes an edge at a wall, at a plane of
 // symmetry or at another cloth: this edge is closed. Near one straight open edge s is the distance from this edge. An accelerated strip,
 // disc or ellipse has a potential jump whose surface Laplacian is -1/(4 s^2) times the jump, exactly.
+//
+// The sides of a cut are edges: closed while they lie side by side, open where they have moved apart. As far as a cut is closed, the edges
+// behind it count: o_1/s_1 of an end is then the sum over all edges to that side, nearest first,
+//
+//   o_a/s_a + (1 - o_a) (o_b/s_b + (1 - o_b) (...))
 #include <mpi.h>
 
 #include <span>
@@ -17,9 +22,26 @@
 
 namespace snag {
 
-/// Fills field `edge_distance` of `arrays`, s in m (at most 1e3 m), from their field `coverage`, for all particles of this rank; the same
-/// on any ranks. Collective.
-void find_edge_distances(MPI_Comm comm, const std::vector<Rag>& rags, std::span<const Tile> tiles, TileArrays& arrays, int coverage,
-                         int edge_distance);
+class ClothEdges {
+ public:
+  /// `rags` must outlive this object.
+  explicit ClothEdges(const std::vector<Rag>& rags);
+  /// Fills field `edge_distance` of `arrays`, s in m (at most 1e3 m), from their field `coverage`, for all particles of this rank; the same
+  /// on any ranks. Collective.
+  void find_distances(MPI_Comm comm, std::span<const Tile> tiles, TileArrays& arrays, int coverage, int edge_distance) const;
+
+ private:
+  /// A row or a column, in parts between its cuts.
+  struct Line {
+    std::size_t first = 0;  // number of its first end: part p has the ends first + 2 p and first + 2 p + 1
+    std::vector<int> cuts;  // last places before the cuts, ascending
+  };
+  const Line& row(const Tile& tile, int number) const { return lines_[tile.rag][number]; }
+  const Line& column(const Tile& tile, int number) const { return lines_[tile.rag][rags_[tile.rag].n_rows + number]; }
+
+  const std::vector<Rag>& rags_;
+  std::vector<std::vector<Line>> lines_;  // [rag][rows, then columns]
+  std::size_t n_ends_ = 0;                // of all lines
+};
 
 }  // namespace snag

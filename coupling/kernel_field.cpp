@@ -1,6 +1,5 @@
 #include "coupling/kernel_field.hpp"
 
-#include "coupling/cloth_edges.hpp"
 #include "coupling/samples.hpp"
 
 namespace snag {
@@ -48,7 +47,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     }
     if (two_way_) arrays_.field(t, sampled::response)[k] = answers[b];
   }
-  if (needed.coverage) find_edge_distances(flow_.mesh.comm, rags_, tiles, arrays_, coverage, edge_distance);
+  if (needed.coverage) edges_.find_distances(flow_.mesh.comm, tiles, arrays_, coverage, edge_distance);
 }
 
 std::vector<Vec3> KernelField::missed_rates(std::span<const Vec3> impulse) const {

@@ -1,6 +1,7 @@
 #pragma once
 // The water of the flow solver at the particles: kernel averages, frozen over the sub-steps of one fluid step but for what the prediction
 // says (coupling/water_prediction.hpp). What is averaged beside velocity and gradient is in the table of samples.cpp.
+#include "coupling/cloth_edges.hpp"
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"
@@ -13,7 +14,7 @@ class KernelField final : public FluidField {
  public:
   /// `rags`: those that Tile::rag counts; `prediction` of the flow, which answers to them if two_way.
   KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, const WaterPrediction& prediction, bool two_way)
-      : flow_(flow), kernel_(kernel), rags_(rags), prediction_(prediction), two_way_(two_way) {}
+      : flow_(flow), kernel_(kernel), rags_(rags), edges_(rags), prediction_(prediction), two_way_(two_way) {}
   void sample(std::span<const Tile> tiles, const SampleSet& needed) override;
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
   bool answers() const override { return two_way_; }
@@ -31,6 +32,7 @@ class KernelField final : public FluidField {
   const Flow& flow_;
   Kernel& kernel_;
   const std::vector<Rag>& rags_;
+  ClothEdges edges_;
   const WaterPrediction& prediction_;
   bool two_way_;
   ParticleList particles_;

@@ -38,7 +38,7 @@
 // what it does (solver/turbulence/two_equation_model.hpp).
 //
 // Particles that have not neighbours in both directions (fibres, spheres) keep the drag that they have. Layers begin at the
-// edge of the lattice, of a disc at that of the square around it; a tear or a cut is no edge.
+// edge of the lattice, of a disc at that of the square around it; a tear or a cut begins no layer.
 // Source: resistance of screens, Taylor and Batchelor (1949), Q. J. Mech. Appl. Math. 2, 1-29; plate across the flow C_n = 1.17, Hoerner
 // (1965), chapter 3; disc in creeping flow, Lamb (1932), section 339; laminar layer, Blasius (1908), trailing edge, Messiter (1970), SIAM
 // J. Appl. Math. 18, 241-257; turbulent layer, Prandtl (Schlichting, Boundary-Layer Theory, chapter XXI). At Re 4000 Messiter's term is

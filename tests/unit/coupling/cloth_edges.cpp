@@ -15,16 +15,18 @@ namespace {
 
 constexpr double radius = 1e-3;
 
-RagPiece piece(RagSettings::Shape shape) {
+RagPiece piece(RagSettings::Shape shape, const std::vector<Cut>& cuts) {
   RagSettings settings(shape);
   settings.length = 0.2, settings.width = 0.1, settings.diameter = 0.1, settings.radius = radius;
-  return make_piece(settings, "test");
+  RagPiece made = make_piece(settings, "test");
+  made.rag.cuts = cuts;
+  return made;
 }
 
 /// Calls visit(x, y, s) for the particles of this rank, x and y from the middle of the cloth, m; `coverage` at x and y.
 template <class Coverage, class Visit>
-void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Visit& visit) {
-  RagSystem rags(MPI_COMM_WORLD, {}, {piece(shape)});
+void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Visit& visit, const std::vector<Cut>& cuts = {}) {
+  RagSystem rags(MPI_COMM_WORLD, {}, {piece(shape, cuts)});
   const Rag& rag = rags.rags()[0];
   TileArrays arrays;
   arrays.reset(rags.tiles(), 2);
@@ -37,7 +39,7 @@ void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Vi
     }
   };
   each([&](std::size_t t, int k, double x, double y) { arrays.field(t, 0)[k] = coverage(x, y); });
-  find_edge_distances(MPI_COMM_WORLD, rags.rags(), rags.tiles(), arrays, 0, 1);
+  ClothEdges(rags.rags()).find_distances(MPI_COMM_WORLD, rags.tiles(), arrays, 0, 1);
   each([&](std::size_t t, int k, double x, double y) { visit(x, y, arrays.field(t, 1)[k]); });
 }
 
@@ -54,6 +56,37 @@ TEST(ClothEdges, one_edge) {
   expect(0.3, [](double x) { return x + 0.1; });
   expect(0.75, [](double x) { return 2 * (x + 0.1); });
   expect(1.2, [](double) { return 1e3; });
+}
+
+// The sides of a cut right across are edges as far as they are open, and the edge behind it counts as far as they are closed. It is seen
+// along the rows, from both sides.
+TEST(ClothEdges, cut) {
+  const double cut_at = 0.02;
+  for (const double coverage_at_cut : {0.5, 0.75, 1.0}) {
+    const double o = 2 * (1 - coverage_at_cut);
+    with_distances(
+        RagSettings::Shape::rag,
+        [&](double x, double) { return x < -0.098                            ? 0.5
+                                       : std::abs(x - cut_at) < 1.5 * radius ? coverage_at_cut
+                                                                             : 1.0; },
+        [&](double x, double, double s) {
+          if (x < -0.098 || std::abs(x - cut_at) < 1.5 * radius) return;  // these columns are open at their ends
+          const double exact = x < cut_at ? 1 / (x + 0.1) + o / (cut_at - x) : o / (x - cut_at) + (1 - o) / (x + 0.1);
+          EXPECT_NEAR(1 / s, std::max(exact, 1e-3), 1e-9 / s) << x << " " << coverage_at_cut;
+        },
+        {{{cut_at, -1}, {cut_at, 1}}});
+  }
+}
+
+// A cut along a part of the rows is an edge of the columns that cross it, and of no others.
+TEST(ClothEdges, cut_of_a_part) {
+  with_distances(
+      RagSettings::Shape::rag, [](double, double y) { return std::abs(y) < 1.5 * radius ? 0.5 : 1.0; },
+      [](double x, double y, double s) {
+        if (std::abs(y) < 1.5 * radius) return;  // these rows are open at their ends
+        EXPECT_NEAR(s, x < 0 ? std::abs(y) : 1e3, 1e-9 * s) << x << " " << y;
+      },
+      {{{-1, 0}, {0, 0}}});
 }
 
 // -4 times the Laplacian of the potential's jump over the jump is 1/s^2: on a disc, where the jump is (a^2 - r^2)^(1/2).
