@@ -22,16 +22,18 @@ def bisection(is_low, low, high, steps=50):
     return (low + high) / 2
 
 
-def blade(C, buoyancy, steps=80):
-    """States (theta, theta', force along the stream, force upwards) from the tip to the clamp of a blade of length 1 that stands on the ground in a stream.
+def blade(C, buoyancy, steps=80, taper=1):
+    """States (theta, w theta', force along the stream, force upwards) from the tip to the clamp of a blade of length 1 that stands on the ground in a stream.
 
-    theta'' = -C F.n,  F' = -cos(theta)^2 n - (buoyancy/C) (0, 1),  n = (cos(theta), -sin(theta)),  theta(0) = theta'(1) = F(1) = 0;  theta: angle to the vertical, F: force of what lies beyond s
-    Lengths in the blade's length l, forces in its upright drag rho C_D b U^2 l/2; C = rho C_D b U^2 l^3/(2 E I), buoyancy = (rho - rho_blade) g b d l^3/(E I); b width, d thickness.
+    (w theta')' = -C F.n,  F' = -w (cos(theta)^2 n + (buoyancy/C) (0, 1)),  n = (cos(theta), -sin(theta)),  theta(0) = theta'(1) = F(1) = 0;  theta: angle to the vertical, F: force of what lies
+    beyond s, w: width over that at the clamp, growing evenly to `taper` at the tip.
+    Lengths in the blade's length l, forces in rho C_D b U^2 l/2, the upright drag of a blade as wide as at the clamp, b; C = rho C_D b U^2 l^3/(2 E I), buoyancy = (rho - rho_blade) g b d l^3/(E I); I at
+    the clamp, d thickness.
     Shooting for theta(1) from the tip; model of Luhar and Nepf (2011), Limnol. Oceanogr. 56, 2003-2017, without friction.
     """
-    def rate(_, y):
-        n = numpy.array([numpy.cos(y[0]), -numpy.sin(y[0])])
-        return numpy.array([-y[1], C * (y[2:] @ n), *(numpy.cos(y[0]) ** 2 * n + [0, buoyancy / C])])
+    def rate(s, y):
+        n, w = numpy.array([numpy.cos(y[0]), -numpy.sin(y[0])]), taper - (taper - 1) * s
+        return numpy.array([-y[1] / w, C * (y[2:] @ n), *(w * (numpy.cos(y[0]) ** 2 * n + [0, buoyancy / C]))])
 
     def states(tip):
         return runge_kutta(rate, [tip, 0, 0, 0], 1, steps)
@@ -39,9 +41,10 @@ def blade(C, buoyancy, steps=80):
     return states(bisection(lambda tip: states(tip)[-1, 0] <= 0, 0, numpy.pi / 2))
 
 
-def reconfiguration(C, steps=80):
-    """Drag over that of the rigid plate: half of a plate that is clamped along its middle across a stream, of length 1; model of Gosselin, de Langre and Machado-Almeida (2010), J. Fluid Mech. 650, 319-341."""
-    return blade(C, 0, steps)[-1, 2]
+def reconfiguration(C, steps=80, taper=1):
+    """Drag over that of the rigid plate: half of a plate that is clamped along its middle across a stream, of length 1, or a sector of a disc, which is wider at its tip; model of Gosselin, de Langre and
+    Machado-Almeida (2010), J. Fluid Mech. 650, 319-341, whose C of a sector contains the taper."""
+    return blade(C / taper, 0, steps, taper)[-1, 2] / ((1 + taper) / 2)
 
 
 def published_reconfiguration(C, steps=80):

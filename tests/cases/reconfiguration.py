@@ -1,10 +1,11 @@
 # timeout: 300
-# cost: 20
+# cost: 35
 """Requirement: a plate that is clamped along its middle line across a prescribed stream bends and drags as the elastica does, from a nearly rigid plate to one whose halves lie
-along the stream; the error of a coarser lattice falls with its spacing."""
+along the stream; the error of a coarser lattice falls with its spacing. A sector of a cut disc, which is wider at its tip, does the same."""
 import math
 import tomllib
 
+import cut_disc
 import elastica
 import expected
 import harness
@@ -57,6 +58,23 @@ class Reconfiguration(harness.CaseTest):
         order = math.log(errors[15] / errors[27]) / math.log(27 / 15)
         print(f"  order {order:.2f}")
         self.assertGreater(order, 1.7)
+
+
+class SectorOfADisc(harness.CaseTest):
+    """Gosselin, de Langre and Machado-Almeida (2010): disc D3 at the largest C that was measured; reconfiguration_long has whole discs."""
+
+    def test_sector_has_the_drag_of_the_elastica(self):
+        disc, errors = cut_disc.Disc(0.037), {}
+        self.assertLess(abs(elastica.reconfiguration(1e-6, taper=4) - 1), 1e-5, "a stiff sector")
+        for across in (3, 6):
+            piece = disc.sector(500, across, 0.1)
+            drag, exact = piece.reconfiguration(self.run_case(self.case(piece.text, f"{across}"), out=f"{across}")), elastica.reconfiguration(500, taper=piece.taper)
+            errors[across] = drag / exact - 1
+            print(f"  {across} particles across the clamp: R {drag:.4f}, elastica {exact:.4f}, off by {100 * errors[across]:+.1f} %", flush=True)
+        order = math.log2(errors[3] / errors[6])
+        print(f"  order {order:.2f}")
+        self.assertLess(abs(errors[6]), 0.03)
+        self.assertGreater(order, 1.3)
 
 
 if __name__ == "__main__":
