@@ -35,9 +35,9 @@
 // l are stable too (up to 45 degrees where |l| <= 0.6); with F = 1 those of small |l| grow from 10 degrees on.
 //
 // u^n is the velocity of the fluxes. The velocity of a cell answers to the force and to the pressure in it, which cancel to the order of
-// the cell only: in a cloth that holds a pressure of many rho u^2 it is off by more than the water that passes, and always to the same
-// side. What the faces carry is free of that error. For a velocity that is linear in space, u = u_c + G (x - x_c), and faces f with the
-// flux out of the cell phi_f,
+// the cell only: in a cloth that holds a pressure of many rho u^2 its error is larger than the velocity of the water that passes, and has
+// the same sign in the mean. What the faces carry is free of that error. For a velocity that is linear in space, u = u_c + G (x - x_c), and
+// faces f with the flux out of the cell phi_f,
 //
 //   u_c = 1/V_c sum_f (x_f - x_c) (phi_f - S_f . G (x_f - x_c))
 //
