@@ -2,14 +2,25 @@
 
 namespace snag {
 
+int WeightRows::place_of(int cell) {
+  if (static_cast<std::size_t>(cell) >= place_of_.size()) place_of_.resize(static_cast<std::size_t>(cell) + 1, -1);
+  int& known = place_of_[static_cast<std::size_t>(cell)];
+  if (known < 0) {
+    known = static_cast<int>(cells_.size());
+    cells_.push_back(cell);
+  }
+  return known;
+}
+
 void WeightRows::clear() {
-  row.clear(), cell.clear(), weight.clear();
+  for (const int cell : cells_) place_of_[static_cast<std::size_t>(cell)] = -1;
+  row.clear(), place.clear(), weight.clear(), cells_.clear();
   start.assign(1, 0);
 }
 
 void WeightRows::close_row() {
   row.push_back(n_rows());
-  start.push_back(static_cast<int>(cell.size()));
+  start.push_back(static_cast<int>(place.size()));
 }
 
 void CellWeights::keep(std::span<const char> keeps) {

@@ -11,16 +11,25 @@
 
 namespace snag {
 
-/// Weights of the cells of this rank in compressed rows; particles may share a row.
-struct WeightRows {
+/// Weights of the cells of this rank in compressed rows; particles may share a row. The entries hold places in the list of the cells that
+/// are in use, so that what the rows need of a field fits the cache.
+class WeightRows {
+ public:
   std::vector<int> row;  // of each announced particle
-  std::vector<int> start, cell;
+  std::vector<int> start, place;
   std::vector<double> weight;
   int n_rows() const { return static_cast<int>(start.size()) - 1; }
   bool is_empty(int r) const { return start[r] == start[r + 1]; }
+  /// Owned cells, each once; some may be in no row.
+  const std::vector<int>& cells() const { return cells_; }
+  /// Place of a cell in that list, to which it is added if it is new.
+  int place_of(int cell);
   void clear();
-  /// The cells and weights that were appended since the last call become the row of the next particle.
+  /// The places and weights that were appended since the last call become the row of the next particle.
   void close_row();
+
+ private:
+  std::vector<int> cells_, place_of_;  // [owned cells] -1: not in use
 };
 
 /// Particles of this rank, and those that were announced to it.

@@ -1,10 +1,10 @@
 #include "coupling/cells_around.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace snag {
 
@@ -19,16 +19,22 @@ std::vector<int> order_in_space(std::span<const Vec3> points, double radius) {
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
   if (!(radius > 0)) return order;
-  using Box = std::array<std::int64_t, 3>;
-  std::vector<Box> box(points.size());
-  for (std::size_t b = 0; b < points.size(); ++b)
+  constexpr int bits = 21;  // of a box's number along an axis
+  constexpr double most = (1 << (bits - 1)) - 1;
+  std::vector<std::pair<std::uint64_t, int>> by_box;
+  for (const int b : order) {
+    std::uint64_t box = 0;
     for (int axis = 0; axis < 3; ++axis)
-      box[b][axis] = static_cast<std::int64_t>(std::floor(std::fmin(std::fmax(points[b][axis] / (box_side * radius), -1e15), 1e15)));
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return box[a] != box[b] ? box[a] < box[b] : a < b; });
+      box = box << bits |
+            static_cast<std::uint64_t>(std::fmin(std::fmax(std::floor(points[b][axis] / (box_side * radius)), -most), most) + most);
+    by_box.emplace_back(box, b);
+  }
+  std::sort(by_box.begin(), by_box.end());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = by_box[i].second;
   return order;
 }
 
-void CellsAround::start_group(std::span<const Vec3> points, std::size_t i) {
+void CellsAround::start_group(std::span<const Vec3> points, std::size_t i, WeightRows& rows) {
   Vec3 low = points[i], high = points[i];
   group_first_ = i;
   for (group_end_ = i + 1; group_end_ < points.size() && group_end_ < i + most_points; ++group_end_) {
@@ -43,32 +49,36 @@ void CellsAround::start_group(std::span<const Vec3> points, std::size_t i) {
   candidate_.clear();
   locator_.within(0.5 * (low + high), radius_ * (1 + 1e-9) + 0.5 * norm(high - low), candidate_);
   const std::size_t n = candidate_.size();
+  place_.resize(n);
   for (auto* array : {&x_, &y_, &z_, &weight_, &distance_squared_}) array->resize(n);
   for (std::size_t s = 0; s < n; ++s) {
     const Vec3& centre = mesh_.cell_centre[candidate_[s]];
     x_[s] = centre.x, y_[s] = centre.y, z_[s] = centre.z;
     weight_[s] = weights_[candidate_[s]];
+    place_[s] = rows.place_of(candidate_[s]);
   }
 }
 
-void CellsAround::append(std::span<const Vec3> points, std::size_t i, std::vector<int>& cell, std::vector<double>& distance_squared,
-                         std::vector<double>& weight) {
-  if (i < group_first_ || i >= group_end_) start_group(points, i);
+void CellsAround::append(std::span<const Vec3> points, std::size_t i, WeightRows& rows, std::vector<double>& weight) {
+  if (i < group_first_ || i >= group_end_) start_group(points, i, rows);
   const Vec3 p = points[i];
   const std::size_t n = candidate_.size();
   double* d2 = distance_squared_.data();
   const double *x = x_.data(), *y = y_.data(), *z = z_.data();
 #pragma omp simd
   for (std::size_t s = 0; s < n; ++s) d2[s] = (x[s] - p.x) * (x[s] - p.x) + (y[s] - p.y) * (y[s] - p.y) + (z[s] - p.z) * (z[s] - p.z);
-  const std::size_t first = cell.size();
-  cell.resize(first + n), distance_squared.resize(first + n), weight.resize(n);
+  const std::size_t first = rows.place.size();
+  rows.place.resize(first + n), rows.weight.resize(first + n), weight.resize(n);
   // Without a branch: every candidate is written, and kept by moving on.
+  int* place = rows.place.data() + first;
+  double *distance_squared = rows.weight.data() + first, *of_cell = weight.data();
+  const double radius_squared = radius_ * radius_;
   std::size_t found = 0;
   for (std::size_t s = 0; s < n; ++s) {
-    cell[first + found] = candidate_[s], distance_squared[first + found] = d2[s], weight[found] = weight_[s];
-    found += d2[s] < radius_ * radius_ ? 1 : 0;
+    place[found] = place_[s], distance_squared[found] = d2[s], of_cell[found] = weight_[s];
+    found += d2[s] < radius_squared ? 1 : 0;
   }
-  cell.resize(first + found), distance_squared.resize(first + found), weight.resize(found);
+  rows.place.resize(first + found), rows.weight.resize(first + found), weight.resize(found);
 }
 
 }  // namespace snag

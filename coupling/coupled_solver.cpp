@@ -71,8 +71,8 @@ CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std
   prediction_ = std::make_unique<WaterPrediction>(flow, coupling_.shape->has_width() ? width : 0);
   kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), *prediction_, coupling_.settings.two_way());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());
-  exchange_ = std::make_unique<Exchange>(*kernel_, flow);
-  screens_ = turbulent && load_->gives_screen();
+  screens_ = turbulent && coupling_.settings.two_way() && load_->gives_screen();
+  exchange_ = std::make_unique<Exchange>(*kernel_, flow, coupling_.settings.two_way(), screens_);
 }
 
 CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, const PrescribedFlow& flow)
@@ -103,22 +103,21 @@ void CoupledSolver::spread(double dt) {
   const ParticleList& particles = kernel_field_->particles();
   std::vector<double> volume(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
-  report_.max_solid_fraction = exchange_->spread_volumes(volume);
+  std::vector<double> screen(screens_ ? particles.size() : 0);
+  for (std::size_t b = 0; b < screen.size(); ++b) screen[b] = load_->screen(particles.tile(b), particles.place(b));
+  const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .impulse = impulses_}, dt);
+  report_.max_solid_fraction = balance.max_solid_fraction;
   warn_of_packing();
   if (!coupling_.settings.two_way()) return;
-  if (screens_) {
-    std::vector<double> screens(particles.size());
-    for (std::size_t b = 0; b < particles.size(); ++b) screens[b] = load_->screen(particles.tile(b), particles.place(b));
-    exchange_->spread_screens(screens);
-  }
-  const ExchangeBalance balance = exchange_->spread_reaction(impulses_, dt);
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;
   report_.force_on_water = balance.on_water / dt;
   report_.momentum_exchange = balance.relative();
   std::vector<int> rag_of(particles.size());
-  for (std::size_t b = 0; b < particles.size(); ++b) rag_of[b] = rags_.tiles()[particles.tile(b)].rag;
-  report_.places = force_places(*kernel_, flow_->mesh, kernel_field_->places(), impulses_, rag_of, rags_.rags().size());
+  std::vector<Vec3> mean_places(particles.size());
+  for (std::size_t b = 0; b < particles.size(); ++b)
+    rag_of[b] = rags_.tiles()[particles.tile(b)].rag, mean_places[b] = kernel_field_->mean_place(b);
+  report_.places = force_places(rags_.comm(), kernel_field_->places(), mean_places, impulses_, rag_of, rags_.rags().size());
   double largest = 0;
   for (std::size_t b = 0; b < particles.size(); ++b)
     largest = std::max(largest, load_->slope(particles.tile(b), particles.place(b)) * kernel_field_->response(b));

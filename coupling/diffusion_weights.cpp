@@ -66,7 +66,7 @@ void DiffusionWeights::locate(const Announcement& announced) {
     }
     Row& row = kept_.at(holder_id);
     row.last_use = n_uses_;
-    rows_.cell.insert(rows_.cell.end(), row.cell.begin(), row.cell.end());
+    for (const int cell : row.cell) rows_.place.push_back(rows_.place_of(cell));
     rows_.weight.insert(rows_.weight.end(), row.weight.begin(), row.weight.end());
     rows_.close_row();
   }

@@ -78,17 +78,15 @@ class DistanceWeights final : public CellWeights {
     CellsAround cells_around(mesh_, locator_, cell_weight_, support_);
     std::vector<double> answers(2 * announced.places.size()), cell_weight;
     rows_.clear();
-    auto& [row, start, cell, weight] = rows_;
     for (std::size_t i = 0; i < announced.places.size(); ++i) {
       Answer answer;
-      const std::size_t first = cell.size();
-      cells_around.append(announced.places, i, cell, weight, cell_weight);
-      set_weights(std::span(weight).subspan(first), cell_weight.data(), answer);
+      const std::size_t first = rows_.place.size();
+      cells_around.append(announced.places, i, rows_, cell_weight);
+      set_weights(std::span(rows_.weight).subspan(first), cell_weight.data(), answer);
       if (answer.exponent == none) {  // no cell here: the holder, should no rank's cell lie in the support
         const int holder = announced.holder[i];
-        const std::size_t end = holder >= 0 ? first + 1 : first;
-        cell.resize(end, holder), weight.resize(end);
-        if (holder >= 0) cell[first] = holder, weight[first] = 1;
+        rows_.place.resize(first), rows_.weight.resize(first);
+        if (holder >= 0) rows_.place.push_back(rows_.place_of(holder)), rows_.weight.push_back(1);
       }
       rows_.close_row();
       answer.write(answers, i);

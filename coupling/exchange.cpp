@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/flat.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -12,36 +13,39 @@ namespace {
 constexpr double momentum_tolerance = 1e-10;  // of what was exchanged
 }
 
-double Exchange::spread_volumes(std::span<const double> volumes) {
-  flow_.solid_fraction.assign(flow_.mesh.n_cells, 0.0);
-  kernel_.spread(volumes, 1, flow_.solid_fraction);
-  double largest = 0;
-  for (const double fraction : flow_.solid_fraction) largest = std::max(largest, fraction);
-  return maximum(flow_.mesh.comm, largest);
-}
-
-void Exchange::spread_screens(std::span<const double> screens) {
+ExchangeBalance Exchange::spread(const ParticleAmounts& amounts, double dt) {
   const Mesh& mesh = flow_.mesh;
-  flow_.screen.assign(static_cast<std::size_t>(mesh.n_all_cells()), 0.0);
-  kernel_.spread(screens, 1, std::span(flow_.screen).first(static_cast<std::size_t>(mesh.n_cells)));
-  mesh.halo.exchange(flow_.screen);
-}
-
-ExchangeBalance Exchange::spread_reaction(std::span<const Vec3> impulse, double dt) {
-  const Mesh& mesh = flow_.mesh;
-  std::vector<double> amounts(3 * impulse.size()), exchanged(impulse.size());
-  for (std::size_t b = 0; b < impulse.size(); ++b) {
-    for (int i = 0; i < 3; ++i) amounts[3 * b + i] = -impulse[b][i] / dt;
-    exchanged[b] = norm(impulse[b]);
+  flow_.solid_fraction.assign(mesh.n_cells, 0.0);
+  std::vector<CellSums> fields{{flow_.solid_fraction.data(), 1}};
+  if (screens_) {
+    flow_.screen.assign(static_cast<std::size_t>(mesh.n_all_cells()), 0.0);
+    fields.push_back({flow_.screen.data(), 1});
   }
-  flow_.reaction.assign(mesh.n_cells, {});
-  kernel_.spread(amounts, 3, std::span(mesh.n_cells > 0 ? &flow_.reaction[0].x : nullptr, 3 * static_cast<std::size_t>(mesh.n_cells)));
+  if (two_way_) {
+    flow_.reaction.assign(mesh.n_cells, {});
+    fields.push_back({flat(flow_.reaction).data(), 3});
+  }
+  std::vector<double> of_particles;
+  for (std::size_t b = 0; b < amounts.volume.size(); ++b) {
+    of_particles.push_back(amounts.volume[b]);
+    if (screens_) of_particles.push_back(amounts.screen[b]);
+    for (int i = 0; two_way_ && i < 3; ++i) of_particles.push_back(-amounts.impulse[b][i] / dt);
+  }
+  kernel_.spread(of_particles, fields);
+  if (screens_) mesh.halo.exchange(flow_.screen);
+  const auto largest = std::max_element(flow_.solid_fraction.begin(), flow_.solid_fraction.end());
+  ExchangeBalance balance;
+  balance.max_solid_fraction = maximum(mesh.comm, largest != flow_.solid_fraction.end() ? *largest : 0);
+  if (!two_way_) return balance;
   std::vector<Vec3> applied;
   for (int c = 0; c < mesh.n_cells; ++c)
     if (flow_.reaction[c] != Vec3{}) applied.push_back(dt * mesh.cell_volume[c] * flow_.reaction[c]);
-  return {.on_rags = sum(mesh.comm, impulse),
-          .on_water = sum(mesh.comm, std::span<const Vec3>(applied)),
-          .exchanged = sum(mesh.comm, std::span<const double>(exchanged))};
+  std::vector<double> exchanged;
+  for (const Vec3& impulse : amounts.impulse) exchanged.push_back(norm(impulse));
+  balance.on_rags = sum(mesh.comm, amounts.impulse);
+  balance.on_water = sum(mesh.comm, std::span<const Vec3>(applied));
+  balance.exchanged = sum(mesh.comm, std::span<const double>(exchanged));
+  return balance;
 }
 
 void check_momentum(const ExchangeBalance& balance) {

@@ -7,29 +7,35 @@
 
 namespace snag {
 
+/// What this rank's particles give to the water in one step.
+struct ParticleAmounts {
+  std::span<const double> volume;  // m3
+  std::span<const double> screen;  // FluidLoad::screen, m2
+  std::span<const Vec3> impulse;   // J, N s
+};
+
 /// What was exchanged in one step; sums over all ranks.
 struct ExchangeBalance {
-  Vec3 on_rags, on_water;  // N s
-  double exchanged = 0;    // sum of |impulse| over the particles, N s
+  Vec3 on_rags, on_water;         // N s
+  double exchanged = 0;           // sum of |impulse| over the particles, N s
+  double max_solid_fraction = 0;  // of all cells, not clipped, 1
   double relative() const { return exchanged > 0 ? norm(on_rags + on_water) / exchanged : 0; }
 };
 
 class Exchange {
  public:
-  Exchange(const Kernel& kernel, Flow& flow) : kernel_(kernel), flow_(flow) {}
+  /// `two_way`: with reaction; `screens`: with screens.
+  Exchange(const Kernel& kernel, Flow& flow, bool two_way, bool screens)
+      : kernel_(kernel), flow_(flow), two_way_(two_way), screens_(screens) {}
 
-  /// Sets the solid fraction of the flow from the volumes of the particles (m3); not clipped: returns the maximum over all cells.
-  /// Collective.
-  double spread_volumes(std::span<const double> volumes);
-  /// Sets the screens of the flow from those of the particles (FluidLoad::screen, m2). Collective.
-  void spread_screens(std::span<const double> screens);
-  /// Sets the reaction of the flow from the impulses J (N s) of this rank's particles over the step dt, and returns what was exchanged, for
-  /// check_momentum. Collective.
-  ExchangeBalance spread_reaction(std::span<const Vec3> impulse, double dt);
+  /// Sets solid fraction, screens and reaction of the flow from what the particles give over the step dt (s), and returns what was
+  /// exchanged, for check_momentum. Collective.
+  ExchangeBalance spread(const ParticleAmounts& amounts, double dt);
 
  private:
   const Kernel& kernel_;
   Flow& flow_;
+  bool two_way_, screens_;
 };
 
 /// Throws Error(invariant) unless momentum is balanced to 1e-10 of what was exchanged. The same on every rank.

@@ -1,5 +1,7 @@
 #include "coupling/force_places.hpp"
 
+#include <vector>
+
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -25,10 +27,9 @@ std::vector<Vec3> centres_of_force(MPI_Comm comm, std::span<const Vec3> places, 
 
 }  // namespace
 
-ForcePlaces force_places(const Kernel& kernel, const Mesh& mesh, std::span<const Vec3> places, std::span<const Vec3> impulses,
+ForcePlaces force_places(MPI_Comm comm, std::span<const Vec3> places, std::span<const Vec3> mean_places, std::span<const Vec3> impulses,
                          std::span<const int> rag_of, std::size_t n_rags) {
-  const std::vector<Vec3> centres = centres_of_force(mesh.comm, places, impulses, rag_of, n_rags);
-  const std::vector<Vec3> mean_places = kernel.average(std::span<const Vec3>(mesh.cell_centre));
+  const std::vector<Vec3> centres = centres_of_force(comm, places, impulses, rag_of, n_rags);
   const std::size_t n = places.size();
   std::vector<double> impulse(n), displaced(n), turning(n);
   std::vector<Vec3> couple(n);
@@ -38,9 +39,8 @@ ForcePlaces force_places(const Kernel& kernel, const Mesh& mesh, std::span<const
     couple[b] = cross(displacement, impulses[b]);
     turning[b] = norm(cross(places[b] - centres[static_cast<std::size_t>(rag_of[b])], impulses[b]));
   }
-  const auto total = [&](const std::vector<double>& terms) { return sum(mesh.comm, std::span<const double>(terms)); };
-  ForcePlaces found{
-      .impulse = total(impulse), .couple_lost = norm(sum(mesh.comm, std::span<const Vec3>(couple))), .couple = total(turning)};
+  const auto total = [&](const std::vector<double>& terms) { return sum(comm, std::span<const double>(terms)); };
+  ForcePlaces found{.impulse = total(impulse), .couple_lost = norm(sum(comm, std::span<const Vec3>(couple))), .couple = total(turning)};
   if (found.impulse > 0) found.displacement = total(displaced) / found.impulse;
   return found;
 }

@@ -6,8 +6,9 @@
 //   L = |sum_b (x'_b - x_b) x J_b|   of   T = sum_b |(x_b - X) x J_b|,   X = sum |J_b| x_b / sum |J_b| of the rag
 #include <span>
 
-#include "coupling/kernel.hpp"
-#include "mesh/mesh.hpp"
+#include <mpi.h>
+
+#include "base/vec3.hpp"
 
 namespace snag {
 
@@ -20,8 +21,8 @@ struct ForcePlaces {
   double relative() const { return couple > 0 ? couple_lost / couple : 0; }
 };
 
-/// `places` (m) and `impulses` (N s) of this rank's particles, at which the kernel is located; `rag_of` of each, below n_rags. Collective.
-ForcePlaces force_places(const Kernel& kernel, const Mesh& mesh, std::span<const Vec3> places, std::span<const Vec3> impulses,
+/// `places` and `mean_places` (x, x', m) and `impulses` (N s) of this rank's particles; `rag_of` of each, below n_rags. Collective.
+ForcePlaces force_places(MPI_Comm comm, std::span<const Vec3> places, std::span<const Vec3> mean_places, std::span<const Vec3> impulses,
                          std::span<const int> rag_of, std::size_t n_rags);
 
 }  // namespace snag

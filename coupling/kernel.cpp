@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "base/error.hpp"
+#include "base/flat.hpp"
 #include "coupling/cells_around.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
@@ -14,7 +14,6 @@ namespace snag {
 
 namespace {
 
-constexpr int most_components = 9;     // of a field: a tensor
 constexpr double balance = 0.75;       // exponent of d_c
 constexpr double least_share = 0.125;  // in a corner of three walls
 
@@ -42,8 +41,8 @@ void Kernel::weigh_cells() {
   std::vector<int> at_boundary(mesh_.owner.begin() + mesh_.n_interior, mesh_.owner.begin() + mesh_.n_faces), near;
   sort_out(at_boundary);
   locate_in_parts(at_boundary, [&](std::size_t, std::size_t) {
-    const std::vector<int>& found = weights_->rows().cell;
-    near.insert(near.end(), found.begin(), found.end());
+    const WeightRows& rows = weights_->rows();
+    for (const int place : rows.place) near.push_back(rows.cells()[place]);
     sort_out(near);
   });
   std::vector<double> factor(mesh_.n_cells, 1.0);
@@ -182,7 +181,7 @@ void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<
     for (int r = 1; r < ranks; ++r)
       if (offer(r) < offer(winner)) winner = r;
     if (winner == me) {
-      nearest_.cell.push_back(cell[i]), nearest_.weight.push_back(1);
+      nearest_.place.push_back(nearest_.place_of(cell[i])), nearest_.weight.push_back(1);
       nearest_.close_row();
     }
     if (i < start[me] || i >= start[me] + mine) continue;
@@ -195,49 +194,60 @@ void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<
 
 namespace {
 
-/// Calls act with the number of components, as a constant where loops over cells should unroll.
+constexpr int columns = 8;  // components are worked on so many at a time, with zeros behind the last
+
+template <class Field>
+int total_components(std::span<const Field> fields) {
+  int components = 0;
+  for (const Field& field : fields) components += field.components;
+  return components;
+}
+
+/// Calls act(first column, number of columns as a constant) until all columns are done.
 template <class Act>
-void with_components(int components, const Act& act) {
-  switch (components) {
-    case 1:
-      return act(std::integral_constant<int, 1>());
-    case 3:
-      return act(std::integral_constant<int, 3>());
-    case 4:
-      return act(std::integral_constant<int, 4>());
-    case 9:
-      return act(std::integral_constant<int, 9>());
-    default:
-      if (components > most_components)
-        throw Error(ExitCode::invariant, "kernel: a field of " + std::to_string(components) + " components, at most " +
-                                             std::to_string(most_components) + " are provided for; please report this");
-      return act(components);
+void for_columns(int stride, const Act& act) {
+  int first = 0;
+  for (; first + 3 * columns <= stride; first += 3 * columns) act(first, std::integral_constant<int, 3 * columns>());
+  for (; first + 2 * columns <= stride; first += 2 * columns) act(first, std::integral_constant<int, 2 * columns>());
+  for (; first < stride; first += columns) act(first, std::integral_constant<int, columns>());
+}
+
+int padded(int components) { return (components + columns - 1) / columns * columns; }
+
+/// The fields at the cells of the rows, [n_cells in use][padded components].
+std::vector<double> packed(const WeightRows& rows, std::span<const CellField> fields, int stride) {
+  std::vector<double> values(rows.cells().size() * stride, 0.0);
+  int first = 0;
+  for (const auto& [of_cells, components] : fields) {
+    double* to = values.data() + first;
+    for (const int c : rows.cells()) {
+      const double* from = of_cells + static_cast<std::size_t>(c) * components;
+      for (int j = 0; j < components; ++j) to[j] = from[j];
+      to += stride;
+    }
+    first += components;
   }
+  return values;
 }
 
 /// Adds the averages of the rows to the values of the particles, [n_particles][components]: each row is averaged once.
-void add_averages(const ParticleRouter& router, const WeightRows& rows, std::span<const CellField> fields, int components,
-                  std::vector<double>& values) {
+void add_averages(const ParticleRouter& router, const WeightRows& rows, std::span<const CellField> fields, std::vector<double>& values) {
+  const int components = total_components(fields), stride = padded(components);
   const auto width = static_cast<std::size_t>(components);
-  std::vector<double> of_row(width * static_cast<std::size_t>(rows.n_rows())), answers(width * rows.row.size()), entries;
-  // Row by row, so that its cells and weights stay in the cache for all fields.
-  for (int r = 0; r < rows.n_rows(); ++r) {
-    double* to = of_row.data() + static_cast<std::size_t>(r) * width;
-    for (const auto& [cell_values, n_components] : fields) {
-      with_components(n_components, [&, from = cell_values](auto m) {
-        std::array<double, most_components> sum{};
-        for (int s = rows.start[r]; s < rows.start[r + 1]; ++s) {
-          const double* value = from + static_cast<std::size_t>(rows.cell[s]) * m;
-          const double weight = rows.weight[s];
-          for (int j = 0; j < m; ++j) sum[j] += weight * value[j];
-        }
-        std::copy_n(sum.data(), static_cast<int>(m), to);
-      });
-      to += n_components;
-    }
-  }
+  const std::vector<double> of_cells = packed(rows, fields, stride);
+  std::vector<double> of_row(static_cast<std::size_t>(stride) * rows.n_rows()), answers(width * rows.row.size()), entries;
+  for (int r = 0; r < rows.n_rows(); ++r)
+    for_columns(stride, [&](int first, auto m) {
+      std::array<double, m> sum{};
+      for (int s = rows.start[r]; s < rows.start[r + 1]; ++s) {
+        const double* value = of_cells.data() + static_cast<std::size_t>(rows.place[s]) * stride + first;
+        const double weight = rows.weight[s];
+        for (int j = 0; j < m; ++j) sum[j] += weight * value[j];
+      }
+      std::copy_n(sum.data(), static_cast<int>(m), of_row.data() + static_cast<std::size_t>(r) * stride + first);
+    });
   for (std::size_t i = 0; i < rows.row.size(); ++i)
-    std::copy_n(of_row.data() + static_cast<std::size_t>(rows.row[i]) * width, width, answers.data() + i * width);
+    std::copy_n(of_row.data() + static_cast<std::size_t>(rows.row[i]) * stride, width, answers.data() + i * width);
   router.back(answers, components, entries);
   for (int e = 0; e < router.n_entries(); ++e) {
     double* value = values.data() + static_cast<std::size_t>(router.particle(e)) * width;
@@ -246,50 +256,68 @@ void add_averages(const ParticleRouter& router, const WeightRows& rows, std::spa
 }
 
 /// Adds the amounts of the particles, per volume, to the cells of the rows: those of particles with one row together.
-void add_amounts(const ParticleRouter& router, const WeightRows& rows, std::span<const double> amounts, int components,
-                 const std::vector<double>& cell_volume, std::span<double> field) {
+void add_amounts(const ParticleRouter& router, const WeightRows& rows, std::span<const double> amounts, std::span<const CellSums> fields,
+                 const std::vector<double>& cell_volume) {
+  const int components = total_components(fields), stride = padded(components);
+  const auto width = static_cast<std::size_t>(components);
   std::vector<double> received;
   router.forward_particles(amounts, components, received);
-  const auto width = static_cast<std::size_t>(components);
-  std::vector<double> of_row(width * static_cast<std::size_t>(rows.n_rows()), 0.0);
+  std::vector<double> of_row(static_cast<std::size_t>(stride) * rows.n_rows(), 0.0), of_cells(rows.cells().size() * stride, 0.0);
   for (std::size_t i = 0; i < rows.row.size(); ++i)
-    for (std::size_t j = 0; j < width; ++j) of_row[static_cast<std::size_t>(rows.row[i]) * width + j] += received[i * width + j];
-  with_components(components, [&](auto m) {
-    for (int r = 0; r < rows.n_rows(); ++r) {
-      std::array<double, most_components> amount{};
-      std::copy_n(of_row.data() + static_cast<std::size_t>(r) * m, static_cast<int>(m), amount.data());
+    for (std::size_t j = 0; j < width; ++j) of_row[static_cast<std::size_t>(rows.row[i]) * stride + j] += received[i * width + j];
+  for (int r = 0; r < rows.n_rows(); ++r)
+    for_columns(stride, [&](int first, auto m) {
+      std::array<double, m> amount;
+      std::copy_n(of_row.data() + static_cast<std::size_t>(r) * stride + first, static_cast<int>(m), amount.data());
       for (int s = rows.start[r]; s < rows.start[r + 1]; ++s) {
-        const int c = rows.cell[s];
-        const double share = rows.weight[s] / cell_volume[c];
-        double* to = field.data() + static_cast<std::size_t>(c) * m;
-        for (int j = 0; j < m; ++j) to[j] += share * amount[j];
+        const double weight = rows.weight[s];
+        double* to = of_cells.data() + static_cast<std::size_t>(rows.place[s]) * stride + first;
+        for (int j = 0; j < m; ++j) to[j] += weight * amount[j];
       }
+    });
+  int first = 0;
+  for (const auto& [values, n] : fields) {
+    const double* from = of_cells.data() + first;
+    for (const int c : rows.cells()) {
+      double* to = values + static_cast<std::size_t>(c) * n;
+      for (int j = 0; j < n; ++j) to[j] += from[j] / cell_volume[c];
+      from += stride;
     }
-  });
+    first += n;
+  }
 }
 
 }  // namespace
 
 std::vector<double> Kernel::average(std::span<const CellField> fields) const {
-  int components = 0;
-  for (const auto& field : fields) components += field.components;
-  std::vector<double> values(static_cast<std::size_t>(n_particles_) * components, 0.0);
-  add_averages(around_, weights_->rows(), fields, components, values);
-  if (some_in_nearest_cell_) add_averages(to_nearest_, nearest_, fields, components, values);
+  std::vector<double> values(static_cast<std::size_t>(n_particles_) * total_components(fields), 0.0);
+  add_averages(around_, weights_->rows(), fields, values);
+  if (some_in_nearest_cell_) add_averages(to_nearest_, nearest_, fields, values);
   return values;
 }
 
 std::vector<Vec3> Kernel::average(std::span<const Vec3> field) const {
-  const CellField one{field.empty() ? nullptr : &field[0].x, 3};
+  const CellField one{flat(field).data(), 3};
   const std::vector<double> values = average(std::span(&one, 1));
   std::vector<Vec3> vectors(n_particles_);
   for (int b = 0; b < n_particles_; ++b) vectors[b] = {values[3 * b], values[3 * b + 1], values[3 * b + 2]};
   return vectors;
 }
 
+void Kernel::spread(std::span<const double> amounts, std::span<const CellSums> fields) const {
+  add_amounts(around_, weights_->rows(), amounts, fields, mesh_.cell_volume);
+  if (some_in_nearest_cell_) add_amounts(to_nearest_, nearest_, amounts, fields, mesh_.cell_volume);
+}
+
 void Kernel::spread(std::span<const double> amounts, int components, std::span<double> field) const {
-  add_amounts(around_, weights_->rows(), amounts, components, mesh_.cell_volume, field);
-  if (some_in_nearest_cell_) add_amounts(to_nearest_, nearest_, amounts, components, mesh_.cell_volume, field);
+  const CellSums one{field.data(), components};
+  spread(amounts, std::span(&one, 1));
+}
+
+std::vector<int> Kernel::cells() const {
+  std::vector<int> all = weights_->rows().cells();
+  if (some_in_nearest_cell_) all.insert(all.end(), nearest_.cells().begin(), nearest_.cells().end());
+  return all;
 }
 
 std::array<double, 2> Kernel::width_over_cell_size() const {

@@ -32,9 +32,15 @@
 
 namespace snag {
 
-/// A cell field, components (at most 9) interleaved, [at least n_cells][components].
+/// A cell field, components interleaved, [at least n_cells][components].
 struct CellField {
   const double* values = nullptr;
+  int components = 1;
+};
+
+/// The same to add to, [n_cells][components].
+struct CellSums {
+  double* values = nullptr;
   int components = 1;
 };
 
@@ -50,10 +56,13 @@ class Kernel {
   /// Fluid -> particles, consistent: all fields in one message, [n_particles][sum of components]. Collective.
   std::vector<double> average(std::span<const CellField> fields) const;
   std::vector<Vec3> average(std::span<const Vec3> field) const;
-  /// Particles -> fluid, conservative: amounts [n_particles][components], at most 9 of them, are added as amount per m3 to field
-  /// [n_cells][components]. Collective.
+  /// Particles -> fluid, conservative: amounts [n_particles][sum of components] are added as amount per m3 to the fields, all in one
+  /// message. Collective.
+  void spread(std::span<const double> amounts, std::span<const CellSums> fields) const;
   void spread(std::span<const double> amounts, int components, std::span<double> field) const;
 
+  /// Owned cells that average and spread use, at the last locate; some may be twice in it.
+  std::vector<int> cells() const;
   double width() const { return width_; }
   const KernelShape& shape() const { return shape_; }
   int n_particles() const { return n_particles_; }

@@ -1,5 +1,6 @@
 #include "coupling/kernel_field.hpp"
 
+#include "base/flat.hpp"
 #include "coupling/samples.hpp"
 
 namespace snag {
@@ -11,6 +12,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   places_.resize(particles_.size());
   for (std::size_t b = 0; b < places_.size(); ++b) places_[b] = tiles[particles_.tile(b)].vector(Tile::x, particles_.place(b));
   kernel_.locate(places_);
+  prediction_.predict(kernel_.cells());
 
   std::vector<CellField> fields;
   std::vector<int> field_of_component;
@@ -21,6 +23,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   add(prediction_.velocity().data(), 3, velocity);
   add(flow_.velocity_gradient.data(), 9, gradient);
   add(prediction_.change().data(), 3, change);
+  if (two_way_) add(flow_.mesh.cell_centre.data(), 3, sampled::mean_place);
   const CellSource source{flow_, kernel_, rags_, prediction_, two_way_, particles_, tiles};
   made_.resize(sample_rows().size());
   int coverage = 0;
@@ -54,6 +57,12 @@ std::vector<Vec3> KernelField::missed_rates(std::span<const Vec3> impulse) const
   std::vector<double> response(particles_.size());
   for (std::size_t b = 0; b < response.size(); ++b) response[b] = this->response(b);
   return prediction_.missed_rates(kernel_, response, impulse);
+}
+
+Vec3 KernelField::mean_place(std::size_t b) const {
+  const int t = particles_.tile(b), k = particles_.place(b);
+  return {arrays_.field(t, sampled::mean_place)[k], arrays_.field(t, sampled::mean_place + 1)[k],
+          arrays_.field(t, sampled::mean_place + 2)[k]};
 }
 
 FluidSamples KernelField::at(std::size_t index, const Tile&, double) {

@@ -13,7 +13,7 @@ namespace snag {
 class KernelField final : public FluidField {
  public:
   /// `rags`: those that Tile::rag counts; `prediction` of the flow, which answers to them if two_way.
-  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, const WaterPrediction& prediction, bool two_way)
+  KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, WaterPrediction& prediction, bool two_way)
       : flow_(flow), kernel_(kernel), rags_(rags), edges_(rags), prediction_(prediction), two_way_(two_way) {}
   void sample(std::span<const Tile> tiles, const SampleSet& needed) override;
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
@@ -25,6 +25,8 @@ class KernelField final : public FluidField {
   const ParticleList& particles() const { return particles_; }
   /// Their places then, m.
   const std::vector<Vec3>& places() const { return places_; }
+  /// Mean place of the weights of particle b, m. Two-way.
+  Vec3 mean_place(std::size_t b) const;
   /// Of the water to particle b of the list, 1/kg. Two-way.
   double response(std::size_t b) const { return arrays_.field(particles_.tile(b), sampled::response)[particles_.place(b)]; }
 
@@ -33,7 +35,7 @@ class KernelField final : public FluidField {
   Kernel& kernel_;
   const std::vector<Rag>& rags_;
   ClothEdges edges_;
-  const WaterPrediction& prediction_;
+  WaterPrediction& prediction_;
   bool two_way_;
   ParticleList particles_;
   std::vector<Vec3> places_;

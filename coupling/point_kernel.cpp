@@ -98,9 +98,9 @@ class PointWeights final : public CellWeights {
       for (std::size_t place = first; place < first + n; ++place)
         if (shares[place] > 0) row.emplace_back(found_[place], shares[place]);
       std::sort(row.begin(), row.end());
-      const std::size_t begin = rows_.cell.size();
-      for (const auto& [cell, share] : row) {
-        if (rows_.cell.size() == begin || rows_.cell.back() != cell) rows_.cell.push_back(cell), rows_.weight.push_back(0);
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto& [cell, share] = row[k];
+        if (k == 0 || row[k - 1].first != cell) rows_.place.push_back(rows_.place_of(cell)), rows_.weight.push_back(0);
         rows_.weight.back() += share;
       }
       rows_.close_row();

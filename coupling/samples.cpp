@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/flat.hpp"
 #include "coupling/kernel.hpp"
 #include "coupling/particle_list.hpp"
 #include "coupling/prescribed_field.hpp"
@@ -105,8 +106,6 @@ double k_of(const FormulaSource& source, int p) {
 
 void fill(const FormulaSource& source, double value, double* to) { std::fill(to + source.begin, to + source.end, value); }
 
-const double* flat(const std::vector<Vec3>& values) { return reinterpret_cast<const double*>(values.data()); }
-
 }  // namespace
 
 const std::vector<SampleRow>& sample_rows() {
@@ -114,12 +113,12 @@ const std::vector<SampleRow>& sample_rows() {
   static const std::vector<SampleRow> rows{
       {.needed = &SampleSet::pressure_gradient,
        .target = &FluidSamples::pressure_gradient,
-       .of_cells = [](const CellSource& source, Made) { return flat(source.flow.pressure_gradient); },
+       .of_cells = [](const CellSource& source, Made) { return flat(source.flow.pressure_gradient).data(); },
        .of_formula = [](const FormulaSource& source, double* const* to) { accelerations(source, -source.flow.density, to); },
        .of_sphere = [](const SphereState& state) { return state.pressure_gradient; }},
       {.needed = &SampleSet::material_acceleration,
        .target = &FluidSamples::material_acceleration,
-       .of_cells = [](const CellSource& source, Made) { return flat(source.prediction.acceleration()); },
+       .of_cells = [](const CellSource& source, Made) { return flat(source.prediction.acceleration()).data(); },
        .of_formula = [](const FormulaSource& source, double* const* to) { accelerations(source, 1, to); },
        .of_sphere = [](const SphereState& state) { return state.material_acceleration; }},
       {.needed = &SampleSet::turbulence,

@@ -114,7 +114,7 @@ const std::vector<SampleRow>& sample_rows();
 /// Arrays in which a field keeps the fluid at the particles: the first component of each. Those of the rows that are averaged come after
 /// these, in the order of the rows.
 namespace sampled {
-enum Array { velocity = 0, gradient = 3, change = 12, response = 15, start = 16, edge_distance = 19, n_core = 20 };
+enum Array { velocity = 0, gradient = 3, change = 12, response = 15, start = 16, mean_place = 19, edge_distance = 22, n_core = 23 };
 /// With those of the rows.
 int n_arrays();
 /// Calls visit(row, first array) for each row that has arrays.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/flat.hpp"
+#include "mesh/geometry.hpp"
 #include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
@@ -14,10 +16,6 @@ std::vector<Vec3> read_vectors(CheckpointReader& reader, const std::string& name
   for (std::size_t c = 0; c < vectors.size(); ++c) vectors[c] = {rows[3 * c], rows[3 * c + 1], rows[3 * c + 2]};
   return vectors;
 }
-
-std::span<const double> numbers(const std::vector<Vec3>& vectors) {
-  return {vectors.empty() ? nullptr : &vectors[0].x, 3 * vectors.size()};
-}
 }  // namespace
 
 WaterPrediction::WaterPrediction(const Flow& flow, double kernel_width) : flow_(flow) {
@@ -25,16 +23,18 @@ WaterPrediction::WaterPrediction(const Flow& flow, double kernel_width) : flow_(
     resolved_.push_back(std::clamp(8 * kernel_width / std::cbrt(flow.mesh.cell_volume[c]) - 3, 0.0, 1.0));
 }
 
-void WaterPrediction::begin_step(double dt) {
-  scheme_ = bdf(dt, flow_.time_step_size);
+void WaterPrediction::begin_step(double dt) { scheme_ = bdf(dt, flow_.time_step_size); }
+
+void WaterPrediction::predict(std::span<const int> cells) {
+  const double dt = scheme_.dt;
   const Mesh& mesh = flow_.mesh;
   const RotatingZone* zone = flow_.rotating_zone;
   const Vec3 omega = zone ? zone->rotation_speed(flow_.time) : Vec3{};
   const Mat3 R = zone && zone->slides() ? rotation(zone->axis(), zone->angle(flow_.time + dt) - zone->angle(flow_.time)) : Mat3{};
   const bool slides = zone && zone->slides();
-  if (!known_) velocity_.assign(flow_.velocity.begin(), flow_.velocity.begin() + mesh.n_cells);
-  change_.resize(mesh.n_cells), acceleration_.resize(mesh.n_cells);
-  for (int c = 0; c < mesh.n_cells; ++c) {
+  for (auto* field : {&velocity_, &change_, &acceleration_}) field->resize(mesh.n_cells);
+  for (const int c : cells) {
+    if (!resumed_) velocity_[c] = start_velocity(c);
     const bool turns = zone && mesh.cell_zone[c] == zone->zone();
     const auto turned = [&](const Vec3& v) { return turns && slides ? R * v : v; };
     const Vec3& u = flow_.velocity[c];
@@ -59,33 +59,28 @@ void WaterPrediction::begin_step(double dt) {
 void WaterPrediction::end_step() {
   if (flow_.time_step_size <= 0) return;
   const Mesh& mesh = flow_.mesh;
-  known_ = true;
+  known_ = true, resumed_ = false;
   rate_.resize(mesh.n_cells);
   for (int c = 0; c < mesh.n_cells; ++c) {
     const Vec3 difference = scheme_.now * flow_.velocity[c] + scheme_.old * flow_.velocity_old[c] + scheme_.older * flow_.velocity_older[c];
     rate_[c] = (1 / scheme_.dt) * difference - (1 / flow_.density) * flow_.reaction[c];
   }
-  take_velocity();
 }
 
-/// While the facets of the sliding interface are those that the fluxes belong to.
-void WaterPrediction::take_velocity() {
+/// u^n of a cell from its fluxes, while the facets of the sliding interface are those that they belong to.
+Vec3 WaterPrediction::start_velocity(int cell) const {
+  const Vec3& u = flow_.velocity[cell];
+  if (!known_ || resolved_[cell] == 0) return u;
   const Mesh& mesh = flow_.mesh;
-  std::vector<Vec3> moments(mesh.n_cells);
-  const auto add = [&](int c, int f, double sign) {
-    if (c >= mesh.n_cells || resolved_[c] == 0) return;
-    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[c];
-    moments[c] += sign * (flow_.flux[f] - dot(flow_.velocity_gradient[c] * way, mesh.face_vector[f])) * way;
-  };
-  for (int f = 0; f < mesh.n_faces; ++f) {
-    add(mesh.owner[f], f, 1);
-    if (f < mesh.n_interior) add(mesh.neighbour[f], f, -1);
+  Vec3 moment;
+  int previous = -1;
+  for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell)) {
+    const bool is_owner = mesh.owner[f] == cell && f != previous;  // a cell that is its own neighbour lists the face twice
+    previous = f;
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]] - (is_owner ? Vec3{} : mesh.delta[f]);
+    moment += (is_owner ? 1 : -1) * (flow_.flux[f] - dot(flow_.velocity_gradient[cell] * way, mesh.face_vector[f])) * way;
   }
-  velocity_.resize(mesh.n_cells);
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    const Vec3& u = flow_.velocity[c];
-    velocity_[c] = u + resolved_[c] * ((1 / mesh.cell_volume[c]) * moments[c] - u);
-  }
+  return u + resolved_[cell] * ((1 / mesh.cell_volume[cell]) * moment - u);
 }
 
 std::vector<double> WaterPrediction::response(const Kernel& kernel) const {
@@ -100,27 +95,26 @@ std::vector<double> WaterPrediction::response(const Kernel& kernel) const {
 std::vector<Vec3> WaterPrediction::missed_rates(const Kernel& kernel, std::span<const double> response,
                                                 std::span<const Vec3> impulse) const {
   const std::vector<Vec3> reaction = kernel.average(std::span<const Vec3>(flow_.reaction));
-  std::vector<double> missed(4 * impulse.size());  // m, 1
+  std::vector<double> missed(3 * impulse.size());  // m
   for (std::size_t b = 0; b < impulse.size(); ++b) {
     const Vec3 m = (response[b] / scheme_.dt) * impulse[b] + (1 / (scheme_.now * flow_.density)) * reaction[b];
-    for (int i = 0; i < 3; ++i) missed[4 * b + i] = m[i];
-    missed[4 * b + 3] = 1;
+    for (int i = 0; i < 3; ++i) missed[3 * b + i] = m[i];
   }
-  std::vector<double> spread(4 * resolved_.size());
-  kernel.spread(missed, 4, spread);
-  for (std::size_t c = 0; c < resolved_.size(); ++c)
-    for (int i = 0; i < 3; ++i) spread[4 * c + i] *= resolved_[c];
-  const CellField field{spread.data(), 4};
-  const std::vector<double> sums = kernel.average(std::span(&field, 1));
-  std::vector<Vec3> rates(impulse.size());
-  for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = (1 / sums[4 * b + 3]) * Vec3{sums[4 * b], sums[4 * b + 1], sums[4 * b + 2]};
+  std::vector<Vec3> density(flow_.mesh.n_cells);
+  kernel.spread(missed, 3, flat(density));
+  for (std::size_t c = 0; c < density.size(); ++c) density[c] *= resolved_[c];
+  std::vector<Vec3> rates = kernel.average(std::span<const Vec3>(density));
+  for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = (1 / (scheme_.now * flow_.density * response[b])) * rates[b];  // A S^T 1
   return rates;
 }
 
 void WaterPrediction::save(CheckpointWriter& writer) const {
   if (!known_) return;
-  writer.rows("coupling/rate", owned_ids(), numbers(rate_), 3);
-  writer.rows("coupling/velocity", owned_ids(), numbers(velocity_), 3);
+  writer.rows("coupling/rate", owned_ids(), flat(rate_), 3);
+  std::vector<Vec3> velocity = velocity_;
+  velocity.resize(flow_.mesh.n_cells);
+  for (int c = 0; !resumed_ && c < flow_.mesh.n_cells; ++c) velocity[c] = start_velocity(c);
+  writer.rows("coupling/velocity", owned_ids(), flat(velocity), 3);
 }
 
 void WaterPrediction::load(CheckpointReader& reader) {
@@ -128,6 +122,7 @@ void WaterPrediction::load(CheckpointReader& reader) {
   if (!known_) return;
   rate_ = read_vectors(reader, "coupling/rate", owned_ids());
   velocity_ = read_vectors(reader, "coupling/velocity", owned_ids());
+  resumed_ = true;
 }
 
 std::span<const std::int64_t> WaterPrediction::owned_ids() const {

@@ -39,7 +39,7 @@
 // the same sign in the mean. What the faces carry is free of that error. For a velocity that is linear in space, u = u_c + G (x - x_c), and
 // faces f with the flux out of the cell phi_f,
 //
-//   u_c = 1/V_c sum_f (x_f - x_c) (phi_f - S_f . G (x_f - x_c))
+//   u_c = 1/V_c sum_f (x_f - x_c) (phi_f - S_f . G (x_f - x_c)),   x_c across the period where f joins two sides of it
 //
 // s_c = 8 delta/V_c^(1/3) - 3, within 0 and 1: a kernel narrower than 3/8 of a cell reads single cells, where neither the fluxes (a force
 // in one tetrahedron moves its own faces more than predicted) nor e are steady. There u_c is that of the cell, and e is zero.
@@ -57,15 +57,17 @@ class WaterPrediction {
   /// `kernel_width`: delta, m; 0 for a kernel without a width.
   WaterPrediction(const Flow& flow, double kernel_width);
 
-  /// Before a step of the flow of length dt, s: sets change() and acceleration().
+  /// Before a step of the flow of length dt, s.
   void begin_step(double dt);
+  /// Sets velocity(), change() and acceleration() of these owned cells for that step, before the mesh turns in it.
+  void predict(std::span<const int> cells);
   /// After that step, with the reaction it was made with.
   void end_step();
-  /// u^n of the owned cells, m/s.
+  /// u^n, [owned cells], m/s.
   const std::vector<Vec3>& velocity() const { return velocity_; }
-  /// Of the owned cells, m/s.
+  /// [owned cells], m/s.
   const std::vector<Vec3>& change() const { return change_; }
-  /// Of the owned cells, m/s2.
+  /// [owned cells], m/s2.
   const std::vector<Vec3>& acceleration() const { return acceleration_; }
   double dt() const { return scheme_.dt; }
   /// d at the particles of the kernel, 1/kg. Collective.
@@ -80,12 +82,13 @@ class WaterPrediction {
 
  private:
   std::span<const std::int64_t> owned_ids() const;
-  void take_velocity();
+  Vec3 start_velocity(int cell) const;
 
   const Flow& flow_;
   std::vector<double> resolved_;  // s, of the owned cells
   TimeScheme scheme_;
   bool known_ = false;              // r: not before the first step
+  bool resumed_ = false;            // u^n is that of a checkpoint: its fluxes of the sliding interface are not kept
   std::vector<Vec3> rate_;          // r of the last step, of the owned cells, m/s2
   std::vector<Vec3> velocity_;      // u^n, m/s
   std::vector<Vec3> change_;        // m/s

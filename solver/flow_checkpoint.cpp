@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/flat.hpp"
 #include "mesh/geometry.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/sum.hpp"
@@ -69,11 +70,6 @@ void read_cells(CheckpointReader& checkpoint, const std::string& name, const Mes
   mesh.halo.exchange(values, components);
 }
 
-std::span<double> flat(std::vector<Vec3>& field) { return {field.empty() ? nullptr : &field[0].x, 3 * field.size()}; }
-std::span<double> flat(std::vector<Mat3>& field) { return {field.empty() ? nullptr : &field[0][0].x, 9 * field.size()}; }
-const double* first(const std::vector<Vec3>& field) { return field.empty() ? nullptr : &field[0].x; }
-const double* first(const std::vector<Mat3>& field) { return field.empty() ? nullptr : &field[0][0].x; }
-
 /// `signed_by_side`: the value changes its sign with the side it is seen from (a flux).
 void write_faces(CheckpointWriter& checkpoint, const std::string& name, const FaceRows& rows, const Mesh& mesh,
                  std::span<const double> values, bool signed_by_side) {
@@ -112,13 +108,13 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
                                                         started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0});
   if (const std::vector<double> state = boundary_.state(); !state.empty())
     checkpoint.shared("flow/boundary", std::span<const double>(state));
-  write_cells(checkpoint, "flow/velocity", mesh, first(flow.velocity), 3);
-  write_cells(checkpoint, "flow/velocity_old", mesh, first(flow.velocity_old), 3);
-  write_cells(checkpoint, "flow/velocity_gradient", mesh, first(flow.velocity_gradient), 9);
-  write_cells(checkpoint, "flow/velocity_gradient_old", mesh, first(flow.velocity_gradient_old), 9);
+  write_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity).data(), 3);
+  write_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old).data(), 3);
+  write_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient).data(), 9);
+  write_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(flow.velocity_gradient_old).data(), 9);
   write_cells(checkpoint, "flow/pressure", mesh, flow.pressure.data(), 1);
-  write_cells(checkpoint, "flow/pressure_gradient", mesh, first(flow.pressure_gradient), 3);
-  write_cells(checkpoint, "flow/reaction", mesh, first(flow.reaction), 3);
+  write_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient).data(), 3);
+  write_cells(checkpoint, "flow/reaction", mesh, flat(flow.reaction).data(), 3);
   write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
   if (sum(mesh.comm, static_cast<std::int64_t>(flow.screen.size())) > 0)
     write_cells(checkpoint, "flow/screen", mesh, flow.screen.data(), 1);

@@ -68,7 +68,7 @@ inline double relief_ratio(double s, double sigma) {
 
 /// l^2, m2.
 inline double friction_area(double s, double sigma) {
-  const double t = s / sigma;
+  const double t = std::min(s / sigma, 20.0);  // exp(-t^2) that underflows is slow
   return sigma * sigma * (1 - exp(-t * (1.4 + 0.4 * t)));
 }
 

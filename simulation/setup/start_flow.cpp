@@ -7,6 +7,7 @@
 
 #include "base/case_tables.hpp"
 #include "base/error.hpp"
+#include "base/flat.hpp"
 #include "base/words.hpp"
 #include "mesh/point_tree.hpp"
 #include "parallel/checkpoint.hpp"
@@ -28,7 +29,7 @@ std::span<const std::int64_t> owned_ids(const Mesh& mesh) { return {mesh.cell_id
 std::vector<Vec3> centres_of(CheckpointReader& reader, std::span<const std::int64_t> ids) {
   const auto stored = reader.rows(centre_name, ids, 3);
   std::vector<Vec3> centres(ids.size());
-  if (!ids.empty()) std::copy(stored.begin(), stored.end(), &centres[0].x);
+  std::copy(stored.begin(), stored.end(), flat(centres).begin());
   return centres;
 }
 

@@ -7,6 +7,7 @@
 // Its preconditioner from the right is one symmetric Gauss-Seidel sweep over the cells of each rank. Sweeps follow it: they test the
 // residual by the same measure, and take values that it left at zero or below back to positive ones, from those of the last sweep.
 #include "solver/operators/cell_matrix.hpp"
+#include "base/flat.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,7 @@ inline double square(double a) { return a * a; }
 inline double square(const Vec3& a) { return norm_squared(a); }
 
 inline void exchange(const Mesh& mesh, std::vector<double>& x) { mesh.halo.exchange(x); }
-inline void exchange(const Mesh& mesh, std::vector<Vec3>& x) { mesh.halo.exchange({x.empty() ? nullptr : &x[0].x, 3 * x.size()}, 3); }
+inline void exchange(const Mesh& mesh, std::vector<Vec3>& x) { mesh.halo.exchange(flat(x), 3); }
 
 /// One sweep; returns the sum of the squares of the row residuals.
 template <class Value>

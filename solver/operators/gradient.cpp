@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/flat.hpp"
 #include "parallel/sum.hpp"
 #include "solver/fields/face.hpp"
 
@@ -22,8 +23,6 @@ inline double normal_slope(double given) { return given; }
 inline Vec3 normal_slope(const Vec3&) { return {}; }
 inline Vec3 mirrored(const Vec3& u, const Vec3& n) { return -dot(u, n) * n; }
 
-inline std::span<double> flat(std::vector<Vec3>& g) { return {g.empty() ? nullptr : &g[0].x, 3 * g.size()}; }
-inline std::span<double> flat(std::vector<Mat3>& g) { return {g.empty() ? nullptr : &g[0][0].x, 9 * g.size()}; }
 template <class Gradient>
 void exchange(const Mesh& mesh, std::vector<Gradient>& g) {
   mesh.halo.exchange(flat(g), static_cast<int>(sizeof(Gradient) / sizeof(double)));

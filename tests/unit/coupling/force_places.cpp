@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "coupling/kernel.hpp"
 #include "parallel/session.hpp"
 #include "tests/structured_box.hpp"
 
@@ -23,7 +24,7 @@ ForcePlaces row_at(double z, const Vec3& push) {
   kernel.locate(places);
   const std::vector<Vec3> impulses(places.size(), push);
   const std::vector<int> rag_of(places.size(), 0);
-  return force_places(kernel, mesh, places, impulses, rag_of, 1);
+  return force_places(mesh.comm, places, kernel.average(std::span<const Vec3>(mesh.cell_centre)), impulses, rag_of, 1);
 }
 
 // Requirement: two widths and more from walls a force acts within 0.01 widths of its particle; at a wall it acts farther in, and the couple

@@ -295,10 +295,11 @@ TEST(MomentumCheck, FindsLeaks) {
   Flow flow(mesh);
   const auto shape = kernel_shapes().make("gaussian", "test");
   Kernel kernel(*shape, 0.2, mesh);
-  Exchange exchange(kernel, flow);
+  Exchange exchange(kernel, flow, true, false);
   const std::vector<Vec3> points{{0.3, 0.4, 0.5}}, impulse{{1, 2, 3}};
+  const std::vector<double> volume{1e-9};
   kernel.locate(points);
-  EXPECT_NO_THROW(check_momentum(exchange.spread_reaction(impulse, 0.1)));
+  EXPECT_NO_THROW(check_momentum(exchange.spread({.volume = volume, .screen = {}, .impulse = impulse}, 0.1)));
 }
 
 // Requirement: solid fraction sums to the volume of the rags, is not clipped, and its maximum is reported.
