@@ -102,41 +102,58 @@ def load(length, width, nx=40, ny=20):
     return (edges[0][1:] + edges[0][:-1]) / 2, numpy.diff(edges[0]), 2 * p @ numpy.diff(edges[1])
 
 
+def thin_plate():
+    """Of the sheet in creeping flow: its speed, m/s, after a time in s, and places along half of it with their rise above its middle, m."""
+    x, dx, line = load(LENGTH, WIDTH)
+    steady = WEIGHT * LENGTH * WIDTH / (2 * line @ dx) / VISCOSITY
+    radius = WEIGHT * LENGTH * WIDTH / (6 * math.pi * VISCOSITY * steady)
+
+    def speed(time):
+        T = VISCOSITY / DENSITY * time / radius**2
+        return steady * (1 - math.exp(T) * math.erfc(math.sqrt(T)))
+
+    places = numpy.linspace(0, LENGTH / 2, 401)
+    moment = numpy.maximum(x - places[:, None], 0) @ ((VISCOSITY * steady * line - WEIGHT * WIDTH) * dx)
+    slope = numpy.concatenate([[0], numpy.cumsum(moment[1:] + moment[:-1])]) * places[1] / 2 / (BENDING * WIDTH)
+    return speed, places, numpy.concatenate([[0], numpy.cumsum(slope[1:] + slope[:-1])]) * places[1] / 2
+
+
 class SedimentingSheet(harness.CaseTest):
     def sinking(self, mesh, water, coupling, end):
-        """Speed at the end and the deflection of the ends against the middle."""
+        """The run, and (x, z) along the sheet at its end, the mean of its rows."""
         radius = SPACING / 2
         bending = 4 * BENDING / (math.pi * radius**4)
         text = CASE.format(mesh=mesh, water=water, end=end, mass=WEIGHT / 9.81 + DENSITY * 1e-4, bending=bending, crosswise=10 * bending, stretching=bending * radius**2 / LENGTH**2 * 100) + coupling
         run = self.run_case(self.case(text), out=f"{len(mesh)}", timeout=1500)
-        speed = -run.monitor("rags").column("vz")[-1]
         places, _ = harness.particles(sorted((run.folder / "rags").glob("particles_*.vtp"))[-1])
-        columns = places.reshape(round(WIDTH / SPACING), -1, 3).mean(axis=0)
-        middle = len(columns) // 2
-        z = columns[:, 2]
+        return run, places.reshape(round(WIDTH / SPACING), -1, 3).mean(axis=0)[:, ::2]
+
+    def two_way(self):
+        mesh = self.shared / "box.msh"
+        axes = [graded_box.axis(-1, 1, (-half, half), SIZE, 1.5) for half in (LENGTH / 2 + 2 * SIZE, WIDTH / 2 + 2 * SIZE)]
+        graded_box.write(mesh, (*axes, graded_box.axis(-1, 1, (-0.05, 0.02), SIZE, 1.5)))
+        return self.sinking(f'[mesh]\nfile = "{mesh}"', LIQUID, TWO_WAY, END)
+
+    def one_way(self):
+        return self.sinking("", 'kind = "prescribed"', ONE_WAY, END)
+
+    def deflection(self, places):
+        """Of the ends against the middle."""
+        z, middle = places[:, 1], len(places) // 2
         print(f"  ends {1e3 * (z[0] - z[middle]):.3f} and {1e3 * (z[-1] - z[middle]):.3f} mm above the middle")
         self.assertLess(abs(z[0] - z[-1]), 2e-5, "symmetric")
-        return speed, (z[0] + z[-1]) / 2 - z[middle]
+        return (z[0] + z[-1]) / 2 - z[middle]
 
     def test_ends_trail(self):
         x, dx, line = load(LENGTH, LENGTH)
         self.assertLess(abs(2 * line @ dx / (8 * math.pi * 0.3668 * LENGTH) - 1), 1e-3, "charge of a square")
-        x, dx, line = load(LENGTH, WIDTH)
-        speed = WEIGHT * LENGTH * WIDTH / (2 * line @ dx) / VISCOSITY
-        radius = WEIGHT * LENGTH * WIDTH / (6 * math.pi * VISCOSITY * speed)
-        T = VISCOSITY / DENSITY * END / radius**2
-        late = speed * (1 - math.exp(T) * math.erfc(math.sqrt(T)))
-        places = numpy.linspace(0, LENGTH / 2, 401)
-        moment = numpy.maximum(x - places[:, None], 0) @ ((VISCOSITY * speed * line - WEIGHT * WIDTH) * dx)
-        slope = numpy.concatenate([[0], numpy.cumsum(moment[1:] + moment[:-1])]) * places[1] / 2 / (BENDING * WIDTH)
-        rise = numpy.concatenate([[0], numpy.cumsum(slope[1:] + slope[:-1])]) * places[1] / 2
+        speed, places, rise = thin_plate()
+        late = speed(END)
         deflection = numpy.interp((LENGTH - SPACING) / 2, places, rise) - numpy.interp(SPACING / 2, places, rise)
 
-        mesh = self.shared / "box.msh"
-        axes = [graded_box.axis(-1, 1, (-half, half), SIZE, 1.5) for half in (LENGTH / 2 + 2 * SIZE, WIDTH / 2 + 2 * SIZE)]
-        graded_box.write(mesh, (*axes, graded_box.axis(-1, 1, (-0.05, 0.02), SIZE, 1.5)))
-        found, bent = self.sinking(f'[mesh]\nfile = "{mesh}"', LIQUID, TWO_WAY, END)
-        _, alone = self.sinking("", 'kind = "prescribed"', ONE_WAY, END)
+        run, sheet = self.two_way()
+        found, bent = -run.monitor("rags").column("vz")[-1], self.deflection(sheet)
+        alone = self.deflection(self.one_way()[1])
         print(f"  after {END} s: speed {found:.5f} m/s, theory {late:.5f} ({100 * (found / late - 1):+.1f} %); deflection {1e3 * bent:.3f} mm, theory {1e3 * deflection:.3f} ({100 * (bent / deflection - 1):+.1f} %), "
               f"one-way {1e3 * alone:.3f} mm")
         self.assertLess(abs(found / late - 1), 0.1)
