@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "coupling/coupled_solver.hpp"
 #include "dem/particles/tile_particles.hpp"
-#include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
+#include "tests/by_checkpoint.hpp"
 
 namespace snag {
 namespace {
@@ -159,26 +158,16 @@ TEST(Dispersion, MemoryMigrates) {
 
 // Requirement: a resumed run equals the one that went on, to the bit, memory of the forces included.
 TEST(Dispersion, ResumesToTheBit) {
-  const auto folder = std::filesystem::temp_directory_path() / ("snag_dispersion_" + std::to_string(size_of(MPI_COMM_WORLD)));
   WanderingCloth whole(MPI_COMM_WORLD);
   for (int i = 0; i < 7; ++i) whole.step();
-  {
-    CheckpointWriter writer(MPI_COMM_WORLD, folder,
-                            {.case_sha256 = "test", .ranks = size_of(MPI_COMM_WORLD), .time_step = 7, .time = 7e-4});
-    whole.rags.save(writer);
-    whole.solver.save(writer);
-    writer.finish();
-  }
   WanderingCloth resumed(MPI_COMM_WORLD);
-  CheckpointReader reader(MPI_COMM_WORLD, folder);
-  resumed.rags.load(reader);
-  resumed.solver.load(reader);
+  test::by_checkpoint(
+      MPI_COMM_WORLD, "dispersion", [&](CheckpointWriter& writer) { whole.rags.save(writer), whole.solver.save(writer); },
+      [&](CheckpointReader& reader) { resumed.rags.load(reader), resumed.solver.load(reader); });
   resumed.steps = whole.steps;
   for (int i = 0; i < 7; ++i) whole.step(), resumed.step();
   EXPECT_EQ(vectors(whole.rags, Tile::x), vectors(resumed.rags, Tile::x));
   EXPECT_EQ(vectors(whole.rags, Tile::vx), vectors(resumed.rags, Tile::vx));
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder);
 }
 
 }  // namespace

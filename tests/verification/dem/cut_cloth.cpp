@@ -2,15 +2,14 @@
 // Cuts in cloth: it comes apart there and nowhere else, on any number of ranks and after a restart.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <numbers>
 
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/rag_measures.hpp"
 #include "dem/walls/walls.hpp"
-#include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "tests/by_checkpoint.hpp"
 #include "tests/verification/dem/pieces.hpp"
 
 namespace snag {
@@ -120,24 +119,13 @@ TEST(CutCloth, TheSameOnAnyNumberOfRanks) {
 
 TEST(CutCloth, ResumedRunEqualsTheUninterruptedOneToTheBit) {
   // Requirement: cuts are cuts after a restart.
-  const std::string folder =
-      (std::filesystem::temp_directory_path() / ("snag_cut_cloth_" + std::to_string(size_of(MPI_COMM_WORLD)))).string();
-  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder), std::filesystem::create_directories(folder);
-  MPI_Barrier(MPI_COMM_WORLD);
   ThrownPieces whole(MPI_COMM_WORLD), second(MPI_COMM_WORLD);
   whole.advance(150);
-  {
-    CheckpointWriter writer(MPI_COMM_WORLD, folder,
-                            {.case_sha256 = "none", .ranks = size_of(MPI_COMM_WORLD), .time_step = 1, .time = whole.rags.time()});
-    whole.rags.save(writer);
-    writer.finish();
-  }
-  CheckpointReader reader(MPI_COMM_WORLD, folder);
-  second.rags.load(reader);
+  test::by_checkpoint(
+      MPI_COMM_WORLD, "cut_cloth", [&](CheckpointWriter& writer) { whole.rags.save(writer); },
+      [&](CheckpointReader& reader) { second.rags.load(reader); });
   whole.advance(150), second.advance(150);
   EXPECT_EQ(largest_difference(gather_sheet(whole.rags), gather_sheet(second.rags)), 0);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "tests/by_checkpoint.hpp"
 #include "tests/verification/dem/pieces.hpp"
 
 namespace snag {
@@ -132,28 +133,18 @@ TEST(RagRanks, BondsBreakAlikeOnAnyNumberOfRanks) {
 
 TEST(RagRanks, ResumedRunEqualsTheUninterruptedOneToTheBit) {
   // Requirement: state, bond marks, contact history and counters come back so that the run goes on as if it had not stopped.
-  std::string folder = (std::filesystem::temp_directory_path() / ("snag_rag_ranks_" + std::to_string(size_of(MPI_COMM_WORLD)))).string();
-  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder), std::filesystem::create_directories(folder);
-  MPI_Barrier(MPI_COMM_WORLD);
   ThrownCloth whole(MPI_COMM_WORLD, true), first(MPI_COMM_WORLD, true), second(MPI_COMM_WORLD, true);
   whole.advance(600);
   first.advance(300);
-  {
-    CheckpointWriter writer(MPI_COMM_WORLD, folder,
-                            {.case_sha256 = "none", .ranks = size_of(MPI_COMM_WORLD), .time_step = 1, .time = first.rags.time()});
-    first.rags.save(writer);
-    writer.finish();
-  }
-  CheckpointReader reader(MPI_COMM_WORLD, folder);
-  second.rags.load(reader);
+  test::by_checkpoint(
+      MPI_COMM_WORLD, "rag_ranks", [&](CheckpointWriter& writer) { first.rags.save(writer); },
+      [&](CheckpointReader& reader) { second.rags.load(reader); });
   EXPECT_EQ(second.rags.time(), first.rags.time());
   second.advance(300);
   const RagSheet a = gather_sheet(whole.rags), b = gather_sheet(second.rags);
   EXPECT_EQ(largest_difference(a, b), 0);
   EXPECT_EQ(whole.rags.check()[0].broken, second.rags.check()[0].broken);
   EXPECT_EQ(whole.rags.n_sub_steps(), second.rags.n_sub_steps());
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder);
 }
 
 TEST(RagRanks, RunWrittenOnOneRankResumesOnAll) {
