@@ -29,6 +29,24 @@ std::string name_of(const Hypothesis& hypothesis, const std::vector<Effect>& eff
   return name;
 }
 
+double clear_of_nothing(const Fit& fit, std::size_t effect, const std::vector<Effect>& effects) {
+  const auto e = static_cast<Eigen::Index>(effect);
+  const double strength = std::abs(fit.theta[e]) / fit.theta_sd[e];
+  std::vector<Eigen::Index> held, rest;
+  const auto others = other_forms(fit.at.state, effects);
+  const Eigen::Index n = fit.solution.precision.rows(), first_share = n - fit.at.state.shares.size();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool own = i >= first_share && others[static_cast<std::size_t>(i - first_share)].effect == effect;
+    (own ? held : rest).push_back(i);
+  }
+  if (held.empty()) return strength;
+  const Eigen::MatrixXd given_forms =
+      fit.solution.precision(rest, rest).llt().solve(Eigen::MatrixXd::Identity(std::ssize(rest), std::ssize(rest)));
+  const double squared = strength * strength * fit.solution.covariance(e, e) / given_forms(e, e);  // strengths come first: rest[e] is e
+  const Eigen::VectorXd shares = (fit.solution.d - fit.linear.prior)(held);
+  return std::sqrt(std::max(0.0, squared - shares.squaredNorm()));
+}
+
 int Fitter::runs_of_fit(int n_effects) const {
   std::set<std::pair<std::string, double>> moved;  // what is common and what is a point's own of one input take the same runs
   for (const FreeNuisance& nuisance : model_.nuisances()) moved.emplace(nuisance.name, nuisance.u);

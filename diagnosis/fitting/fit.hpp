@@ -64,6 +64,16 @@ struct Fit {
   Eigen::VectorXd residual;  // rho at the optimum of the linear model
 };
 
+/// Standard deviations by which what an effect of a fit adds is clear of nothing: z^2/2 is what Phi rises by where the effect is taken out
+/// and all else is free. Its strength theta and the shares xi of its own forms come as theta g(xi), so that theta = 0 is no effect
+/// whatever the forms, which then cost nothing:
+///
+///   z^2 = theta^2/var(theta | xi) - |xi|^2
+///
+/// Nuisances, other effects and their forms are integrated out. theta over its own standard deviation is smaller: that one says how well
+/// the strength is known, and where one form is much stronger than another that is little, however clear the effect is.
+double clear_of_nothing(const Fit& fit, std::size_t effect, const std::vector<Effect>& effects);
+
 class Fitter {
  public:
   explicit Fitter(Responses& model);

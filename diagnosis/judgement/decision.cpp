@@ -24,13 +24,14 @@ std::vector<std::string> effect_names(const Responses& model, const Fit& fit) {
   return names;
 }
 
-// A strength of less than two standard deviations is no effect, and an input within three of its uncertainties is as it is known.
+// What is less than two standard deviations clear of nothing is no effect, and an input within three of its uncertainties is as it is
+// known.
 bool has_weak_effect(const Responses& model, const Fit& fit) {
   constexpr double seen = 2;
   for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e) {
     const auto i = static_cast<Eigen::Index>(e);
     const Effect& effect = model.effects()[fit.hypothesis.effects[e]];
-    if (!effect.fixed && std::abs(fit.theta[i]) < std::max(seen * fit.theta_sd[i], effect.least)) return true;
+    if (!effect.fixed && (std::abs(fit.theta[i]) < effect.least || clear_of_nothing(fit, e, model.effects()) < seen)) return true;
   }
   return false;
 }
@@ -62,7 +63,7 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
     if (a.weight[i] <= a.weight[static_cast<std::size_t>(part)] - behind) continue;
     if (a.first() == fit)
       a.notes.push_back(weak ? "A strength of " + a.names[i] +
-                                   " is less than 2 standard deviations from zero, or an input less than 3 u off: it is not named."
+                                   " is less than 2 standard deviations clear of nothing, or an input less than 3 u off: it is not named."
                         : absorbing ? "A strength of " + a.names[i] +
                                           " is more than 3 standard deviations from its expected value: its last effect is not named."
                                     : "The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
