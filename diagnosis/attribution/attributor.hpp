@@ -1,6 +1,7 @@
 #pragma once
 // The steps of an attribution. For .cpp files of this folder only: attribution.cpp has their order, single_effects.cpp those up to the fits
 // of single effects, further_effects.cpp pairs, rounds and rivals of the leader.
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -26,6 +27,9 @@ inline constexpr double screening_width = 10, share_not_linear = 0.05, share_of_
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
 inline constexpr double blind_detectability = 3;
+/// A member of a set that is z clear of nothing (clear_of_nothing) brings z^2/2 nats at most, less what its strength costs. Below this z it
+/// cannot bring those of the rule, and the set is fitted without it.
+inline const double weak = std::sqrt(2 * nats_of_rule);
 /// Nats that an effect beyond the first has to promise in a screening to be fitted: the linear model may be off by some. And standard
 /// uncertainties that it is expected to show beside the others.
 inline constexpr double gain_wanted = nats_of_rule - 3, least_of_further = 1;
@@ -87,6 +91,11 @@ class Attributor {
   /// screened around the fit without it; what comes nearest to the leader, by the rule of the verdict, is fitted. Its index; -1: none.
   int fit_exchange(int leader);
   bool is_fitted(const Hypothesis& hypothesis) const;
+  /// A fit without effect e of a fit, from where its other effects stand, where there is none yet; false where the budget ends.
+  bool fit_without(const Fit& all, std::size_t e);
+  /// Drop test: whatever the rounds came by, each member of the leading set that is less than `weak` clear of nothing is left out in its
+  /// turn, and so on with what leads then. Sets less than the rule behind the leader are tested, too: a guard may let them lead.
+  void fit_without_weak_members();
   /// A fit without each of the effects that were there before, where there is none yet.
   void fit_without_each(int larger, const Hypothesis& before);
   /// An effect that was screened only is behind the best fit by what it was behind in the screening; a random one, until it is fitted,

@@ -148,18 +148,41 @@ bool Attributor::is_fitted(const Hypothesis& hypothesis) const {
   return std::count(result_.names.begin(), result_.names.end(), name_of(hypothesis, model_.effects())) > 0;
 }
 
+bool Attributor::fit_without(const Fit& all, std::size_t e) {
+  Screened rest{.hypothesis = {}, .theta = Eigen::VectorXd(all.theta.size() - 1)};
+  for (std::size_t other = 0; other < all.hypothesis.effects.size(); ++other) {
+    if (other == e) continue;
+    rest.theta[static_cast<Eigen::Index>(rest.hypothesis.effects.size())] = all.theta[static_cast<Eigen::Index>(other)];
+    rest.hypothesis.effects.push_back(all.hypothesis.effects[other]), rest.forms.push_back(all.at.state.form(other));
+  }
+  if (is_fitted(rest.hypothesis)) return true;
+  if (!affordable(runs_of(rest))) return false;
+  report("fit of " + name_of(rest.hypothesis, model_.effects()), 0.86);
+  add(fit_of(rest));
+  return true;
+}
+
 void Attributor::fit_without_each(int larger, const Hypothesis& before) {
   const Fit all = result_.fits[static_cast<std::size_t>(larger)];
-  for (const int k : before.effects) {
-    Screened rest{.hypothesis = {}, .theta = Eigen::VectorXd(all.theta.size() - 1)};
-    for (std::size_t e = 0; e < all.hypothesis.effects.size(); ++e) {
-      if (all.hypothesis.effects[e] == k) continue;
-      rest.theta[static_cast<Eigen::Index>(rest.hypothesis.effects.size())] = all.theta[static_cast<Eigen::Index>(e)];
-      rest.hypothesis.effects.push_back(all.hypothesis.effects[e]), rest.forms.push_back(all.at.state.form(e));
-    }
-    if (is_fitted(rest.hypothesis)) continue;
-    if (!affordable(runs_of(rest))) return;
-    add(fit_of(rest));
+  for (std::size_t e = 0; e < all.hypothesis.effects.size(); ++e)
+    if (std::count(before.effects.begin(), before.effects.end(), all.hypothesis.effects[e]) > 0 && !fit_without(all, e)) return;
+}
+
+void Attributor::fit_without_weak_members() {
+  std::set<std::size_t> tested;
+  for (;;) {
+    const double best = result_.weight[static_cast<std::size_t>(result_.first())];
+    std::size_t next = 0;  // the likeliest that was not tested; none is never
+    for (std::size_t i = 1; i < result_.fits.size(); ++i)
+      if (result_.weight[i] > best - nats_of_rule && !tested.contains(i) && (next == 0 || result_.weight[i] > result_.weight[next]))
+        next = i;
+    if (next == 0) return;
+    tested.insert(next);
+    const Fit all = result_.fits[next];
+    if (all.hypothesis.effects.size() < 2) continue;
+    for (std::size_t e = 0; e < all.hypothesis.effects.size(); ++e)
+      if (!model_.effects()[all.hypothesis.effects[e]].fixed && clear_of_nothing(all, e, model_.effects()) < weak && !fit_without(all, e))
+        return;
   }
 }
 
