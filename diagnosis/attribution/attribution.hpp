@@ -19,6 +19,15 @@ struct NotFitted {
   double log_evidence = 0, log_prior = 0;
 };
 
+/// A fitted set and one effect more that was screened beside it and promised too little to be fitted. It keeps its share of the prior, as
+/// single effects and pairs do: data that cannot show an effect say nothing of whether it acts.
+struct OneMore {
+  int fit = 0;  // of the set
+  std::string name;
+  double gain = 0;  // log evidence of the screening over that of the set
+  double log_prior = 0;
+};
+
 struct Attribution {
   std::vector<Fit> fits;                 // none first
   std::vector<std::string> names;        // of the fits
@@ -26,6 +35,7 @@ struct Attribution {
   std::vector<double> log_prior;         // of each fit
   std::vector<double> evidence_penalty;  // nats of each fit's evidence that a guard takes away
   std::map<std::string, NotFitted> not_fitted{};
+  std::vector<OneMore> one_more{};    // of sets of two and more
   std::vector<Remainder> remainder;   // beside each fit; its gain is in the weight
   std::vector<double> leave_one_out;  // log predictive density of each fit
   Discrepancy discrepancy;

@@ -101,13 +101,20 @@ void Attributor::fit_round(int found_so_far, int without) {
   report("a further effect beside " + result_.names[static_cast<std::size_t>(found_so_far)], 0.86);
   const int leader = result_.first_by_effects(without);
   const Screening further(model_, fitter_, candidates_, around.at);
+  const double screened_alone = further.screen(found).log_evidence;
   std::map<std::string, Screened> larger;
   for (const int k : candidates_) {
-    if (k == without || std::count(found.effects.begin(), found.effects.end(), k) > 0 || further.detectability(k) < least_of_further)
+    if (k == without || std::count(found.effects.begin(), found.effects.end(), k) > 0) continue;
+    if (further.detectability(k) < least_of_further) {
+      result_.one_more.push_back({found_so_far, name_of(with(found, k), model_.effects()), 0, log_prior(with(found, k))});
       continue;
+    }
     Screened screened = further.screen(with(found, k));
-    if (screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted && !is_fitted(screened.hypothesis))
-      larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
+    const bool promises = screened.log_evidence + price_of_inputs(around) > around.log_evidence + gain_wanted;
+    // Of what promises and is not fitted, the budget or the rounds have nothing more to say: as if it brought nothing.
+    result_.one_more.push_back({found_so_far, name_of(screened.hypothesis, model_.effects()),
+                                promises ? 0 : screened.log_evidence - screened_alone, log_prior(screened.hypothesis)});
+    if (promises && !is_fitted(screened.hypothesis)) larger.emplace(name_of(screened.hypothesis, model_.effects()), std::move(screened));
   }
   const std::vector<Screened> order = best_first(std::move(larger));
   for (std::size_t i = 0; i < order.size() && i < most_a_round && affordable(fitter_.runs_of_fit(n + 1)); ++i) add(fit_of(order[i]));

@@ -52,6 +52,23 @@ double Attribution::log_evidence(int fit) const {
   return fits[i].log_evidence + remainder[i].gain - evidence_penalty[i];
 }
 
+namespace {
+
+/// Those that were screened only, each beside the fitted set that speaks most for it.
+std::map<std::string, NotFitted> larger_sets(const Attribution& attribution) {
+  std::map<std::string, NotFitted> larger;
+  for (const OneMore& one : attribution.one_more) {
+    const auto& names = attribution.names;
+    if (std::count(names.begin(), names.end(), one.name) > 0 || attribution.not_fitted.contains(one.name)) continue;
+    const NotFitted beside{attribution.log_evidence(one.fit) + one.gain, one.log_prior};
+    NotFitted& kept = larger.emplace(one.name, beside).first->second;
+    kept.log_evidence = std::max(kept.log_evidence, beside.log_evidence);
+  }
+  return larger;
+}
+
+}  // namespace
+
 void set_probabilities(Attribution& attribution) {
   // The evidence overstates, not the prior: data that say nothing leave it as it is.
   std::vector<std::pair<std::string, double>> weights;
@@ -61,6 +78,7 @@ void set_probabilities(Attribution& attribution) {
   for (std::size_t i = 0; i < attribution.names.size(); ++i)
     add(attribution.names[i], attribution.log_evidence(static_cast<int>(i)), attribution.log_prior[i]);
   for (const auto& [name, other] : attribution.not_fitted) add(name, other.log_evidence, other.log_prior);
+  for (const auto& [name, other] : larger_sets(attribution)) add(name, other.log_evidence, other.log_prior);
   add("outside", attribution.discrepancy.log_evidence, std::log(prior_outside));
   std::vector<double> logarithms;
   for (const auto& [name, weight] : weights) logarithms.push_back(weight);

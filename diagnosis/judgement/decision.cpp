@@ -82,7 +82,7 @@ std::vector<std::string> shared_verdict(const Attribution& a) {
   std::vector<std::string> shared;
   double sum = 0;
   for (const auto& [minus_p, name] : order) {
-    if (!a.not_fitted.contains(name)) shared.push_back(name);
+    if (name == "outside" || std::count(a.names.begin(), a.names.end(), name) > 0) shared.push_back(name);
     sum -= minus_p;
     if (sum >= attributed) break;
   }

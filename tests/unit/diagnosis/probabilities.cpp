@@ -52,6 +52,23 @@ TEST(Probabilities, WeighEvidence) {
   EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
 }
 
+/// Requirement: a set of effects is no surer than the data make it that nothing else acts: an effect more that they cannot show keeps its
+/// share of the prior, as it does beside one effect.
+TEST(Probabilities, OneMoreKeepsItsPrior) {
+  Attribution attribution = with_evidence(0, 50, 40, 100, -50);
+  const double set = prior_effect * prior_effect / prior_none, more = set * prior_effect / prior_none;
+  attribution.one_more = {{3, "a+b+c", 0, std::log(more)}, {3, "a+b+d", -4, std::log(more)}, {2, "a+b+c", 0, std::log(more)}};
+  set_probabilities(attribution);
+  const auto over_set = [&](const char* name) { return attribution.probability.at(name) / attribution.probability.at("a+b"); };
+  EXPECT_NEAR(over_set("a+b+c"), more / set, 1e-12);
+  EXPECT_NEAR(std::log(over_set("a+b+d")), std::log(more / set) - 4 / calibration().temperature, 1e-9);
+  EXPECT_NEAR(probability_of(attribution, {"a", "b"}), 1, 1e-9);
+  // What a guard takes from the set it takes from the larger ones, too.
+  attribution.evidence_penalty[3] = 20;
+  set_probabilities(attribution);
+  EXPECT_NEAR(over_set("a+b+c"), more / set, 1e-12);
+}
+
 /// Requirement: further effects are looked for beside what explains most by itself, not beside a wrong effect with a large remainder.
 TEST(Probabilities, RemainderDoesNotLeadTheSearch) {
   Attribution attribution = with_evidence(0, 10, 90, 100, 0);
