@@ -74,7 +74,9 @@ std::string verdict_sentence(const Verdict& v) {
   const std::string rest = v.unexplained > 0 ? "; " + share_in_words(v.unexplained) + " of it stays unexplained" : "";
   const bool doubted = v.wording == Wording::suspected && v.p_effects >= 0.9;
   return "The gap comes from " + causes + rest + ": " + word(v.wording) +
-         (doubted ? ", for a check of the verdict failed (see The evidence)." : ", probability " + probability_in_words(v.p_effects) + ".");
+         (!v.alternatives.empty() ? ", for " + joined(v.alternatives) + " would explain it nearly as well."
+          : doubted               ? ", for a check of the verdict failed (see The evidence)."
+                                  : ", probability " + probability_in_words(v.p_effects) + ".");
 }
 
 std::string verdict_advice(const Verdict& v) {

@@ -88,7 +88,7 @@ class Attributor {
   /// One round around this fit.
   void fit_round(int found_so_far, int without);
   /// Rounds add one effect at a time, so that one that stands for two may stay. Each effect of the leader is exchanged for each other one,
-  /// screened around the fit without it; what comes nearest to the leader, by the rule of the verdict, is fitted. Its index; -1: none.
+  /// screened around the fit without it; what comes nearest to the leader, within the nats of the rule, is fitted. Its index; -1: none.
   int fit_exchange(int leader);
   bool is_fitted(const Hypothesis& hypothesis) const;
   /// A fit without effect e of a fit, from where its other effects stand, where there is none yet; false where the budget ends.

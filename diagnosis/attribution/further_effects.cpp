@@ -125,7 +125,7 @@ int Attributor::fit_exchange(int leader) {
   const Fit all = result_.fits[static_cast<std::size_t>(leader)];
   if (all.hypothesis.effects.size() < 2) return -1;
   const auto by_rule = [&](const Hypothesis& hypothesis, double log_evidence) { return log_evidence + log_prior_of_verdict(hypothesis); };
-  double best = by_rule(all.hypothesis, all.log_evidence) - (nats_of_rule - gain_wanted);
+  double best = by_rule(all.hypothesis, all.log_evidence) - nats_of_rule;
   std::optional<Screened> exchanged;
   for (const int e : all.hypothesis.effects) {
     const auto rest = std::find_if(result_.fits.begin(), result_.fits.end(), [&](const Fit& fit) {

@@ -86,7 +86,8 @@ Json how_far(const Verdict& v) {
 }  // namespace
 
 std::string verdict_json(const Verdict& v) {
-  Json json{{"name", v.name}, {"verdict", word(v.verdict)}, {"effects", v.effects}, {"wording", word(v.wording)}, {"tie", v.tie}};
+  Json json{{"name", v.name}, {"verdict", word(v.verdict)},    {"effects", v.effects}, {"wording", word(v.wording)},
+            {"tie", v.tie},   {"alternatives", v.alternatives}};
   json["probability"] = numbers(v.probability);
   json["acts"] = numbers(v.acts);
   json["causes"] = Json::array();

@@ -125,6 +125,7 @@ struct Verdict {
   std::vector<std::string> effects{};  // of the first hypothesis that names effects; for outside: the best effect, partial and no cause
   double p_effects = 0;                // that all of them act, alone or with others
   Wording wording = Wording::no_gap;
+  std::vector<std::string> alternatives{};        // other causes that the data do not tell from the named ones by the nats of the rule
   std::vector<std::string> tie{};                 // hypotheses that share the verdict of a tie
   std::map<std::string, double> probability{};    // of each hypothesis
   std::map<std::string, double> acts{};           // of each effect: that it acts, alone or with another
