@@ -70,13 +70,13 @@ class GaussianProcess {
 
   /// How far the likeliest inputs of the best process are from those that the linear model was made at, in standard uncertainties.
   double reach(const Discrepancy& best) const {
+    if (!std::isfinite(best.log_evidence)) return std::numeric_limits<double>::infinity();
     return expanded_at_.size() == 0 ? 0 : (best.nuisances - expanded_at_).cwiseAbs().maxCoeff();
   }
 
   /// The best process of the grid, with the evidence of all of it.
   Discrepancy fit() const {
-    Discrepancy best;
-    best.log_evidence = -std::numeric_limits<double>::infinity();
+    Discrepancy best{-std::numeric_limits<double>::infinity(), 0, std::vector<double>(n_parts_, 0.0), expanded_at_};
     const auto better_of = [&](const Discrepancy& tried) {
       const Marginal found = marginal(tried);
       if (found.log_evidence > best.log_evidence) best = {found.log_evidence, tried.shape, tried.amplitude, found.nuisances};
@@ -87,6 +87,8 @@ class GaussianProcess {
         amplitude.back() = 0;
         better_of({0, shape, amplitude});
       }
+    // Inputs that no effect leaves so far off that nothing runs there say nothing of any process.
+    if (!std::isfinite(best.log_evidence)) return best;
     // Then each observable may choose its own amplitude.
     for (int sweep = 0; sweep < 2; ++sweep) {
       for (int o = 0; o < n_parts_; ++o)

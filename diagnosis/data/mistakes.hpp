@@ -6,9 +6,12 @@
 //   clock       what is measured at t was there at t + theta, s
 //   frame_rate  what is measured at t was there at (1 + theta) t
 //   sign:AXIS   positions and velocities along an axis have the other sign; there or not
-//   scale:GROUP what is measured at a group of points is (1 + theta) times the true number (of several instruments: scale:GROUP/CALIBRATION
-//   or UNIT) offset:OBSERVABLE@GROUP  it is theta more, in the unit of the observable unit:UNIT   the numbers of all observables with this
-//   unit are another factor larger (1000, 25.4, 180/pi, ...); there or not
+//   scale:GROUP what is measured at a group of points is (1 + theta) times the true number; of several calibrations each,
+//               scale:GROUP/CALIBRATION or UNIT, and all with one unit together, as those of the axes of one camera (scale:GROUP, of
+//               several such units scale:GROUP/UNIT)
+//   offset:OBSERVABLE@GROUP  it is theta more, in the unit of the observable
+//   unit:UNIT   the numbers of all observables with this unit are another factor larger (1000, 25.4, 180/pi, ...), and with them noise_u
+//               and bias_u, which are stated in the right unit; there or not
 //
 // All but the inputs change what a run answers with, not the run.
 #include <span>

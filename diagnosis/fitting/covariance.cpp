@@ -89,7 +89,7 @@ void add_scatter(const PointSummary& point, const Response& response, Eigen::Mat
 Eigen::MatrixXd model_covariance(const PointSummary& point, const Response& response, const Eigen::VectorXd& numerical_error,
                                  const std::vector<const Eigen::VectorXd*>& parts, double form_error) {
   const int g = point.n_gaussian;
-  Eigen::MatrixXd C = point.covariance;
+  Eigen::MatrixXd C = response.data_covariance.size() > 0 ? response.data_covariance : point.covariance;
   // The error of the step has one sign over a run, and is not known better than by a tenth.
   const Eigen::VectorXd e = numerical_error.head(g);
   C += e * e.transpose();

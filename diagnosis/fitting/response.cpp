@@ -112,6 +112,58 @@ void Responses::find_mistakes(const std::vector<Response>& answers) {
     }
   for (const auto& [unit, product] : products)
     if (product.second > 0) add(mistakes_of_unit(experiment_, unit, product.first / product.second));
+  find_noise_in_right_units();
+}
+
+// Who writes numbers down in another unit F times smaller still states noise and bias in the unit that is named: y ~ N(F f, F^2 C'), with
+// C' of the numbers y/F, whose repeats tell the noise as those of any data do.
+void Responses::find_noise_in_right_units() {
+  for (int k = 0; k < static_cast<int>(effects_.size()); ++k) {
+    if (mistake(k) == nullptr || mistake(k)->kind != Mistake::Kind::unit) continue;
+    const Mistake& made = *mistake(k);
+    Experiment right = experiment_;
+    for (Datum& d : right.data)
+      if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor;
+    for (PointSummary& point : summarize(right, simulator_, random_effects_may_show(simulator_))) {
+      Eigen::VectorXd factor = Eigen::VectorXd::Ones(point.n_gaussian);
+      for (int i = 0; i < point.n_gaussian; ++i) {
+        const int o = point.rows[static_cast<std::size_t>(i)].observable;
+        const bool logarithm = experiment_.observables[static_cast<std::size_t>(o)].kind == Observable::Kind::lognormal;
+        if (!logarithm && std::count(made.observables.begin(), made.observables.end(), o) > 0) factor[i] = made.factor;
+      }
+      in_right_units_[k].push_back(factor.asDiagonal() * point.covariance * factor.asDiagonal());
+    }
+  }
+}
+
+double Responses::factor_of_unit(const State& state, int observable) const {
+  double factor = 1;
+  for (const auto& [k, theta] : state.effects) {
+    const Mistake* made = mistake(k);
+    if (made == nullptr || made->kind != Mistake::Kind::unit || theta == 0) continue;
+    if (std::count(made->observables.begin(), made->observables.end(), observable) > 0) factor *= made->factor;
+  }
+  return factor;
+}
+
+// Rows of different observables have nothing in common, and an observable has one unit.
+Eigen::MatrixXd Responses::covariance_in_right_units(const State& state, int point) const {
+  const PointSummary& summary = points_[static_cast<std::size_t>(point)];
+  Eigen::MatrixXd covariance;
+  for (const auto& [k, theta] : state.effects) {
+    const Mistake* made = mistake(k);
+    if (made == nullptr || made->kind != Mistake::Kind::unit || theta == 0) continue;
+    if (covariance.size() == 0) covariance = summary.covariance;
+    const Eigen::MatrixXd& own = in_right_units_.at(k)[static_cast<std::size_t>(point)];
+    const auto changes = [&](int row) {
+      const int o = summary.rows[static_cast<std::size_t>(row)].observable;
+      return std::count(made->observables.begin(), made->observables.end(), o) > 0;
+    };
+    for (int i = 0; i < summary.n_gaussian; ++i)
+      for (int j = 0; j < summary.n_gaussian; ++j)
+        if (changes(i) && changes(j)) covariance(i, j) = own(i, j);
+  }
+  return covariance;
 }
 
 const Mistake* Responses::mistake(int effect) const {
@@ -216,8 +268,8 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
 Response Responses::response(const Request& request, std::span<const RunResult> results, const std::vector<double>& u) const {
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
-  Response response{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),   {}, n_seeds, "",
-                    Eigen::VectorXd::Zero(n), std::vector<bool>(n, false)};
+  Response response{Eigen::VectorXd::Zero(n),   Eigen::VectorXd::Zero(n), {}, n_seeds, "", Eigen::VectorXd::Zero(n), {},
+                    std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
@@ -251,11 +303,13 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
   }
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     if (nuisances_[j].bias_observable < 0) continue;
-    const double bias =
-        request.state.nuisances[static_cast<Eigen::Index>(j)] * experiment_.observables[nuisances_[j].bias_observable].bias_u;
+    const double bias = request.state.nuisances[static_cast<Eigen::Index>(j)] *
+                        experiment_.observables[nuisances_[j].bias_observable].bias_u *
+                        factor_of_unit(request.state, nuisances_[j].bias_observable);
     for (int i = 0; i < n; ++i)
       if (point.rows[i].observable == nuisances_[j].bias_observable && point.rows[i].kind != Row::Kind::spread) response.value[i] += bias;
   }
+  response.data_covariance = covariance_in_right_units(request.state, request.point);
   if (n_seeds > 1) response.paths = values.topRows(point.n_gaussian).colwise() - values.topRows(point.n_gaussian).rowwise().mean();
   if (std::all_of(results.begin(), results.end(), [](const RunResult& r) { return !r.failure.empty(); }))
     response.failure = results.front().failure;
@@ -372,10 +426,9 @@ void Responses::leave_out_rows_without_answer(const std::vector<Response>& answe
       if (i < point.n_gaussian) kept.push_back(i);
       rows.push_back(std::move(point.rows[i]));
     }
-    Eigen::MatrixXd covariance(kept.size(), kept.size());
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      for (std::size_t j = 0; j < kept.size(); ++j) covariance(i, j) = point.covariance(kept[i], kept[j]);
-    point.rows = std::move(rows), point.covariance = std::move(covariance), point.n_gaussian = static_cast<int>(kept.size());
+    for (auto& [unit, by_point] : in_right_units_) by_point[p] = Eigen::MatrixXd(by_point[p](kept, kept));
+    point.covariance = Eigen::MatrixXd(point.covariance(kept, kept));
+    point.rows = std::move(rows), point.n_gaussian = static_cast<int>(kept.size());
   }
 }
 

@@ -38,9 +38,10 @@ struct Response {
   Eigen::VectorXd scatter;  // by row: variance of one run
   Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
   int n_runs = 1;
-  std::string failure;      // why none of its runs came through; empty: one did
-  Eigen::VectorXd beyond;   // by row: standard uncertainty, where a mistake of times asks for what the runs do not reach (mistakes.hpp)
-  std::vector<bool> later;  // by row: no run came to this time before it ended; `value` is the end
+  std::string failure;     // why none of its runs came through; empty: one did
+  Eigen::VectorXd beyond;  // by row: standard uncertainty, where a mistake of times asks for what the runs do not reach (mistakes.hpp)
+  Eigen::MatrixXd data_covariance{};  // of the Gaussian rows, where a mistake of a unit makes it another one; empty: that of the point
+  std::vector<bool> later;            // by row: no run came to this time before it ended; `value` is the end
 };
 
 /// One deviation that is free in every hypothesis.
@@ -119,13 +120,19 @@ class Responses {
   void leave_out_rows_without_answer(const std::vector<Response>& answers);
   void find_mistakes(const std::vector<Response>& answers);
   const Mistake* mistake(int effect) const;
+  /// Under these mistakes, from the numbers in their right units.
+  void find_noise_in_right_units();
+  /// Data covariance of a state at a point; empty: as stated. And what a bias of an observable is to be multiplied by.
+  Eigen::MatrixXd covariance_in_right_units(const State& state, int point) const;
+  double factor_of_unit(const State& state, int observable) const;
   /// Returns the largest uncertainty of the values, by slot; empty: there is none.
   std::vector<double> mismeasure(const State& state, int point, std::span<RunResult> results) const;
 
   const Experiment& experiment_;
   Simulator& simulator_;
   std::vector<Effect> effects_;
-  std::vector<Mistake> mistakes_;  // the last of the effects
+  std::vector<Mistake> mistakes_;                               // the last of the effects
+  std::map<int, std::vector<Eigen::MatrixXd>> in_right_units_;  // by effect, of wrong units: covariance of the data, by point
   std::vector<FreeNuisance> nuisances_;
   std::vector<PointSummary> points_;
   std::vector<int> training_, withheld_;

@@ -52,6 +52,45 @@ TEST(Mistakes, UnitSignClockFrameRate) {
   EXPECT_EQ(right, n);
 }
 
+// Numbers in millimetres that are said to be metres, and the other way round: noise and bias are stated in the unit that is named, so that
+// they are a thousand times too small or too large for the numbers. One repeat says nothing of the noise.
+TEST(Mistakes, UnitOfNumbersNoiseAndBias) {
+  int right = 0, n = 0;
+  for (int i = 0; i < 4; ++i)
+    for (const double factor : {1e3, 1e-3}) {
+      Experiment experiment = formula::experiment({}, 6, 3, i % 2 ? 3 : 1, noise, 7450 + i);
+      NormalNumbers random(7460 + i);
+      for (Observable& observable : experiment.observables) observable.bias_u = 4 * noise;
+      const std::array<double, 2> bias{4 * noise * random(), 4 * noise * random()};
+      for (Datum& d : experiment.data) d.value = factor * (d.value + bias[static_cast<std::size_t>(d.observable)]);
+      const Verdict verdict = judged(experiment);
+      ++n, right += said(verdict) == "unit:m";
+      if (said(verdict) != "unit:m") std::printf("unit:m, %g: %s\n", factor, said(verdict).c_str());
+    }
+  std::printf("units: %d of %d named\n", right, n);
+  EXPECT_EQ(right, n);
+}
+
+// A camera has a calibration for each axis. A wrong distance to it is one factor of both, a wrong calibration of one axis is one of that.
+TEST(Mistakes, ScaleOfAllAxesOrOfOne) {
+  int right = 0, n = 0;
+  for (int i = 0; i < 2; ++i) {
+    Experiment both = formula::experiment({}, 6, 3, 3, noise, 8450 + i);
+    for (std::size_t p = 0; p < both.points.size(); ++p) both.points[p].group = std::array{"low", "high"}[p % 2];
+    for (Observable& observable : both.observables) observable.calibration_group = observable.id + " of the camera";
+    Experiment one = both;
+    const auto is_high = [](const Datum& d) { return d.point % 2 == 1; };
+    for (Datum& d : both.data) d.value *= is_high(d) ? 1.05 : 1;
+    for (Datum& d : one.data) d.value *= is_high(d) && d.observable == 1 ? 1.05 : 1;
+    for (const auto& [name, verdict] : {std::pair("scale:high", judged(both)), std::pair("scale:high/z of the camera", judged(one))}) {
+      // Of two groups, one that is too large is one that is too small of the other, but for the runs.
+      ++n, right += said(verdict) == name;
+      if (said(verdict) != name) std::printf("%s: %s\n", name, said(verdict).c_str());
+    }
+  }
+  EXPECT_EQ(right, n);
+}
+
 // An input that is far off is told where it is no hypothesis, too; one that is within its uncertainty is not.
 TEST(Mistakes, InputFarOffIsTold) {
   const auto told = [](double off) {
