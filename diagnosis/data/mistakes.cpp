@@ -186,6 +186,14 @@ std::vector<Mistake> mistakes_of_groups(const Experiment& experiment) {
     if (!point.group.empty()) groups[point.group].push_back(p);
   }
   const auto calibrations = calibrations_of(experiment);
+  std::map<std::string, std::vector<int>> of_one_unit;  // observables of several calibrations
+  std::map<std::string, int> n_calibrations;
+  for (const auto& [calibration, observables] : calibrations) {
+    const std::string& unit = experiment.observables[static_cast<std::size_t>(observables.front())].unit;
+    ++n_calibrations[unit];
+    of_one_unit[unit].insert(of_one_unit[unit].end(), observables.begin(), observables.end());
+  }
+  std::erase_if(of_one_unit, [&](const auto& of) { return n_calibrations[of.first] < 2; });
   constexpr double sd = 0.05, most = 0.5;  // of a factor that is thought to be one; of an offset, over the range of the numbers
   std::vector<Mistake> mistakes;
   const auto add = [&](Mistake::Kind kind, const std::string& name, const std::string& parameter, const std::string& unit, double size,
@@ -206,6 +214,10 @@ std::vector<Mistake> mistakes_of_groups(const Experiment& experiment) {
     const auto training =
         std::count_if(points.begin(), points.end(), [&](int p) { return !experiment.points[static_cast<std::size_t>(p)].withheld; });
     if (training == 0 || training == n_training) continue;
+    // Several calibrations of one unit may be those of one instrument, the axes of a camera: then one factor is wrong of all of them.
+    for (const auto& [unit, observables] : of_one_unit)
+      add(Mistake::Kind::scale, "scale:" + group + (of_one_unit.size() > 1 ? "/" + unit : ""),
+          "relative error of all calibrations at these points", "1", 1, points, observables);
     for (const auto& [calibration, observables] : calibrations) {
       const std::string name = "scale:" + group + (calibrations.size() > 1 ? "/" + calibration : "");
       add(Mistake::Kind::scale, name, "relative error of a calibration at these points", "1", 1, points, observables);
