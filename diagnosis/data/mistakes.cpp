@@ -9,6 +9,7 @@
 #include "base/parameter.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
+#include "diagnosis/data/summary.hpp"
 #include "observe/observables.hpp"
 
 namespace snag {
@@ -117,11 +118,14 @@ std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment) {
   std::vector<Mistake> mistakes;
   const double duration = measured_duration(experiment);
   std::vector<int> paths, rates;
+  std::map<int, double> periods;
   std::map<int, std::vector<int>> along;  // by axis
   for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
     if (!has_path(experiment, o)) continue;
     paths.push_back(o);
-    const ObservableRecord* record = find_observable(experiment.observables[static_cast<std::size_t>(o)].id);
+    const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
+    if (observable.kind == Observable::Kind::angle) periods[o] = angle_period(observable);
+    const ObservableRecord* record = find_observable(observable.id);
     if (record && record->measure == Measure::velocity) rates.push_back(o);
     if (record && (record->is_position() || record->measure == Measure::velocity)) along[static_cast<int>(record->axis)].push_back(o);
   }
@@ -136,7 +140,8 @@ std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment) {
                                  .minimum = -largest_delay * duration,
                                  .maximum = largest_delay * duration,
                                  .is_mistake = true},
-                      .observables = paths});
+                      .observables = paths,
+                      .periods = periods});
   mistakes.push_back({.kind = Mistake::Kind::frame_rate,
                       .effect = {.name = "frame_rate",
                                  .parameter = "relative error of the times, as by another frame rate",
@@ -146,6 +151,7 @@ std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment) {
                                  .maximum = 0.3,
                                  .is_mistake = true},
                       .observables = paths,
+                      .periods = periods,
                       .rates = rates});
   for (const auto& [axis, observables] : along)
     mistakes.push_back({.kind = Mistake::Kind::sign,
@@ -269,7 +275,12 @@ std::vector<double> mismeasure(const Mistake& mistake, double theta, const std::
   for (std::size_t s = 0; s < values.size(); ++s)
     if (changes(s) && !std::isnan(slots[s].time) && std::isfinite(values[s]))
       paths[slots[s].observable].emplace_back(slots[s].time, values[s]);
-  for (auto& [observable, path] : paths) std::sort(path.begin(), path.end());
+  for (auto& [observable, path] : paths) {
+    std::sort(path.begin(), path.end());
+    const auto period = mistake.periods.find(observable);
+    for (std::size_t i = 1; i < path.size() && period != mistake.periods.end(); ++i)
+      path[i].second = path[i - 1].second + wrapped(path[i].second - path[i - 1].second, period->second);
+  }
   for (std::size_t s = 0; s < values.size(); ++s) {
     const double t = slots[s].time;
     if (!changes(s) || std::isnan(t) || !std::isfinite(values[s])) continue;

@@ -14,6 +14,7 @@
 //               and bias_u, which are stated in the right unit; there or not
 //
 // All but the inputs change what a run answers with, not the run.
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,11 +28,12 @@ struct Mistake {
   enum class Kind { input, clock, frame_rate, sign, unit, scale, offset };
   Kind kind = Kind::input;
   Effect effect;
-  std::string input{};             // key of it
-  std::vector<int> points{};       // that share the input, or the calibration; of the other mistakes none: they are made at all points
-  std::vector<int> observables{};  // that it changes
-  std::vector<int> rates{};        // of them: per time, so that a frame rate changes their numbers too
-  double factor = 1;               // of a unit: simulated numbers times this are as the data say them; of an offset: SI value of its unit
+  std::string input{};              // key of it
+  std::vector<int> points{};        // that share the input, or the calibration; of the other mistakes none: they are made at all points
+  std::vector<int> observables{};   // that it changes
+  std::map<int, double> periods{};  // of them, of angles: a path is interpolated along the turn, not across where the angle begins again
+  std::vector<int> rates{};         // of them: per time, so that a frame rate changes their numbers too
+  double factor = 1;                // of a unit: simulated numbers times this are as the data say them; of an offset: SI value of its unit
 };
 
 /// Those of inputs: keys that several points share, or the only point has.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/data/mistakes.hpp"
 
@@ -34,6 +35,21 @@ TEST(Mistakes, PathsWithinARunAreCertain) {
     EXPECT_EQ(u[i], 0);
   }
   EXPECT_GT(u.back(), 0);
+}
+
+/// An axis comes back after half a turn: between samples it turns on, and does not go back over all other angles.
+TEST(Mistakes, AnglesTurnOn) {
+  Mistake clock = clock_mistake();
+  clock.periods = {{0, std::numbers::pi}};
+  std::vector<double> values;
+  const auto at = slots(12);
+  const auto axis = [](double angle) { return angle - std::numbers::pi * std::round(angle / std::numbers::pi); };
+  for (const Slot& s : at) values.push_back(axis(5 * s.time));
+  const std::vector<double> u = mismeasure(clock, theta, at, values);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    EXPECT_NEAR(axis(values[i] - 5 * (at[i].time + theta)), 0, 1e-9) << i;
+    EXPECT_NEAR(u[i], 0, 1e-9) << i;
+  }
 }
 
 /// The line through the last two samples of t^2 differs from it by (t - t_1)(t - t_2), which is what the parabola adds.
