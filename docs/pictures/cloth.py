@@ -277,8 +277,8 @@ def spheres():
     """Lines of the test: `(Re, cells to the diameter) {settings}: error %`."""
     text = (HERE / "cloth-sphere-drag.txt").read_text()
     rows = [(float(Re), float(cells), ast.literal_eval(settings), float(error)) for Re, cells, settings, error in re.findall(r"\((\S+), (\S+)\) (\{.*\}): (\S+) %", text)]
-    figure, axes = plt.subplots(1, 4, figsize=(11, 3.4), gridspec_kw={"width_ratios": (1, 1, 1, 1.1)})
-    marks = {0.2: ("^", GREEN), 1: ("s", BLUE), 2: ("o", RED), 4: ("D", "0.4")}
+    figure, axes = plt.subplots(1, 4, figsize=(12, 3.4), gridspec_kw={"width_ratios": (1, 1, 1, 1.6)})
+    marks = {0.2: ("^", GREEN), 1: ("s", BLUE), 2: ("o", RED), 4: ("D", "0.4"), 8: ("v", "0.1")}
     for of, kernel in zip(axes, ("gaussian", "diffusion", "satellite")):
         for cells, (mark, colour) in marks.items():
             points = sorted((Re, error) for Re, d, keys, error in rows if d == cells and keys.get("kernel", "gaussian") == kernel and "wall" not in keys)
@@ -288,20 +288,19 @@ def spheres():
         of.set_ylim(-1, 2)
         label(of, kernel, "Re", "deviation of the speed, %" if kernel == "gaussian" else "", loc="upper right", title="diameter of", title_fontsize=7)
     for Re, cells, keys, error in rows:
-        if keys.get("kernel") == "wendland":
-            axes[0].plot(Re, error, "*", color=RED, markersize=7, label=f"{cells:g} cells, wendland")
+        if keys.get("kernel") == "wendland" and "wall" not in keys:
+            axes[0].plot(Re, error, "*", color=marks[cells][1], markersize=7, label=f"{cells:g} cells, wendland")
     axes[0].legend(frameon=False, fontsize=7, loc="upper right", title="diameter of", title_fontsize=7)
 
-    distance = numpy.linspace(0.6, 4, 100)
+    distance = numpy.linspace(0.7, 4, 100)
     axes[3].plot(distance, [sphere_drag.faxen(h * sphere_drag.DIAMETER) for h in distance], color=GREY, linewidth=1, label="Faxen")
-    for width, mark, colour in ((1, "o", RED), (2, "s", BLUE)):
-        points = [(keys["wall"], error) for _, _, keys, error in rows if keys.get("wall") and keys["width"] == width]
+    for kernel, width, mark, colour in (("gaussian", 1, "o", RED), ("gaussian", 2, "s", BLUE), ("wendland", 1, "*", "0.1"), ("diffusion", 1, "^", GREEN), ("satellite", 1, "D", "0.4")):
+        points = sorted((keys["wall"], error) for _, _, keys, error in rows if keys.get("wall") and keys.get("width", 1) == width and keys.get("kernel", "gaussian") == kernel)
         drag = [sphere_drag.faxen(h * sphere_drag.DIAMETER) / (1 + error / 100) for h, error in points]
-        axes[3].plot([h for h, _ in points], drag, mark, color=colour, markersize=5, markerfacecolor="none", label=f"kernel {width} diameter{'s' if width > 1 else ''}")
-        for (h, error), y in zip(points, drag):
-            axes[3].annotate(f"{error:+.1f} %", (h, y), xytext=(6, 4 if width == 1 else -10), textcoords="offset points", fontsize=7, color=colour)
-    axes[3].set_ylim(1, 2.2)
-    label(axes[3], "along a wall, Re 0.005, gaussian", "distance over diameter", "drag over that in the open")
+        name = f"{kernel}{', 2 diameters wide' if width > 1 else ''}: {', '.join(f'{error:+.1f}' for _, error in points)} %"
+        axes[3].plot([h for h, _ in points], drag, mark, color=colour, markersize=5, markerfacecolor="none", label=name)
+    axes[3].set_ylim(1, 1.9)
+    label(axes[3], "along a wall, Re 0.005", "distance over diameter", "drag over that in the open")
     return figure
 
 
