@@ -17,6 +17,11 @@ namespace {
 constexpr double balance = 0.75;       // exponent of d_c
 constexpr double least_share = 0.125;  // in a corner of three walls
 
+void sort_out(std::vector<int>& cells) {
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
 }  // namespace
 
 Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
@@ -34,10 +39,6 @@ Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
 /// Factors of cells near boundaries, from the shares of the kernels of the cells themselves. Cells of a turning zone keep them.
 void Kernel::weigh_cells() {
   if (!weights_->start_balancing()) return;
-  const auto sort_out = [](std::vector<int>& cells) {
-    std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  };
   std::vector<int> at_boundary(mesh_.owner.begin() + mesh_.n_interior, mesh_.owner.begin() + mesh_.n_faces), near;
   sort_out(at_boundary);
   locate_in_parts(at_boundary, [&](std::size_t, std::size_t) {
@@ -316,7 +317,9 @@ void Kernel::spread(std::span<const double> amounts, int components, std::span<d
 
 std::vector<int> Kernel::cells() const {
   std::vector<int> all = weights_->rows().cells();
-  if (some_in_nearest_cell_) all.insert(all.end(), nearest_.cells().begin(), nearest_.cells().end());
+  if (!some_in_nearest_cell_) return all;
+  all.insert(all.end(), nearest_.cells().begin(), nearest_.cells().end());
+  sort_out(all);
   return all;
 }
 

@@ -61,7 +61,7 @@ class Kernel {
   void spread(std::span<const double> amounts, std::span<const CellSums> fields) const;
   void spread(std::span<const double> amounts, int components, std::span<double> field) const;
 
-  /// Owned cells that average and spread use, at the last locate; some may be twice in it.
+  /// Owned cells that average and spread use, at the last locate, each once.
   std::vector<int> cells() const;
   double width() const { return width_; }
   const KernelShape& shape() const { return shape_; }

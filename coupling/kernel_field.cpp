@@ -12,7 +12,8 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   places_.resize(particles_.size());
   for (std::size_t b = 0; b < places_.size(); ++b) places_[b] = tiles[particles_.tile(b)].vector(Tile::x, particles_.place(b));
   kernel_.locate(places_);
-  prediction_.predict(kernel_.cells());
+  const std::vector<int> cells = kernel_.cells();
+  prediction_.predict(cells);
 
   std::vector<CellField> fields;
   std::vector<int> field_of_component;
@@ -24,13 +25,13 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   add(flow_.velocity_gradient.data(), 9, gradient);
   add(prediction_.change().data(), 3, change);
   if (two_way_) add(flow_.mesh.cell_centre.data(), 3, sampled::mean_place);
-  const CellSource source{flow_, kernel_, rags_, prediction_, two_way_, particles_, tiles};
+  const CellSource source{flow_, kernel_, cells, rags_, prediction_, two_way_, particles_, tiles};
   made_.resize(sample_rows().size());
   int coverage = 0;
   auto made = made_.begin();
   for_each_row([&](const SampleRow& row, int first) {
-    std::vector<double>& cells = *made++;
-    if (needed.*row.needed) add(row.of_cells(source, cells), row.components(), first);
+    std::vector<double>& of_cells = *made++;
+    if (needed.*row.needed) add(row.of_cells(source, of_cells), row.components(), first);
     if (row.needed == &SampleSet::coverage) coverage = first;
   });
   const std::vector<double> values = kernel_.average(fields);

@@ -38,26 +38,24 @@ const double* turbulence_gradient(const CellSource& source, std::vector<double>&
 /// Kernel and cell together.
 const double* disturbance_width(const CellSource& source, std::vector<double>& made) {
   const Mesh& mesh = source.flow.mesh;
-  made.assign(static_cast<std::size_t>(mesh.n_cells), undisturbed);
+  made.resize(static_cast<std::size_t>(mesh.n_cells), undisturbed);
   if (!source.two_way) return made.data();
-  for (int c = 0; c < mesh.n_cells; ++c)
-    made[c] = source.kernel.shape().disturbance_width(source.kernel.width(), std::cbrt(mesh.cell_volume[c]));
+  for (const int c : source.cells) made[c] = source.kernel.shape().disturbance_width(source.kernel.width(), std::cbrt(mesh.cell_volume[c]));
   return made.data();
 }
 
 const double* point_disturbance(const CellSource& source, std::vector<double>& made) {
   const Mesh& mesh = source.flow.mesh;
-  made.assign(static_cast<std::size_t>(mesh.n_cells), 0.0);
+  made.resize(static_cast<std::size_t>(mesh.n_cells), 0.0);
   if (!source.two_way) return made.data();
-  for (int c = 0; c < mesh.n_cells; ++c)
-    made[c] = source.kernel.shape().point_disturbance(source.kernel.width(), std::cbrt(mesh.cell_volume[c]));
+  for (const int c : source.cells) made[c] = source.kernel.shape().point_disturbance(source.kernel.width(), std::cbrt(mesh.cell_volume[c]));
   return made.data();
 }
 
 const double* point_width(const CellSource& source, std::vector<double>& made) {
   const Mesh& mesh = source.flow.mesh;
   made.resize(static_cast<std::size_t>(mesh.n_cells));
-  for (int c = 0; c < mesh.n_cells; ++c) made[c] = width_of_cell(std::cbrt(mesh.cell_volume[c]));
+  for (const int c : source.cells) made[c] = width_of_cell(std::cbrt(mesh.cell_volume[c]));
   return made.data();
 }
 
@@ -82,8 +80,10 @@ const double* coverage(const CellSource& source, std::vector<double>& made) {
   const double own = 2 * std::sqrt(std::numbers::pi) * source.kernel.shape().overlap_width(source.kernel.width());
   spread(
       source, [](const Rag& rag) { return 2 * rag.radius * (2 * rag.radius); }, made);
-  for (int c = 0; c < mesh.n_cells; ++c)
-    if (made[c] != 0) made[c] *= std::hypot(own, std::cbrt(mesh.cell_volume[c]));
+  for (const int c : source.cells) {
+    const double size = std::cbrt(mesh.cell_volume[c]);
+    made[c] *= std::sqrt(own * own + size * size);
+  }
   return made.data();
 }
 

@@ -78,7 +78,8 @@ struct SphereState {
 /// What a sample of the cells of a flow is made of.
 struct CellSource {
   const Flow& flow;
-  Kernel& kernel;  // located at the particles
+  Kernel& kernel;              // located at the particles
+  std::span<const int> cells;  // that it uses: the others need no values
   const std::vector<Rag>& rags;
   const WaterPrediction& prediction;
   bool two_way;

@@ -51,6 +51,9 @@ struct Attribution {
   int best_with_effect() const;  // the likeliest fit that names an effect; 0 if there is none
   /// The likeliest fit of all effects of this one but one, or but effect `without` (an index of Simulator::effects); -1 if there is none.
   int best_part_of(int fit, int without = -1) const;
+  /// Fits of causes that could stand in the place of this one's: less than `nats_of_rule` behind it by weight, and neither part of it nor
+  /// larger sets with all of it, which say nothing else of its effects.
+  std::vector<int> alternatives_to(int fit) const;
   /// Nats by which the process alone explains the data better than the likeliest fit. What a further effect is priced at is a rule among
   /// sets of effects: a process has shapes of its own, which its evidence pays for.
   double outside_leads_by() const;

@@ -45,6 +45,20 @@ int Attribution::best_part_of(int fit, int without) const {
   return best;
 }
 
+std::vector<int> Attribution::alternatives_to(int fit) const {
+  const auto holds = [](const std::vector<int>& all, const std::vector<int>& part) {
+    return std::all_of(part.begin(), part.end(), [&](int k) { return std::count(all.begin(), all.end(), k) > 0; });
+  };
+  const auto& own = fits[static_cast<std::size_t>(fit)].hypothesis.effects;
+  std::vector<int> alternatives;
+  for (int j = 0; j < static_cast<int>(fits.size()); ++j) {
+    const auto& other = fits[static_cast<std::size_t>(j)].hypothesis.effects;
+    const double behind = weight[static_cast<std::size_t>(fit)] - weight[static_cast<std::size_t>(j)];
+    if (behind < nats_of_rule && !holds(other, own) && !holds(own, other)) alternatives.push_back(j);
+  }
+  return alternatives;
+}
+
 double Attribution::outside_leads_by() const { return discrepancy.log_evidence - log_evidence(first()); }
 
 double Attribution::log_evidence(int fit) const {

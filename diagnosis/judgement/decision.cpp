@@ -212,20 +212,12 @@ class Judge {
     }
   }
 
-  // Causes that could stand in the place of named ones: to say one and not the other takes as many nats as to say a further one. Sets that
-  // the named ones are part of, and their parts, say nothing else of these.
+  // To say one cause and not the other takes as many nats as to say a further one.
   void note_alternatives(int first) {
-    const auto& own = a_.fits[static_cast<std::size_t>(first)].hypothesis.effects;
-    const auto holds = [](const std::vector<int>& all, const std::vector<int>& part) {
-      return std::all_of(part.begin(), part.end(), [&](int k) { return std::count(all.begin(), all.end(), k) > 0; });
-    };
-    for (std::size_t i = 1; i < a_.fits.size(); ++i) {
-      const auto& other = a_.fits[i].hypothesis.effects;
-      const double behind = a_.weight[static_cast<std::size_t>(first)] - a_.weight[i];
-      if (behind > nats_of_rule || holds(other, own) || holds(own, other)) continue;
-      v_.alternatives.push_back(a_.names[i]);
-      v_.notes.push_back(a_.names[i] + " explains the data nearly as well as " + a_.names[static_cast<std::size_t>(first)] +
-                         " does: " + rounded(behind) + " nats less, and 6 are wanted to tell two causes apart.");
+    for (const int other : a_.alternatives_to(first)) {
+      v_.alternatives.push_back(a_.names[other]);
+      v_.notes.push_back(a_.names[other] + " explains the data nearly as well as " + a_.names[first] + " does: " +
+                         rounded(a_.weight[first] - a_.weight[other]) + " nats less, and 6 are wanted to distinguish two causes.");
     }
   }
 

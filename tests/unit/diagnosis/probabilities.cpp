@@ -82,6 +82,18 @@ TEST(Probabilities, RemainderDoesNotLeadTheSearch) {
   EXPECT_EQ(attribution.first_by_effects(1), 1);
 }
 
+/// Requirement: a cause less than 6 nats behind stands beside the named one; what holds the named one, or is part of it, says nothing else.
+TEST(Probabilities, AlternativesAreLessThanSixNatsBehind) {
+  Attribution attribution = with_evidence(0, 10, 4.1, 9, -50);
+  for (const Fit& fit : attribution.fits) attribution.weight.push_back(fit.log_evidence);
+  attribution.fits[1].hypothesis.effects = {0}, attribution.fits[2].hypothesis.effects = {1},
+  attribution.fits[3].hypothesis.effects = {0, 1};
+  EXPECT_EQ(attribution.alternatives_to(1), std::vector<int>{2});
+  EXPECT_EQ(attribution.alternatives_to(3), std::vector<int>{});
+  attribution.weight[2] = 3.9;
+  EXPECT_EQ(attribution.alternatives_to(1), std::vector<int>{});
+}
+
 /// Requirement: the process alone is weighed against the evidence of the leading set of effects; the price of a further effect is a matter
 /// among sets of effects.
 TEST(Probabilities, OutsideLeadsByEvidence) {
