@@ -195,8 +195,6 @@ void Kernel::take_nearest_cells(std::span<const Vec3> points, const std::vector<
 
 namespace {
 
-constexpr int columns = 8;  // components are worked on so many at a time, with zeros behind the last
-
 template <class Field>
 int total_components(std::span<const Field> fields) {
   int components = 0;
@@ -204,20 +202,23 @@ int total_components(std::span<const Field> fields) {
   return components;
 }
 
+/// Components with zeros behind the last: columns that loops take in whole vectors.
+int padded(int components) { return components == 1 ? 1 : components <= 4 ? 4 : (components + 7) / 8 * 8; }
+
 /// Calls act(first column, number of columns as a constant) until all columns are done.
 template <class Act>
 void for_columns(int stride, const Act& act) {
+  if (stride == 1) return act(0, std::integral_constant<int, 1>());
+  if (stride == 4) return act(0, std::integral_constant<int, 4>());
   int first = 0;
-  for (; first + 3 * columns <= stride; first += 3 * columns) act(first, std::integral_constant<int, 3 * columns>());
-  for (; first + 2 * columns <= stride; first += 2 * columns) act(first, std::integral_constant<int, 2 * columns>());
-  for (; first < stride; first += columns) act(first, std::integral_constant<int, columns>());
+  for (; first + 24 <= stride; first += 24) act(first, std::integral_constant<int, 24>());
+  for (; first + 16 <= stride; first += 16) act(first, std::integral_constant<int, 16>());
+  for (; first < stride; first += 8) act(first, std::integral_constant<int, 8>());
 }
 
-int padded(int components) { return (components + columns - 1) / columns * columns; }
-
 /// The fields at the cells of the rows, [n_cells in use][padded components].
-std::vector<double> packed(const WeightRows& rows, std::span<const CellField> fields, int stride) {
-  std::vector<double> values(rows.cells().size() * stride, 0.0);
+void pack(const WeightRows& rows, std::span<const CellField> fields, int stride, std::vector<double>& values) {
+  values.assign(rows.cells().size() * stride, 0.0);
   int first = 0;
   for (const auto& [of_cells, components] : fields) {
     double* to = values.data() + first;
@@ -228,15 +229,17 @@ std::vector<double> packed(const WeightRows& rows, std::span<const CellField> fi
     }
     first += components;
   }
-  return values;
 }
 
 /// Adds the averages of the rows to the values of the particles, [n_particles][components]: each row is averaged once.
-void add_averages(const ParticleRouter& router, const WeightRows& rows, std::span<const CellField> fields, std::vector<double>& values) {
+void add_averages(const ParticleRouter& router, const WeightRows& rows, std::span<const CellField> fields, KernelScratch& scratch,
+                  std::vector<double>& values) {
   const int components = total_components(fields), stride = padded(components);
   const auto width = static_cast<std::size_t>(components);
-  const std::vector<double> of_cells = packed(rows, fields, stride);
-  std::vector<double> of_row(static_cast<std::size_t>(stride) * rows.n_rows()), answers(width * rows.row.size()), entries;
+  auto& [of_cells, of_row] = scratch;
+  pack(rows, fields, stride, of_cells);
+  of_row.resize(static_cast<std::size_t>(stride) * rows.n_rows());
+  std::vector<double> answers(width * rows.row.size()), entries;
   for (int r = 0; r < rows.n_rows(); ++r)
     for_columns(stride, [&](int first, auto m) {
       std::array<double, m> sum{};
@@ -258,12 +261,13 @@ void add_averages(const ParticleRouter& router, const WeightRows& rows, std::spa
 
 /// Adds the amounts of the particles, per volume, to the cells of the rows: those of particles with one row together.
 void add_amounts(const ParticleRouter& router, const WeightRows& rows, std::span<const double> amounts, std::span<const CellSums> fields,
-                 const std::vector<double>& cell_volume) {
+                 const std::vector<double>& cell_volume, KernelScratch& scratch) {
   const int components = total_components(fields), stride = padded(components);
   const auto width = static_cast<std::size_t>(components);
   std::vector<double> received;
   router.forward_particles(amounts, components, received);
-  std::vector<double> of_row(static_cast<std::size_t>(stride) * rows.n_rows(), 0.0), of_cells(rows.cells().size() * stride, 0.0);
+  auto& [of_cells, of_row] = scratch;
+  of_row.assign(static_cast<std::size_t>(stride) * rows.n_rows(), 0.0), of_cells.assign(rows.cells().size() * stride, 0.0);
   for (std::size_t i = 0; i < rows.row.size(); ++i)
     for (std::size_t j = 0; j < width; ++j) of_row[static_cast<std::size_t>(rows.row[i]) * stride + j] += received[i * width + j];
   for (int r = 0; r < rows.n_rows(); ++r)
@@ -292,8 +296,8 @@ void add_amounts(const ParticleRouter& router, const WeightRows& rows, std::span
 
 std::vector<double> Kernel::average(std::span<const CellField> fields) const {
   std::vector<double> values(static_cast<std::size_t>(n_particles_) * total_components(fields), 0.0);
-  add_averages(around_, weights_->rows(), fields, values);
-  if (some_in_nearest_cell_) add_averages(to_nearest_, nearest_, fields, values);
+  add_averages(around_, weights_->rows(), fields, scratch_, values);
+  if (some_in_nearest_cell_) add_averages(to_nearest_, nearest_, fields, scratch_, values);
   return values;
 }
 
@@ -306,8 +310,8 @@ std::vector<Vec3> Kernel::average(std::span<const Vec3> field) const {
 }
 
 void Kernel::spread(std::span<const double> amounts, std::span<const CellSums> fields) const {
-  add_amounts(around_, weights_->rows(), amounts, fields, mesh_.cell_volume);
-  if (some_in_nearest_cell_) add_amounts(to_nearest_, nearest_, amounts, fields, mesh_.cell_volume);
+  add_amounts(around_, weights_->rows(), amounts, fields, mesh_.cell_volume, scratch_);
+  if (some_in_nearest_cell_) add_amounts(to_nearest_, nearest_, amounts, fields, mesh_.cell_volume, scratch_);
 }
 
 void Kernel::spread(std::span<const double> amounts, int components, std::span<double> field) const {

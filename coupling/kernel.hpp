@@ -44,6 +44,11 @@ struct CellSums {
   int components = 1;
 };
 
+/// What a transfer works with, kept from one to the next: to allocate as much each time costs as much as the work.
+struct KernelScratch {
+  std::vector<double> of_cells, of_row;
+};
+
 class Kernel {
  public:
   /// `shape` and `mesh` must outlive the kernel. `width`: delta, m; any positive number for the cell kernel.
@@ -104,6 +109,7 @@ class Kernel {
   std::vector<std::int64_t> announced_number_;
   ParticleRouter to_nearest_;  // of the particles for which no cell counts
   WeightRows nearest_;
+  mutable KernelScratch scratch_;
 };
 
 }  // namespace snag
