@@ -236,7 +236,7 @@ void add_averages(const ParticleRouter& router, const WeightRows& rows, std::spa
                   std::vector<double>& values) {
   const int components = total_components(fields), stride = padded(components);
   const auto width = static_cast<std::size_t>(components);
-  auto& [of_cells, of_row] = scratch;
+  std::vector<double>&of_cells = scratch.of_cells, &of_row = scratch.of_row;
   pack(rows, fields, stride, of_cells);
   of_row.resize(static_cast<std::size_t>(stride) * rows.n_rows());
   std::vector<double> answers(width * rows.row.size()), entries;
@@ -266,7 +266,7 @@ void add_amounts(const ParticleRouter& router, const WeightRows& rows, std::span
   const auto width = static_cast<std::size_t>(components);
   std::vector<double> received;
   router.forward_particles(amounts, components, received);
-  auto& [of_cells, of_row] = scratch;
+  std::vector<double>&of_cells = scratch.of_cells, &of_row = scratch.of_row;
   of_row.assign(static_cast<std::size_t>(stride) * rows.n_rows(), 0.0), of_cells.assign(rows.cells().size() * stride, 0.0);
   for (std::size_t i = 0; i < rows.row.size(); ++i)
     for (std::size_t j = 0; j < width; ++j) of_row[static_cast<std::size_t>(rows.row[i]) * stride + j] += received[i * width + j];
