@@ -19,8 +19,8 @@ struct NotFitted {
   double log_evidence = 0, log_prior = 0;
 };
 
-/// A fitted set and one effect more that was screened beside it and promised too little to be fitted. It keeps its share of the prior, as
-/// single effects and pairs do: data that cannot show an effect say nothing of whether it acts.
+/// A fitted set with one more effect. The screening estimated the gain of this effect, and it was too small for a fit. The larger set
+/// keeps its share of the prior, as single effects and pairs do: data that cannot show an effect do not say whether it acts.
 struct OneMore {
   int fit = 0;  // of the set
   std::string name;
