@@ -49,7 +49,7 @@ std::string case_text(const std::filesystem::path& mesh, const std::string& moti
 n_outer_correctors = 2
 n_non_orthogonal_correctors = 1
 momentum_tolerance = 3e-6
-pressure_tolerance = 1e-3
+pressure_tolerance = 1.5e-3
 [turbulence]
 model = "k_epsilon"
 tolerance = 1e-5

@@ -11,36 +11,50 @@
 
 namespace snag {
 
+/// x, y, z and a place that is not used: all components of a vector in one instruction.
+using FourValues = double __attribute__((vector_size(4 * sizeof(double))));
+inline FourValues four(const Vec3& v) { return FourValues{v.x, v.y, v.z, 0}; }
+inline FourValues least(const FourValues& a, const FourValues& b) { return b < a ? b : a; }
+inline FourValues largest(const FourValues& a, const FourValues& b) { return a < b ? b : a; }
+
 /// The loop over the faces of the cells, compiled for one function. `Law` has
-///   static double factor(double a, double b, double e2)
-/// psi of one face and component, a not 0; what lies above 1 counts as 1. e2: threshold() times the volume of the cell, m2/s2.
+///   static FourValues factor(const FourValues& a, const FourValues& b, double e2)
+/// psi of one face, for each component; what lies above 1 counts as 1, and so does what it gives where a is 0. e2: threshold() times the
+/// volume of the cell, m2/s2. Without branches: the sign of a is as good as random, and half of the jumps would be guessed wrongly.
 template <class Law>
 class CellLimiter : public Limiter {
  public:
   void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
              std::vector<Vec3>& psi) const final {
+    const FourValues one{1, 1, 1, 1};
     const double per_volume = threshold(mesh, reference_speed);
     for (int c = 0; c < mesh.n_cells; ++c) {
-      Range range{u[c], u[c]};
+      const FourValues here = four(u[c]);
+      FourValues highest = here, lowest = here;
       const int first = mesh.cell_face_start[c], last = mesh.cell_face_start[c + 1];
       for (int k = first; k < last; ++k) {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
-        const Vec3& other = u[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]];
-        range.include(f < mesh.first_facet ? other : u[c] + say(mesh, f, c) * (other - u[c]));
+        FourValues other = four(u[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]]);
+        if (f >= mesh.first_facet) other = here + say(mesh, f, c) * (other - here);
+        highest = largest(highest, other), lowest = least(lowest, other);
       }
-      const Vec3 above = range.highest - u[c], below = range.lowest - u[c];
-      Vec3 smallest{1, 1, 1};
+      const FourValues above = highest - here, below = lowest - here;
+      const FourValues along_x{G[c][0].x, G[c][1].x, G[c][2].x, 0}, along_y{G[c][0].y, G[c][1].y, G[c][2].y, 0},
+          along_z{G[c][0].z, G[c][1].z, G[c][2].z, 0};
+      const double e2 = per_volume * mesh.cell_volume[c];
+      FourValues smallest = one;
       for (int k = first; k < last; ++k) {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
-        Vec3 way = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]];
-        if (mesh.owner[f] != c) way -= mesh.delta[f];
-        Vec3 psi_f = factors(G[c] * way, above, below, per_volume * mesh.cell_volume[c]);
-        if (f >= mesh.first_facet) psi_f = Vec3{1, 1, 1} - say(mesh, f, c) * (Vec3{1, 1, 1} - psi_f);
+        const bool owns = mesh.owner[f] == c;
+        const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]] - (owns ? 0.0 : 1.0) * mesh.delta[f];
+        const FourValues a = way.x * along_x + way.y * along_y + way.z * along_z, b = a > 0 ? above : below;
+        FourValues psi_f = a != 0 ? least(one, Law::factor(a, b, e2)) : one;
+        if (f >= mesh.first_facet) psi_f = 1 - say(mesh, f, c) * (1 - psi_f);
         smallest = least(smallest, psi_f);
       }
-      psi[c] = smallest;
+      psi[c] = {smallest[0], smallest[1], smallest[2]};
     }
     mesh.halo.exchange(psi);
   }
@@ -50,26 +64,6 @@ class CellLimiter : public Limiter {
   virtual double threshold(const Mesh&, double /*reference_speed*/) const { return 0; }
 
  private:
-  struct Range {
-    Vec3 lowest, highest;
-    void include(const Vec3& u) {
-      lowest = least(lowest, u);
-      highest = {std::max(highest.x, u.x), std::max(highest.y, u.y), std::max(highest.z, u.z)};
-    }
-  };
-
-  static Vec3 least(const Vec3& a, const Vec3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-
-  /// Factor of each component.
-  static Vec3 factors(const Vec3& a, const Vec3& above, const Vec3& below, double e2) {
-    Vec3 psi{1, 1, 1};
-    for (int i = 0; i < 3; ++i) {
-      const double b = a[i] > 0 ? above[i] : below[i];
-      if (a[i] != 0) psi[i] = std::min(1.0, Law::factor(a[i], b, e2));
-    }
-    return psi;
-  }
-
   /// Weight of a facet in cell c: 1 from a quarter of the cell's face on, 0 when it is a sliver that comes or goes.
   static double say(const Mesh& mesh, int f, int c) { return std::min(1.0, 4 * share_of_face(mesh, f, mesh.owner[f] == c)); }
 };

@@ -24,10 +24,10 @@ struct SweepReport {
   bool converged = true;
 };
 
-/// Solve (diagonal + matrix) x = b, x [n_all_cells] holding the first guess: forward Gauss-Seidel, ghosts exchanged before each sweep,
-/// residual tested every second sweep; where sweeps stall, as they do in thin layers at large steps, BiCGStab between sweeps. The residual
-/// is that of each row when it is visited. `tolerance` is relative to |b|. `positive`: the solution is, and no value becomes zero or
-/// negative. `sweeps` of the report counts an iteration of BiCGStab as six. Value: double or Vec3. Collective.
+/// Solve (diagonal + matrix) x = b, x [n_all_cells] holding the first guess: Gauss-Seidel, forward and backward in turn, ghosts exchanged
+/// before each sweep, residual tested every second sweep; where sweeps stall, as they do in thin layers at large steps, BiCGStab between
+/// sweeps. The residual is that of each row when it is visited. `tolerance` is relative to |b|. `positive`: the solution is, and no value
+/// becomes zero or negative. `sweeps` of the report counts an iteration of BiCGStab as six. Value: double or Vec3. Collective.
 template <class Value>
 SweepReport solve_rows(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal, std::span<const Value> b,
                        std::vector<Value>& x, double tolerance, int max_sweeps, bool positive = false);

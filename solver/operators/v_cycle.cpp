@@ -83,10 +83,12 @@ class VCycle::Numbering {
     }
     return {comm, static_cast<int>(n_), owner_rank, owner_index};
   }
-  Rows rows(const GlobalRows& from) const {
-    Rows rows{from.start, {}, {from.value.begin(), from.value.end()}};
-    for (const PetscInt c : from.column) rows.column.push_back(place(c));
-    return rows;
+  template <int block>
+  void fill(Rows<block>& rows, const GlobalRows& from) const {
+    for (std::size_t i = 0; i + 1 < from.start.size(); ++i) {
+      for (int e = from.start[i]; e < from.start[i + 1]; ++e) rows.add(place(from.column[e]), from.value[e]);
+      rows.end_row();
+    }
   }
 
  private:
@@ -135,16 +137,14 @@ VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest))
     for (auto* vector : {&level.b, &level.x, &level.residual}) vector->assign(numbers[l].n_all(), 0);
     fill_matrix(level, numbers[l], matrices[l]);
     if (l + 1 == n) break;
-    level.restriction = numbers[l].rows(restrictions[l]);
-    level.prolongation = numbers[l + 1].rows(prolongations[l]);
+    numbers[l].fill(level.restriction, restrictions[l]);
+    numbers[l + 1].fill(level.prolongation, prolongations[l]);
   }
   if (matrices.back().row_ranges.back() <= largest_inverse) invert_coarsest(matrices.back());
 }
 
 void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from) {
-  Rows& matrix = level.matrix;
-  matrix.start.assign(1, 0);
-  std::vector<std::pair<int, Value>> row;
+  std::vector<std::pair<int, double>> row;
   for (int i = 0; i < level.n; ++i) {
     row.clear();
     double diagonal = 0;
@@ -153,15 +153,20 @@ void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRow
       if (j == i)
         diagonal += from.value[e];
       else
-        row.emplace_back(j, static_cast<Value>(from.value[e]));
+        row.emplace_back(j, from.value[e]);
     }
-    std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    const auto upper = std::find_if(row.begin(), row.end(), [i](const auto& entry) { return entry.first > i; });
-    level.upper.push_back(matrix.start.back() + static_cast<int>(upper - row.begin()));
-    for (const auto& [j, value] : row) matrix.column.push_back(j), matrix.value.push_back(value);
-    matrix.start.push_back(static_cast<int>(matrix.column.size()));
-    level.inverse_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
+    std::sort(row.begin(), row.end());
+    for (const auto& [j, value] : row) level.matrix.add(j, value);
+    level.matrix.end_row();
+    level.diagonal.push_back(static_cast<Value>(diagonal));
+    level.over_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
   }
+}
+
+template <int block>
+void VCycle::Rows<block>::end_row() {
+  while ((static_cast<int>(column.size()) - start.back()) % block != 0) add(column.back(), 0);
+  start.push_back(static_cast<int>(column.size()));
 }
 
 void VCycle::invert_coarsest(const GlobalRows& from) {
@@ -204,42 +209,24 @@ void VCycle::descend(std::size_t l) {
   Level &fine = levels_[l], &coarse = levels_[l + 1];
   sweep_forward(fine);
   fine.halo.exchange(std::span(fine.x));
-  for (int i = 0; i < fine.n; ++i) {
-    Value sum = 0;
-    for (int e = fine.upper[i]; e < fine.matrix.start[i + 1]; ++e) sum -= fine.matrix.value[e] * fine.x[fine.matrix.column[e]];
-    fine.residual[i] = sum;
-  }
+  for (int i = 0; i < fine.n; ++i) fine.residual[i] = fine.b[i] - fine.diagonal[i] * fine.x[i] - fine.matrix.product(i, fine.x.data());
   fine.halo.exchange(std::span(fine.residual));
-  const auto product = [](const Rows& rows, int i, const std::vector<Value>& x) {
-    Value sum = 0;
-    for (int e = rows.start[i]; e < rows.start[i + 1]; ++e) sum += rows.value[e] * x[rows.column[e]];
-    return sum;
-  };
-  for (int i = 0; i < coarse.n; ++i) coarse.b[i] = product(fine.restriction, i, fine.residual);
+  for (int i = 0; i < coarse.n; ++i) coarse.b[i] = fine.restriction.product(i, fine.residual.data());
   descend(l + 1);
   coarse.halo.exchange(std::span(coarse.x));
-  for (int i = 0; i < fine.n; ++i) fine.x[i] += product(fine.prolongation, i, coarse.x);
+  for (int i = 0; i < fine.n; ++i) fine.x[i] += fine.prolongation.product(i, coarse.x.data());
   fine.halo.exchange(std::span(fine.x));
   sweep_backward(fine);
 }
 
-/// From x = 0; ghosts count as zero.
+/// From x = 0, of which ghosts keep the zero.
 void VCycle::sweep_forward(Level& level) {
-  const Rows& A = level.matrix;
-  for (int i = 0; i < level.n; ++i) {
-    Value sum = level.b[i];
-    for (int e = A.start[i]; e < level.upper[i]; ++e) sum -= A.value[e] * level.x[A.column[e]];
-    level.x[i] = sum * level.inverse_diagonal[i];
-  }
+  std::fill(level.x.begin(), level.x.end(), Value{0});
+  for (int i = 0; i < level.n; ++i) level.x[i] = (level.b[i] - level.matrix.product(i, level.x.data())) * level.over_diagonal[i];
 }
 
 void VCycle::sweep_backward(Level& level) {
-  const Rows& A = level.matrix;
-  for (int i = level.n - 1; i >= 0; --i) {
-    Value sum = level.b[i];
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) sum -= A.value[e] * level.x[A.column[e]];
-    level.x[i] = sum * level.inverse_diagonal[i];
-  }
+  for (int i = level.n - 1; i >= 0; --i) level.x[i] = (level.b[i] - level.matrix.product(i, level.x.data())) * level.over_diagonal[i];
 }
 
 void VCycle::solve_coarsest() {

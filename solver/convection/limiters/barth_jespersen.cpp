@@ -1,7 +1,5 @@
 // Limiter of Barth and Jespersen:   psi = min(1, b/a)        a, b: solver/convection/cell_limiter.hpp
 // Source: Barth and Jespersen (1989), AIAA paper 89-0366.
-#include <cmath>
-
 #include "solver/convection/cell_limiter.hpp"
 
 namespace snag {
@@ -11,7 +9,7 @@ struct BarthJespersen final : CellLimiter<BarthJespersen> {
   static constexpr const char* name = "barth_jespersen";
 
   LimiterDescription description() const override { return {"psi = min(1, y)", "Barth and Jespersen 1989"}; }
-  static double factor(double a, double b, double) { return std::abs(a) <= std::abs(b) ? 1 : b / a; }
+  static FourValues factor(const FourValues& a, const FourValues& b, double) { return b / a; }
 };
 const bool registered = limiters().add<BarthJespersen>();
 

@@ -16,9 +16,9 @@ struct MichalakOllivierGooch final : CellLimiter<MichalakOllivierGooch> {
   LimiterDescription description() const override {
     return {"psi = y - 4/27 y^3 up to y = 3/2, then 1; smooth, without a threshold", "Michalak and Ollivier-Gooch 2009"};
   }
-  static double factor(double a, double b, double) {
-    const double y = b / a;
-    return y < 1.5 ? y - 4.0 / 27 * y * y * y : 1;
+  static FourValues factor(const FourValues& a, const FourValues& b, double) {
+    const FourValues y = least(b / a, FourValues{1.5, 1.5, 1.5, 1.5});
+    return y - 4.0 / 27 * y * y * y;
   }
 };
 const bool registered = limiters().add<MichalakOllivierGooch>();

@@ -20,7 +20,9 @@ struct Venkatakrishnan final : CellLimiter<Venkatakrishnan> {
     return {"psi = (y^2 + 2 y)/(y^2 + y + 2), and near 1 where the velocity varies little, which keeps second order",
             "Venkatakrishnan 1995"};
   }
-  static double factor(double a, double b, double e2) { return (b * b + e2 + 2 * a * b) / (b * b + 2 * a * a + a * b + e2); }
+  static FourValues factor(const FourValues& a, const FourValues& b, double e2) {
+    return (b * b + e2 + 2 * a * b) / (b * b + 2 * a * a + a * b + e2);
+  }
 
  protected:
   double threshold(const Mesh& mesh, double reference_speed) const override {
