@@ -28,7 +28,8 @@ Action add_bench(CLI::App& app) {
       "--peer", options->peer,
       "Time another program too: OpenFOAM on the same mesh and ranks (Debian package openfoam), LAMMPS on a sheet of the same "
       "size (Debian package lammps)");
-  command->add_option("--level", options->level, "flow: mesh coarse (30 thousand cells) or medium (200 thousand, default)");
+  command->add_option("--level", options->level,
+                      "flow: mesh coarse (30 thousand cells), medium (200 thousand, default) or fine (a million)");
   command->add_option("--steps", options->n_steps, "flow, coupling: steps that are timed (default 8)");
   command->add_flag("--quick", options->quick, "dem: the small cases only; coupling: a quarter of the particles and cells");
   return [options] {

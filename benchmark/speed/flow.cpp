@@ -8,10 +8,12 @@
 #include "benchmark/speed/flow.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <numbers>
 #include <numeric>
@@ -25,6 +27,7 @@
 #include "benchmark/speed/traffic.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
+#include "simulation/output/summary.hpp"
 #include "simulation/setup/simulation.hpp"
 
 namespace snag {
@@ -33,7 +36,7 @@ namespace {
 
 const MPI_Comm world = MPI_COMM_WORLD;
 
-constexpr double speed_rpm = 1200, flow_rate = 0.0268, kinematic_viscosity = 1.0048e-6;  // 1/min, m3/s, m2/s
+constexpr double speed_rpm = 1200, design_flow = 0.0268, kinematic_viscosity = 1.0048e-6;  // 1/min, m3/s, m2/s
 constexpr double frame_step = 5e-4, frame_ramp = 8e-3, sliding_step = 1e-4;              // s
 constexpr int n_frame_steps = 20, n_warm_up = 2;
 
@@ -59,7 +62,7 @@ initial_epsilon_m2_s3 = 0.21
 patch = "inlet"
 kind = "flow_rate_inlet"
 flow_rate_m3_s = )" +
-          number_text(flow_rate) + "\nramp_s = " + number_text(ramp) + R"(
+          number_text(design_flow) + "\nramp_s = " + number_text(ramp) + R"(
 [[boundary]]
 patch = "outlet"
 kind = "pressure_outlet"
@@ -105,6 +108,13 @@ double processor_seconds() {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
+/// Memory that all ranks hold now, bytes. Collective.
+double memory_held() {
+  double total_pages = 0, pages = 0;
+  std::ifstream("/proc/self/statm") >> total_pages >> pages;
+  return sum(world, pages * static_cast<double>(sysconf(_SC_PAGESIZE)));
+}
+
 struct Timed {
   double wall = 0, cpu = 0;  // s, of the slowest rank, of the first
   StepReport did;
@@ -114,14 +124,18 @@ struct Steps {
   std::vector<Timed> steps;
   double n_cells = 0, n_faces = 0;  // of all ranks, mean over the steps
   double courant_max = 0, courant_mean = 0;
+  double import_wall = 0, memory = 0;  // s, bytes
 };
 
 Steps sliding_steps(const std::filesystem::path& mesh, const Start& start, int n_steps) {
+  MPI_Barrier(world);
+  const double import_begun = MPI_Wtime();
   Simulation sliding(CaseFile::parse(case_text(mesh, "sliding", sliding_step, 0), "bench"), world);
+  Steps found;
+  found.import_wall = maximum(world, MPI_Wtime() - import_begun);
   FlowSolver& water = *sliding.water;
   begin_with(start, water.flow);
   log::info("bench: " + std::to_string(n_warm_up) + " sliding steps to settle, " + std::to_string(n_steps) + " timed");
-  Steps found;
   found.n_cells = static_cast<double>(sliding.mesh->n_cells_global);
   for (int step = -n_warm_up; step < n_steps; ++step) {
     MPI_Barrier(world);
@@ -134,6 +148,7 @@ Steps sliding_steps(const std::filesystem::path& mesh, const Start& start, int n
     found.steps.push_back(one);
     found.n_faces += sum(world, static_cast<double>(sliding.mesh->n_interior)) / n_steps;
   }
+  found.memory = memory_held();
   found.courant_max = found.steps.back().did.courant_max, found.courant_mean = found.steps.back().did.courant_mean;
   return found;
 }
@@ -271,6 +286,10 @@ class Findings {
     add("flow.courant_max", steps_.courant_max, "1", {}, "of the last step", nullptr);
     add("flow.courant_mean", steps_.courant_mean, "1", {}, "of the last step", nullptr);
     add("flow.cells", steps_.n_cells, "1", {}, "", nullptr);
+    add("flow.import", steps_.import_wall, "s", {}, "reading the mesh, distributing it and setting up", nullptr);
+    add("flow.memory", 1e-3 * steps_.memory / steps_.n_cells, "kB", {}, "of all ranks for a cell, after the last step", nullptr);
+    add("flow.memory_peak", 1e-3 * static_cast<double>(peak_memory()) / steps_.n_cells, "kB", {},
+        "of all ranks for a cell, in the whole run", nullptr);
   }
 
   Traffic traffic(const Timed& step) const { return traffic_of(step.did, steps_.n_cells, steps_.n_faces); }
@@ -287,8 +306,8 @@ class Findings {
 };
 
 void check(const FlowBenchOptions& options) {
-  if (options.level != "coarse" && options.level != "medium")
-    throw Error(ExitCode::usage, "--level \"" + options.level + "\": unknown; known: coarse, medium");
+  if (options.level != "coarse" && options.level != "medium" && options.level != "fine")
+    throw Error(ExitCode::usage, "--level \"" + options.level + "\": unknown; known: coarse, medium, fine");
   if (options.n_steps < 1) throw Error(ExitCode::usage, "--steps " + std::to_string(options.n_steps) + ": at least 1 is needed");
   if (options.peer) require_peer();
 }
@@ -309,7 +328,7 @@ ExitCode bench_flow(const FlowBenchOptions& options) {
                      .n_warm_up = n_warm_up,
                      .n_steps = options.n_steps,
                      .time_step = sliding_step,
-                     .flow_rate = flow_rate,
+                     .flow_rate = design_flow,
                      .speed = speed_rpm * 2 * std::numbers::pi / 60,
                      .kinematic_viscosity = kinematic_viscosity});
   }

@@ -43,10 +43,11 @@ constexpr Bytes pressure_once = pressure_mobility + pressure_flux + pressure_coe
 // A step of conjugate gradients: the operator face by face, and six operations with vectors.
 constexpr Bytes pressure_operator{8 + 8, 16 + 8 + 8 + 16 + 16};
 constexpr Bytes pressure_vectors{0, 24 + 16 + 24 + 24 + 8 + 16};
-// A cycle of multigrid passes three times over the matrix of each level: smoothing down and up, residual. Two entries a face and the
-// diagonal; row, x, b. Levels hold about 1.4 times the entries of the finest (one level of aggressive coarsening).
-constexpr double multigrid_complexity = 1.4;
-constexpr Bytes pressure_cycle = (multigrid_complexity * 3) * Bytes{2 * 12, 12 + 4 + 16 + 8};
+// A cycle of multigrid, in single precision, passes three times over the matrix of each level: smoothing down and up, residual. Two entries
+// a face; row, b, diagonal, x read and written. Levels hold 1.6 times the entries of the finest (one level of aggressive coarsening);
+// prolongation and restriction one and a half entries a cell each.
+constexpr double multigrid_complexity = 1.6;
+constexpr Bytes pressure_cycle = (multigrid_complexity * 3) * Bytes{2 * 8, 4 + 4 + 4 + 8} + 2 * Bytes{0, 1.5 * 8 + 4 + 8};
 constexpr Bytes pressure_iteration = pressure_operator + pressure_vectors + pressure_cycle;
 
 // Turbulence: k and epsilon

@@ -50,6 +50,9 @@ class Bench(harness.CaseTest):
         for name in ("momentum", "k", "epsilon", "pressure"):
             self.assertLess(values[f"flow.{name}_drop"]["value"], 0.02, name)
         self.assertAlmostEqual(values["flow.courant_max"]["value"], 6, delta=4)
+        self.assertGreater(values["flow.import"]["value"], 0)
+        self.assertGreater(values["flow.memory"]["value"], 1, "kB a cell: the fields alone are more")
+        self.assertGreaterEqual(values["flow.memory_peak"]["value"], values["flow.memory"]["value"])
         again = self.bench("flow", "--level", "coarse", "--steps", "1")
         self.assertEqual(mesh.stat().st_mtime_ns, made, "a mesh that is there is used again")
         self.assertEqual(json.loads((again.folder / "bench.json").read_text())[0]["ranks"], 1)
@@ -98,7 +101,7 @@ class Bench(harness.CaseTest):
 
     def test_refusals(self):
         self.assertIn("there are: flow, dem", self.bench("mesh", code=2).stderr)
-        self.assertIn("known: coarse, medium", self.bench("flow", "--level", "huge", code=2).stderr)
+        self.assertIn("known: coarse, medium, fine", self.bench("flow", "--level", "huge", code=2).stderr)
         self.assertIn("at least 1", self.bench("flow", "--steps", "0", code=2).stderr)
 
     def test_missing_peer_is_named(self):
