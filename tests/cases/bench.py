@@ -52,7 +52,7 @@ class Bench(harness.CaseTest):
         self.assertAlmostEqual(values["flow.courant_max"]["value"], 6, delta=4)
         self.assertGreater(values["flow.import"]["value"], 0)
         self.assertGreater(values["flow.memory"]["value"], 1, "kB a cell: the fields alone are more")
-        self.assertGreaterEqual(values["flow.memory_peak"]["value"], values["flow.memory"]["value"])
+        self.assertGreaterEqual(values["flow.memory_peak"]["value"], 0.99 * values["flow.memory"]["value"], "pages are counted some at a time")
         again = self.bench("flow", "--level", "coarse", "--steps", "1")
         self.assertEqual(mesh.stat().st_mtime_ns, made, "a mesh that is there is used again")
         self.assertEqual(json.loads((again.folder / "bench.json").read_text())[0]["ranks"], 1)
