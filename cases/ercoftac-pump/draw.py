@@ -55,6 +55,6 @@ if over_span:
         axis.set_ylabel("$z/b$, 0 at the hub")
         axis.set_ylim(0, 1)
         axis.grid(linewidth=0.3)
-    axes[3, 0].legend(frameon=False, fontsize=8)
+    axes[3, 0].legend(frameon=False, fontsize=8, loc="lower left")
 fig.tight_layout()
 fig.savefig(out)
