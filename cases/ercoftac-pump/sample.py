@@ -21,6 +21,8 @@ sys.path.insert(0, str(here.parents[1] / "share" / "python"))
 from snag.tables import read_columns
 
 BLADES, VANES, R2, SPEED, SPAN = 7, 12, 0.21, 2000 * numpy.pi / 30, 0.0404  # m, rad/s
+PIPE, ROD, VANE_OUTLET, AT_CASING = 0.092, 0.009, 0.332, 1e-4  # m; the last: height of the pressure on the casing, in the first cell at it
+ACROSS = (numpy.arange(40) + 0.5) / 40  # places over the span
 U2, PITCH = R2 * SPEED, 360 / BLADES
 PROBE = 1.02 * R2
 TRAILING_EDGE, VANE_EDGE = 77.5, 0.1  # degrees: middle of the blade's end, nose of the vane, at start
@@ -31,11 +33,11 @@ Y_BLADE, Y_VANE = 0.3 - WAKE, {"0.126": 0.02, "0.226": 0.12, "0.326": 0.214, "0.
 Y = numpy.arange(0, 2, 0.01)  # pitches
 
 
-def circle(field, radius, n, height):
-    """Velocity and pressure at n places of a circle."""
-    angle = 2 * numpy.pi * numpy.arange(n) / n
+def circles(field, radius, n, heights):
+    """Velocity and pressure at n places of a circle at each height: arrays [height, place]."""
+    angle, z = numpy.meshgrid(2 * numpy.pi * numpy.arange(n) / n, heights)
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(numpy.stack([radius * numpy.cos(angle), radius * numpy.sin(angle), numpy.full(n, height)], axis=1), deep=True))
+    points.SetData(numpy_to_vtk(numpy.stack([radius * numpy.cos(angle), radius * numpy.sin(angle), z], axis=-1).reshape(-1, 3), deep=True))
     places = vtkPolyData()
     places.SetPoints(points)
     probe = vtkProbeFilter()
@@ -44,10 +46,21 @@ def circle(field, radius, n, height):
     probe.Update()
     data = probe.GetOutput().GetPointData()
     arrays = {data.GetArrayName(i).split(" ")[0]: vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
-    inside = arrays["vtkValidPointMask"] > 0
-    u, v = arrays["velocity"][:, 0], arrays["velocity"][:, 1]
+    inside = arrays["vtkValidPointMask"].reshape(angle.shape) > 0
+    u, v, w = (arrays["velocity"][:, i].reshape(angle.shape) for i in range(3))
     cr, ct = u * numpy.cos(angle) + v * numpy.sin(angle), v * numpy.cos(angle) - u * numpy.sin(angle)
-    return inside, cr / U2, -ct / U2, arrays["pressure"]  # cu is positive in the direction of rotation
+    return inside, cr / U2, -ct / U2, w / U2, arrays["pressure"].reshape(angle.shape)  # cu is positive in the direction of rotation
+
+
+def interpolated(inside, values):
+    """Values along circles where the probe found no cell, which happens between the curved faces of a few hexahedra: by those of the neighbours."""
+    places = numpy.arange(values.shape[1])
+    return numpy.array([numpy.interp(places, places[found], v[found], period=len(places)) for found, v in zip(inside, values)])
+
+
+def over_span(z_over_b, values):
+    """Mean over the span by the trapezoidal rule, end values extended to the walls, as of the measured points."""
+    return numpy.trapz(numpy.concatenate([values[:1], values, values[-1:]]), numpy.concatenate([[0], z_over_b, [1]]))
 
 
 def fields(folder, start, end):
@@ -64,7 +77,10 @@ def fields(folder, start, end):
 
 
 class Sampled:
-    """Means over the fields of a run from `start` on: `mean_cu`, `mean_cr` and their profiles over y at four instants at 1.02 R2, `cp` at `radii`, and integrals."""
+    """Means over the fields of a run from `start` on: `mean_cu`, `mean_cr` and their profiles over y at four instants at 1.02 R2, `cp` at `radii`, and integrals.
+
+    A run in three dimensions has the profiles at mid-span, `cp` on the front casing, `span_cr` and `span_cu` at the measured places of the span, of which mean_cr and mean_cu are the means,
+    and `psi_vanes`: total pressure at the outlet of the vanes, weighted by the flow, less that in the inlet."""
 
     def __init__(self, folder, start, end=numpy.inf, radii=(), profiles=True):
         folder = pathlib.Path(folder)
@@ -78,19 +94,24 @@ class Sampled:
         mean = lambda name: of(name)[last].mean()
         n, self.n_fields = 4200, 0
         profile = {instant: [] for instant in INSTANTS}
-        cu, cr, p = [], [], [[] for _ in radii]
-        self.y_plus = {}
-        heights = None
+        cu, cr, p, leaving = [], [], [[] for _ in radii], []
+        z_over_b = measured_span()[0]
         for t, grid in fields(folder, start, end):
             bounds = grid.GetBounds()
-            heights = bounds[5] - bounds[4]
-            middle = (bounds[4] + bounds[5]) / 2
-            inside, a, b, _ = circle(grid, PROBE, n, middle)
-            assert inside.all()
-            cr.append(a.mean()), cu.append(b.mean())
+            self.is_plane = bounds[5] - bounds[4] < SPAN / 2
+            heights = [(bounds[4] + bounds[5]) / 2] if self.is_plane else [SPAN / 2, *SPAN * (1 - z_over_b)]
+            inside, a, b, _, _ = circles(grid, PROBE, n, heights)
+            assert inside.mean() > 0.99
+            a, b = (interpolated(inside, c) for c in (a, b))
+            cr.append(a.mean(axis=1)), cu.append(b.mean(axis=1))
+            a, b = a[0], b[0]
             for k, r in enumerate(radii):
-                within, _, _, values_p = circle(grid, r * R2, 720, middle)
+                within, _, _, _, values_p = circles(grid, r * R2, 720, heights if self.is_plane else [AT_CASING])
                 p[k].append(values_p[within].mean())
+            if not self.is_plane:
+                within, *velocity, values_p = circles(grid, VANE_OUTLET, n // 2, SPAN * ACROSS)
+                total = values_p + pressure * sum(c**2 for c in velocity)
+                leaving.append((total * velocity[0])[within].sum() / velocity[0][within].sum())
             self.n_fields += 1
             turned = -numpy.interp(t, time, of("revolutions")) * 360  # towards negative angles
             if not profiles:
@@ -105,20 +126,26 @@ class Sampled:
                     angle = blades[best] + (Y - Y_BLADE) * PITCH
                     at = lambda q: numpy.interp(angle % 360, 360 * numpy.arange(n + 1) / n, numpy.append(q, q[0]))
                     profile[instant].append((at(a), at(b)))
-        self.height = heights
-        self.mean_cr, self.mean_cu = numpy.mean(cr), numpy.mean(cu)
+        height = bounds[5] - bounds[4] if self.is_plane else SPAN
+        self.mean_cr, self.mean_cu = (numpy.mean(c, axis=0)[0] for c in (cr, cu))
+        if not self.is_plane:
+            self.midspan_cr, self.midspan_cu = self.mean_cr, self.mean_cu
+            self.span_cr, self.span_cu = (numpy.mean(c, axis=0)[1:] for c in (cr, cu))
+            self.mean_cr, self.mean_cu = (over_span(z_over_b, c) for c in (self.span_cr, self.span_cu))
         self.p = [numpy.mean(q) for q in p]
         self.profile = {instant: (numpy.mean(list_, axis=0), len(list_)) for instant, list_ in profile.items() if list_}
         patches = read_columns(folder / "monitors" / "patches.csv")
         late = (patches[2][:, 0] > start) & (patches[2][:, 0] <= end)
         inlet = patches[2][late, patches[0].index("inlet_pressure")].mean()
-        speed = mean("flow_in") / (2 * numpy.pi * 0.1 * heights)
+        speed = mean("flow_in") / (2 * numpy.pi * 0.1 * height if self.is_plane else numpy.pi * (PIPE**2 - ROD**2))
         self.inlet_total = inlet + density * speed**2 / 2
         self.cp = (numpy.array(self.p) - self.inlet_total) / pressure
         self.psi = 2 * 9.81 * mean("head_total") / U2**2  # of density times gravity times head_total
         self.psi_static = 2 * 9.81 * mean("head") / U2**2
-        self.torque = mean("torque") * SPAN / heights
-        self.flow = mean("flow_in") * SPAN / heights
+        if not self.is_plane:
+            self.psi_vanes = (numpy.mean(leaving) - self.inlet_total) / pressure
+        self.torque = mean("torque") * SPAN / height
+        self.flow = mean("flow_in") * SPAN / height
         self.psi_euler = 2 * mean("torque") * SPEED / (density * mean("flow_in") * U2**2)
 
 
@@ -145,3 +172,8 @@ def casing_difference(sampled, cp):
     """cp of a run at the measured radii less the measured one, and the reference pressure that is fitted (least squares)."""
     reference = numpy.mean(sampled.cp - cp)
     return sampled.cp - cp - reference, reference
+
+
+def measured_span(file=here / "span.csv"):
+    """z/b from the hub on, cr/U2 and cu/U2, means over the circumference and four instants."""
+    return numpy.loadtxt(file, delimiter=",", skiprows=2).T

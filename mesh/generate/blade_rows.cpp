@@ -1,68 +1,47 @@
-// Impeller and vaned diffuser between parallel walls, a slice of the mid-span: the plane flow through a radial machine whose blades and
-// vanes are given by coordinates.
+// Impeller and vaned diffuser between parallel walls: a radial machine whose blades and vanes are given by coordinates, as a plane slice of
+// the mid-span or in three dimensions.
 //
-//   rotor   ring from inlet_radius to sliding_radius, less the blades
+//   rotor   ring from inlet_radius to sliding_radius, less the blades; with the axial inlet
 //   stator  ring from sliding_radius to outlet_radius, less the vanes
 //
-// One layer of cells across, between planes of symmetry. Each blade lies in a frame of layers of hexahedra, which are cut along the line
-// that halves a corner; the rest is hexahedra and some prisms. An outline is a closed polygon with a smooth curve (spline) through its
-// points between corners, which are points where it turns by more than corner_turn.
+// The plane is meshed once (blade_plan.hpp: quadrangles in layers around the blades, quadrangles and some triangles elsewhere) and swept
+// along z. One cell across is a plane flow between planes of symmetry. More are graded to both walls; the blades then end before the front
+// casing at z = 0 by the tip gap, over which the inside of their outlines is filled.
 #include <gmsh.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "base/error.hpp"
-#include "mesh/generate/cad.hpp"
+#include "mesh/generate/axial_inlet.hpp"
+#include "mesh/generate/blade_plan.hpp"
+#include "mesh/generate/block.hpp"
 #include "mesh/generate/geometry.hpp"
+#include "mesh/generate/swept.hpp"
 
 namespace snag::generate {
 
 namespace {
 
-constexpr double pi = std::numbers::pi, corner_turn = pi / 6;
-constexpr double far_over_size = 10;   // distance from the blades over wall_size at which the cells have core_size
-constexpr double long_side = 10;       // lengths of wall_size from which on a side is finer towards its ends
-constexpr double longest_spoke = 1.6;  // depth of the layers at a sharp corner over that along a side
-enum Volume { rotor = 1, stator };
-enum Surface { inlet = 11, outlet, impeller_walls, vane_walls, interface_rotor, interface_stator, planes };
-
-using Plane = std::array<double, 2>;  // x, y
-
-struct Layers {
-  int count;
-  double growth, depth;  // ratio of neighbours; m, all together
-};
-
-// Blades in the plane: surfaces of their layers, curves of the walls and around the layers, loops of the latter, points at corners of the
-// latter.
-struct Row {
-  std::vector<int> layers, walls, frames, loops, corners;
-  double area = 0;  // m2, of one blade
-};
-
-struct Ring {
-  std::vector<int> inner, outer;
-  Row row;
-  int surface = 0;
-};
+constexpr double pi = std::numbers::pi;
+constexpr double far_over_size = 10;  // distance from the blades over wall_size at which the cells have core_size
 
 struct BladeRows final : Geometry {
   static constexpr const char* name = "blade_rows";
-  int blades = 7, vanes = 12, layers = 4;
+  int blades = 7, vanes = 12, layers = 4, cells_across = 1, tip_gap_cells = 2;
   std::vector<double> blade_radius, blade_angle, vane_radius, vane_angle;
   double inlet_radius = 0.1, sliding_radius = 0.217, outlet_radius = 0.365, thickness = 0.004;
   double size = 1, wall_size = 0.003, edge_size = 0.001, interface_size = 0.002, core_size = 0.005, first_layer = 0.0005,
          layer_growth = 1.3;
+  double across_ratio = 12, tip_gap = 0, casing_fillet = 0, hub_fillet = 0.1, hub_radius = 0.109, inlet_length = 0.1;
 
   std::string meaning() const override {
-    return "Impeller and vaned diffuser by coordinates, a plane slice of one layer of cells with a sliding interface; patches inlet, "
-           "outlet, "
-           "impeller_walls, vane_walls, planes.";
+    return "Impeller and vaned diffuser by coordinates, with a sliding interface: a plane slice of one layer of cells (patches inlet, "
+           "outlet, impeller_walls, vane_walls, planes) or the machine between hub and front casing, with gaps at the blades' tips and an "
+           "axial inlet (hub, casing, diffuser_walls instead of planes, and rod).";
   }
 
   std::vector<Parameter> parameters() override {
@@ -74,10 +53,21 @@ struct BladeRows final : Geometry {
         {"vanes", &vanes, "1", 1, 100, measured, "Number of vanes of the diffuser."},
         {"vane_radius", &vane_radius, "m", 1e-4, 100, measured, "Radii of the points of one vane's closed outline."},
         {"vane_angle", &vane_angle, "rad", -7, 7, measured, "Angles of these points."},
-        {"inlet_radius", &inlet_radius, "m", 1e-4, 100, assumed, "Radius of the inlet, a cylinder."},
+        {"inlet_radius", &inlet_radius, "m", 1e-4, 100, assumed,
+         "Radius of the inlet, a cylinder; with an axial inlet, where that begins."},
         {"sliding_radius", &sliding_radius, "m", 1e-4, 100, assumed, "Radius of the sliding interface, between blades and vanes."},
         {"outlet_radius", &outlet_radius, "m", 1e-4, 100, assumed, "Radius of the outlet, a cylinder."},
-        {"thickness", &thickness, "m", 1e-5, 10, assumed, "Thickness of the slice."},
+        {"thickness", &thickness, "m", 1e-5, 10, assumed, "Thickness of the slice; distance of the hub from the front casing."},
+        {"cells_across", &cells_across, "1", 1, 1000, assumed,
+         "Cells between hub and front casing, without those in the tip gap; 1: plane flow between planes of symmetry."},
+        {"across_ratio", &across_ratio, "1", 1, 1000, assumed, "Largest over least height of these cells, which are graded to both sides."},
+        {"tip_gap", &tip_gap, "m", 0, 1, measured, "Distance of the blades from the front casing."},
+        {"tip_gap_cells", &tip_gap_cells, "1", 1, 100, assumed, "Cells across the tip gap."},
+        {"casing_fillet", &casing_fillet, "m", 0, 10, measured,
+         "Axial inlet: radius of the quarter circle of the front casing from inlet_radius to the pipe; 0: radial inlet."},
+        {"hub_fillet", &hub_fillet, "m", 1e-4, 10, measured, "Axial inlet: radius of the quarter circle of the hub to a rod on the axis."},
+        {"hub_radius", &hub_radius, "m", 1e-4, 10, measured, "Axial inlet: radius where the quarter circle of the hub begins."},
+        {"inlet_length", &inlet_length, "m", 1e-4, 10, assumed, "Axial inlet: distance of the inlet from the plane of the front casing."},
         {"size_factor", &size, "1", 0.01, 100, assumed,
          "Factor on all sizes and layers below, for meshes that are finer or coarser everywhere."},
         {"wall_size", &wall_size, "m", 1e-5, 10, assumed, "Edge length along blades and vanes."},
@@ -92,6 +82,12 @@ struct BladeRows final : Geometry {
   Expectation build(double attempt_factor) override;
 
  private:
+  bool is_plane() const { return cells_across == 1; }
+  bool has_axial_inlet() const { return casing_fillet > 0; }
+  void check() const;
+  AxialInlet axial_inlet() const { return {inlet_radius, thickness, casing_fillet, hub_fillet, hub_radius, inlet_length}; }
+  std::vector<double> levels() const;  // m, z of the nodes
+  void sweep(const std::array<Ring, 2>& rings, const std::vector<int>& insides, double factor) const;
   std::vector<Plane> outline(const std::vector<double>& radius, const std::vector<double>& angle, double lowest, double highest,
                              const std::string& part) const;
   double depth(double factor) const {  // m, of all layers
@@ -99,182 +95,6 @@ struct BladeRows final : Geometry {
   }
   void size_mesh(const std::array<Ring, 2>& rings, double factor) const;
 };
-
-double signed_area(const std::vector<Plane>& points) {
-  double twice = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto &a = points[i], &b = points[(i + 1) % points.size()];
-    twice += a[0] * b[1] - a[1] * b[0];
-  }
-  return twice / 2;
-}
-
-Plane difference(const Plane& a, const Plane& b) { return {a[0] - b[0], a[1] - b[1]}; }
-double length(const Plane& a) { return std::hypot(a[0], a[1]); }
-
-// At each point: the angle by which the outline turns, and the direction out of the blade that halves it.
-struct Bend {
-  double turn;
-  Plane outwards;
-};
-
-std::vector<Bend> bends_of(const std::vector<Plane>& points) {
-  const double side = signed_area(points) > 0 ? 1 : -1;
-  const std::size_t n = points.size();
-  std::vector<Bend> bends;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Plane u = difference(points[i], points[(i + n - 1) % n]), v = difference(points[(i + 1) % n], points[i]);
-    const double turn = std::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]), direction = std::atan2(u[1], u[0]) + turn / 2;
-    bends.push_back({std::abs(turn), {side * std::sin(direction), -side * std::cos(direction)}});
-  }
-  return bends;
-}
-
-// Depth of the layers at a point over that along a straight wall.
-double spoke(const Bend& bend) { return std::min(1 / std::cos(bend.turn / 2), longest_spoke); }
-
-// Cells along one piece of an outline of length L that grow from `first` at one end to `last` at the other.
-struct Grading {
-  int cells;
-  double ratio;
-};
-
-Grading grading(double L, double first, double last) {
-  if (L < first + last || first == last) return {std::max(1, static_cast<int>(std::lround(2 * L / (first + last)))), 1};
-  const double ratio = (L - first) / (L - last);
-  const int cells = std::max(1, static_cast<int>(std::lround(1 + std::log(last / first) / std::log(ratio))));
-  return {cells, std::pow(last / first, 1.0 / std::max(1, cells - 1))};
-}
-
-// Pieces of an outline: it is cut at its corners, and long sides in their middle. [from, to] are indices of points; sizes at both ends, m.
-struct Piece {
-  std::size_t from, to;
-  Grading grading;
-};
-
-std::vector<Piece> pieces_of(const std::vector<Plane>& points, const std::vector<Bend>& bends, double edge, double wall) {
-  const std::size_t n = points.size();
-  std::vector<std::size_t> corners;
-  for (std::size_t i = 0; i < n; ++i)
-    if (bends[i].turn > corner_turn) corners.push_back(i);
-  if (corners.size() < 2) throw Error(ExitCode::usage, "[blade_rows]: an outline, must have two corners or more; end it with sharp edges");
-  std::vector<Piece> pieces;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const std::size_t from = corners[k], to = corners[(k + 1) % corners.size()];
-    std::vector<double> reached{0};
-    for (std::size_t j = from; j != to; j = (j + 1) % n)
-      reached.push_back(reached.back() + length(difference(points[(j + 1) % n], points[j])));
-    const double L = reached.back();
-    if (L < long_side * wall) {
-      pieces.push_back({from, to, grading(L, edge, edge)});
-      continue;
-    }
-    const auto half = std::ranges::min_element(reached, {}, [L](double l) { return std::abs(l - L / 2); });
-    const std::size_t middle = (from + static_cast<std::size_t>(half - reached.begin())) % n;
-    pieces.push_back({from, middle, grading(*half, edge, wall)});
-    const Grading back = grading(L - *half, edge, wall);
-    pieces.push_back({middle, to, {back.cells, 1 / back.ratio}});
-  }
-  return pieces;
-}
-
-// `count` copies of the outline about the axis, each in a frame of layers of the thickness `depth`.
-Row row_of(const std::vector<Plane>& outline, int count, const std::vector<Piece>& pieces, const Layers& layers) {
-  namespace geo = gmsh::model::geo;
-  Row row;
-  row.area = std::abs(signed_area(outline));
-  const auto bends = bends_of(outline);
-  const std::size_t n = outline.size();
-  for (int k = 0; k < count; ++k) {
-    const double c = std::cos(2 * pi * k / count), s = std::sin(2 * pi * k / count);
-    std::vector<int> wall_points, outer_points, frame;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double depth = layers.depth * spoke(bends[i]);
-      const auto& [x, y] = outline[i];
-      const double X = x + depth * bends[i].outwards[0], Y = y + depth * bends[i].outwards[1];
-      wall_points.push_back(geo::addPoint(c * x - s * y, s * x + c * y, 0));
-      outer_points.push_back(geo::addPoint(c * X - s * Y, s * X + c * Y, 0));
-    }
-    const auto curve = [&](const std::vector<int>& points, const Piece& piece) {
-      std::vector<int> part{points[piece.from]};
-      for (std::size_t j = piece.from; j != piece.to;) {
-        j = j + 1 < n ? j + 1 : 0;
-        part.push_back(points[j]);
-      }
-      const int tag = part.size() > 2 ? geo::addSpline(part) : geo::addLine(part[0], part[1]);
-      geo::mesh::setTransfiniteCurve(tag, piece.grading.cells + 1, "Progression", piece.grading.ratio);
-      return tag;
-    };
-    std::map<std::size_t, int> spokes;
-    for (const Piece& piece : pieces) {
-      const int spoke = spokes[piece.from] = geo::addLine(wall_points[piece.from], outer_points[piece.from]);
-      geo::mesh::setTransfiniteCurve(spoke, layers.count + 1, "Progression", layers.growth);
-    }
-    for (const Piece& piece : pieces) {
-      const int wall = curve(wall_points, piece), outer = curve(outer_points, piece);
-      const int layer = geo::addPlaneSurface({geo::addCurveLoop({wall, spokes[piece.to], -outer, -spokes[piece.from]})});
-      geo::mesh::setTransfiniteSurface(layer);
-      geo::mesh::setRecombine(2, layer);
-      row.layers.push_back(layer);
-      row.walls.push_back(wall);
-      frame.push_back(outer);
-      if (bends[piece.from].turn > corner_turn) row.corners.push_back(outer_points[piece.from]);
-    }
-    row.loops.push_back(geo::addCurveLoop(frame));
-    row.frames.insert(row.frames.end(), frame.begin(), frame.end());
-  }
-  return row;
-}
-
-// A circle in four arcs, from `start` on: the two sides of the interface do not have their nodes at the same places by chance.
-std::vector<int> circle(double radius, double start) {
-  namespace geo = gmsh::model::geo;
-  const int centre = geo::addPoint(0, 0, 0);
-  std::vector<int> points, arcs;
-  for (int k = 0; k < 4; ++k)
-    points.push_back(geo::addPoint(radius * std::cos(start + k * pi / 2), radius * std::sin(start + k * pi / 2), 0));
-  for (std::size_t k = 0; k < 4; ++k) arcs.push_back(geo::addCircleArc(points[k], centre, points[(k + 1) % 4]));
-  return arcs;
-}
-
-Ring ring_of(std::vector<int> inner, std::vector<int> outer, Row row) {
-  namespace geo = gmsh::model::geo;
-  std::vector<int> loops{geo::addCurveLoop(outer), geo::addCurveLoop(inner)};
-  loops.insert(loops.end(), row.loops.begin(), row.loops.end());
-  const int surface = geo::addPlaneSurface(loops);
-  geo::mesh::setRecombine(2, surface);
-  return {std::move(inner), std::move(outer), std::move(row), surface};
-}
-
-// A ring and the layers in it swept through the slice: volumes, the planes on both sides, and all other faces.
-struct Slice {
-  std::vector<int> volumes, planes, sides;
-
-  std::vector<int> over(const std::vector<int>& curves) const {
-    std::vector<int> faces;
-    for (const int side : sides) {
-      DimTags boundary;
-      gmsh::model::getBoundary({{2, side}}, boundary, false, false, false);
-      if (std::ranges::any_of(boundary,
-                              [&](const auto& curve) { return std::ranges::find(curves, std::abs(curve.second)) != curves.end(); }))
-        faces.push_back(side);
-    }
-    return faces;
-  }
-};
-
-Slice slice_of(const Ring& ring, double thickness) {
-  Slice slice;
-  slice.planes = ring.row.layers;
-  slice.planes.push_back(ring.surface);
-  DimTags swept;
-  gmsh::model::geo::extrude(with_dimension(2, slice.planes), 0, 0, thickness, swept, {1}, {}, true);
-  for (std::size_t i = 0; i < swept.size(); ++i) {
-    const bool is_top = i + 1 < swept.size() && swept[i + 1].first == 3;  // the volume follows the plane at its end
-    (swept[i].first == 3 ? slice.volumes : is_top ? slice.planes : slice.sides).push_back(swept[i].second);
-  }
-  return slice;
-}
 
 // The polygon of one blade about the axis. Throws Error(usage) where it is none, or not within its ring.
 std::vector<Plane> BladeRows::outline(const std::vector<double>& radius, const std::vector<double>& angle, double lowest, double highest,
@@ -287,9 +107,9 @@ std::vector<Plane> BladeRows::outline(const std::vector<double>& radius, const s
                       radius.size(), angle.size()));
   std::vector<Plane> points;
   for (std::size_t i = 0; i < radius.size(); ++i) points.push_back({radius[i] * std::cos(angle[i]), radius[i] * std::sin(angle[i])});
-  const auto bends = bends_of(points);
+  const auto rooms = rooms_of(points, depth(size));
   for (std::size_t i = 0; i < radius.size(); ++i) {
-    const double room = depth(size) * spoke(bends[i]);
+    const double room = rooms[i];
     require(radius[i] - room > lowest && radius[i] + room < highest,
             fmt::format("_radius ({:g} m), must lie between the radii of its ring ({:g} and {:g} m) with room for the layers ({:.2g} m); "
                         "change the rings or take thinner layers",
@@ -330,38 +150,94 @@ void BladeRows::size_mesh(const std::array<Ring, 2>& rings, double factor) const
   gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 0);
 }
 
+void BladeRows::check() const {
+  const auto require = [](bool rule, const std::string& message) {
+    if (!rule) throw Error(ExitCode::usage, "[blade_rows]: " + message);
+  };
+  require(!is_plane() || (tip_gap == 0 && !has_axial_inlet()),
+          "cells_across (1, a plane flow), must be 2 or more with tip_gap or casing_fillet; raise it");
+  require(tip_gap < thickness / 2,
+          fmt::format("tip_gap ({:g} m), must be below half of thickness ({:g} m); reduce it", tip_gap, thickness));
+  if (!has_axial_inlet()) return;
+  const AxialInlet inlet = axial_inlet();
+  require(inlet.rod_radius() > 0 && hub_radius <= inlet_radius,
+          fmt::format("hub_radius ({:g} m), must lie between hub_fillet ({:g} m) and inlet_radius ({:g} m); change it", hub_radius,
+                      hub_fillet, inlet_radius));
+  require(inlet.pipe_radius() > inlet.rod_radius() && inlet.hub_end() < -casing_fillet,
+          fmt::format("casing_fillet ({:g} m), must end in a pipe wider than the rod ({:g} m) and before the hub's circle ends (z {:g} m); "
+                      "reduce it",
+                      casing_fillet, inlet.rod_radius(), inlet.hub_end()));
+  require(inlet_length > -inlet.hub_end(),
+          fmt::format("inlet_length ({:g} m), must exceed {:g} m, where the hub's circle ends; raise it", inlet_length, -inlet.hub_end()));
+}
+
+std::vector<double> BladeRows::levels() const {
+  std::vector<double> levels{0};
+  if (tip_gap > 0)
+    for (int k = 1; k <= tip_gap_cells; ++k) levels.push_back(tip_gap * k / tip_gap_cells);
+  for (const double part : graded(cells_across, across_ratio, true)) levels.push_back(tip_gap + part * (thickness - tip_gap));
+  return levels;
+}
+
+void BladeRows::sweep(const std::array<Ring, 2>& rings, const std::vector<int>& insides, double factor) const {
+  const auto z = levels();
+  const int n = static_cast<int>(z.size()) - 1, tip = n - cells_across;
+  SweptMesh mesh(z);
+  const auto sweep_ring = [&](const std::string& volume, const Ring& ring, const char* walls, int walls_from, const char* low,
+                              const char* high) {
+    auto surfaces = ring.row.layers;
+    surfaces.push_back(ring.surface);
+    const auto faces = plane_faces(surfaces);
+    mesh.sweep(volume, faces, {0, n});
+    mesh.add_sides(walls, plane_edges(ring.row.walls), {walls_from, n});
+    mesh.add_plane(is_plane() ? "planes" : low, faces, 0);
+    mesh.add_plane(is_plane() ? "planes" : high, faces, n);
+  };
+  sweep_ring("rotor", rings[0], "impeller_walls", tip, "casing", "hub");
+  sweep_ring("stator", rings[1], "vane_walls", 0, "diffuser_walls", "diffuser_walls");
+  mesh.add_sides("interface_rotor", plane_edges(rings[0].outer), {0, n});
+  mesh.add_sides("interface_stator", plane_edges(rings[1].inner), {0, n});
+  mesh.add_sides("outlet", plane_edges(rings[1].outer), {0, n});
+  const auto over_tips = plane_faces(insides);
+  mesh.sweep("rotor", over_tips, {0, tip});
+  mesh.add_plane("casing", over_tips, 0);
+  mesh.add_plane("impeller_walls", over_tips, tip);
+  const auto inner = plane_edges(rings[0].inner);
+  if (has_axial_inlet())
+    axial_inlet().add_to(mesh, "rotor", inner, z, factor * core_size);
+  else
+    mesh.add_sides("inlet", inner, {0, n});
+  mesh.replace_current_model();
+}
+
 Expectation BladeRows::build(double attempt_factor) {
+  check();
   const double size_factor = attempt_factor * size;
   const auto blade = outline(blade_radius, blade_angle, inlet_radius, sliding_radius, "blade"),
              vane = outline(vane_radius, vane_angle, sliding_radius, outlet_radius, "vane");
   const Layers frame{layers, layer_growth, depth(size_factor)};
   const auto row = [&](const std::vector<Plane>& points, int count) {
-    return row_of(points, count, pieces_of(points, bends_of(points), size_factor * edge_size, size_factor * wall_size), frame);
+    return row_of(points, count, size_factor * edge_size, size_factor * wall_size, frame);
   };
+  // The circle of the rotor starts elsewhere: the two sides of the interface do not have their nodes at the same places by chance.
   const std::array<Ring, 2> rings{ring_of(circle(inlet_radius, 0), circle(sliding_radius, 0.3), row(blade, blades)),
                                   ring_of(circle(sliding_radius, 0), circle(outlet_radius, 0), row(vane, vanes))};
-  const Slice turning = slice_of(rings[0], thickness), fixed = slice_of(rings[1], thickness);
+  std::vector<int> insides;
+  if (tip_gap > 0)
+    for (const int loop : rings[0].row.wall_loops) insides.push_back(gmsh::model::geo::addPlaneSurface({loop}));
   gmsh::model::geo::synchronize();
-  remove_helper_points();
-  name_group(3, rotor, "rotor", turning.volumes);
-  name_group(3, stator, "stator", fixed.volumes);
-  name_group(2, inlet, "inlet", turning.over(rings[0].inner));
-  name_group(2, outlet, "outlet", fixed.over(rings[1].outer));
-  name_group(2, impeller_walls, "impeller_walls", turning.over(rings[0].row.walls));
-  name_group(2, vane_walls, "vane_walls", fixed.over(rings[1].row.walls));
-  name_group(2, interface_rotor, "interface_rotor", turning.over(rings[0].outer));
-  name_group(2, interface_stator, "interface_stator", fixed.over(rings[1].inner));
-  auto both = turning.planes;
-  both.insert(both.end(), fixed.planes.begin(), fixed.planes.end());
-  name_group(2, planes, "planes", both);
   size_mesh(rings, size_factor);
+  gmsh::model::mesh::generate(2);
+  sweep(rings, insides, size_factor);
 
-  const auto volume = [&](double from, double to, int count, const Ring& ring) {
-    return thickness * (pi * (to * to - from * from) - count * ring.row.area);
+  const auto volume = [&](double from, double to, int count, const Ring& ring, double span) {
+    return thickness * pi * (to * to - from * from) - span * count * ring.row.area;
   };
   Expectation expectation;
-  expectation.volumes = {{"rotor", 1, volume(inlet_radius, sliding_radius, blades, rings[0])},
-                         {"stator", 1, volume(sliding_radius, outlet_radius, vanes, rings[1])}};
+  expectation.volumes = {
+      {"rotor", 1,
+       volume(inlet_radius, sliding_radius, blades, rings[0], thickness - tip_gap) + (has_axial_inlet() ? axial_inlet().volume() : 0)},
+      {"stator", 1, volume(sliding_radius, outlet_radius, vanes, rings[1], thickness)}};
   expectation.equal_areas = {{"interface_rotor", "interface_stator"}};
   return expectation;
 }

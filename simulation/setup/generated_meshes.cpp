@@ -20,15 +20,17 @@ GeneratedMeshes::~GeneratedMeshes() {
   }
 }
 
-std::filesystem::path GeneratedMeshes::file(MPI_Comm comm, const std::string& geometry, const std::filesystem::path& parameters) {
-  Made wanted{.geometry = geometry, .parameters = {}, .file = {}};
+std::filesystem::path GeneratedMeshes::file(MPI_Comm comm, const std::string& geometry, const std::filesystem::path& parameters,
+                                            const std::vector<std::string>& set) {
+  Made wanted{.geometry = geometry, .parameters = {}, .set = set, .file = {}};
   int from_rank_0[] = {static_cast<int>(getpid()), static_cast<int>(made_.size())};  // process, number of the mesh
   if (rank_of(comm) == 0) {
     // A file that cannot be read is like no other: the generator says why.
     const auto text = parameters.empty() ? std::optional<std::string>("") : file_text(parameters);
     if (text) wanted.parameters = *text;
     const auto same = std::find_if(made_.begin(), made_.end(), [&](const Made& one) {
-      return text && one.geometry == wanted.geometry && one.parameters == wanted.parameters && std::filesystem::exists(one.file);
+      return text && one.geometry == wanted.geometry && one.parameters == wanted.parameters && one.set == wanted.set &&
+             std::filesystem::exists(one.file);
     });
     from_rank_0[1] = static_cast<int>(same - made_.begin());
   }
@@ -40,6 +42,7 @@ std::filesystem::path GeneratedMeshes::file(MPI_Comm comm, const std::string& ge
   std::vector<std::string> arguments{geometry};
   if (!parameters.empty()) arguments.push_back(parameters.string());
   arguments.insert(arguments.end(), {"--out", wanted.file.string()});
+  for (const std::string& value : set) arguments.insert(arguments.end(), {"--set", value});
   made_.push_back(std::move(wanted));
   const ExitCode code = generate_mesh(comm, arguments);
   if (code == ExitCode::ok) return made_.back().file;

@@ -25,7 +25,8 @@ Section MeshSettings::section() {
            setting("geometry", &geometry, "Parametric geometry instead of a file: the mesh is generated for this run, as by `snag mesh`.",
                    {"", "pump", "pipe", "channel", "box", "tank", "blade_rows"}),
            file_setting("parameters", &parameters,
-                        "Parameter file of the geometry, relative to the case file; by default the parameters have their defaults.")}};
+                        "Parameter file of the geometry, relative to the case file; by default the parameters have their defaults."),
+           setting("set", &set, "Values that replace those of the parameter file, as for --set of `snag mesh`: \"wall_size_mm=2\".")}};
 }
 const bool mesh_table = add_case_table<MeshSettings>(20);
 

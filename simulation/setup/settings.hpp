@@ -20,8 +20,9 @@ struct CaseSettings {
 struct MeshSettings {
   std::string file;  // relative to the case file; without file and geometry: no mesh (particles only, or a prescribed flow)
   double scale = 1;
-  std::string geometry;    // "channel", "pump" ...: made by snag-mesh for this run
-  std::string parameters;  // its parameter file, relative to the case file
+  std::string geometry;          // "channel", "pump" ...: made by snag-mesh for this run
+  std::string parameters;        // its parameter file, relative to the case file
+  std::vector<std::string> set;  // "key=value" instead of what that file says
   Section section();
 };
 

@@ -72,7 +72,7 @@ void Simulation::read_mesh(const CaseFile& file) {
   }
   // Only standing meshes are shared: a turning one is left at some angle by the run before.
   mesh_key_ = joined({file.path(mesh_settings_.file).string(), file.path(mesh_settings_.parameters).string(), mesh_settings_.geometry,
-                      number_text(mesh_settings_.scale)});
+                      joined(mesh_settings_.set), number_text(mesh_settings_.scale)});
   CachedMesh* kept = store_ && start_settings_.frozen ? &store_->meshes[mesh_key_] : nullptr;
   if (!kept || !kept->mesh) {
     GeneratedMeshes of_this_run;
@@ -84,7 +84,7 @@ void Simulation::read_mesh(const CaseFile& file) {
     if (mesh_settings_.geometry.empty())
       path = file.path(mesh_settings_.file);
     else
-      path = meshes.file(comm_, mesh_settings_.geometry, parameters);
+      path = meshes.file(comm_, mesh_settings_.geometry, parameters, mesh_settings_.set);
     CachedMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}};
     fresh.quality = quality(*fresh.mesh);
     if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());

@@ -123,6 +123,76 @@ TEST(BladeRowsMesh, HoldsTheRingsLessTheBlades) {
   for (const int node : rotor) EXPECT_FALSE(stator.contains(node));
 }
 
+// In three dimensions: the rings less the blades, which end at the tip gap, and an axial inlet. Planes and the walls of blades are exact;
+// the inlet is a body of revolution between polygons, of which the volume is integrated here along the axis.
+TEST(BladeRowsMesh, HoldsTheMachineBetweenHubAndCasing) {
+  const std::string sizes =
+      " inlet_radius_mm=100 sliding_radius_mm=160 outlet_radius_mm=220 thickness_mm=30 wall_size_mm=5 edge_size_mm=2 core_size_mm=5";
+  const std::string rows =
+      " blades=3 'blade_radius_mm=[115, 140, 140, 115]' 'blade_angle_deg=[0, 0, 10, 10]' vanes=5 'vane_radius_mm=[180, 205, 205, 180]' "
+      "'vane_angle_deg=[0, 0, 6, 6]'";
+  const std::string across =
+      " cells_across=8 across_ratio=4 tip_gap_mm=1 tip_gap_cells=2 casing_fillet_mm=20 hub_fillet_mm=80 hub_radius_mm=90 "
+      "inlet_length_mm=90";
+  const auto mesh = made("blade_rows --set" + sizes + rows + across, "blade_rows_across.msh");
+  const double span = 0.03, gap = 0.001;
+  const double blade = (0.14 * 0.14 - 0.115 * 0.115) / 2 * std::sin(pi / 18), vane = (0.205 * 0.205 - 0.18 * 0.18) / 2 * std::sin(pi / 30);
+  const double around_blade = 0.05 + 0.51 * std::sin(pi / 36), around_vane = 0.05 + 0.77 * std::sin(pi / 60);
+  EXPECT_NEAR(mesh.area("impeller_walls") / (3 * (around_blade * (span - gap) + blade)), 1, 1e-9);
+  EXPECT_NEAR(mesh.area("vane_walls") / (5 * around_vane * span), 1, 1e-9);
+  EXPECT_FALSE(mesh.group.contains("planes"));
+
+  // Between front casing and hub, for z from the inlet to the hub's plane.
+  const auto quarter = [](double radius, double R, double x) { return radius - (x < 0 ? R : std::sqrt(R * R - x * x)); };
+  double inlet = 0;
+  const int n = 20000;
+  for (int k = 0; k < n; ++k) {
+    const double z = -0.09 + (k + 0.5) / n * (span + 0.09);
+    const double casing = z > 0 ? 0.1 : quarter(0.1, 0.02, z + 0.02), hub = quarter(0.09, 0.08, z + 0.05);
+    inlet += pi * (casing * casing - hub * hub) * (span + 0.09) / n;
+  }
+  const double rotor = inlet + span * pi * (0.16 * 0.16 - 0.1 * 0.1) - 3 * (span - gap) * blade;
+  EXPECT_NEAR(mesh.volume("rotor") / rotor, 1, 3e-3);
+  EXPECT_NEAR(mesh.volume("stator") / (span * (pi * (0.22 * 0.22 - 0.16 * 0.16) - 5 * vane)), 1, 1e-3);
+  EXPECT_NEAR(mesh.area("inlet") / (pi * (0.08 * 0.08 - 0.01 * 0.01)), 1, 3e-3);
+  for (const int node : mesh.nodes_of("inlet")) EXPECT_NEAR(mesh.node.at(node).z, -0.09, 1e-12);
+  for (const int node : mesh.nodes_of("rod")) EXPECT_NEAR(std::hypot(mesh.node.at(node).x, mesh.node.at(node).y), 0.01, 1e-9);
+  for (const int node : mesh.nodes_of("diffuser_walls")) EXPECT_NEAR(std::abs(mesh.node.at(node).z - span / 2), span / 2, 1e-12);
+
+  // Hub and casing lie on the shape, the hub as far as the rod; blades begin beyond the gap.
+  for (const int node : mesh.nodes_of("casing")) {
+    const Vec3 x = mesh.node.at(node);
+    const double r = std::hypot(x.x, x.y);
+    EXPECT_NEAR(r > 0.1 - 1e-9 ? x.z : x.z > -0.02 ? std::hypot(r - 0.1, x.z + 0.02) - 0.02 : r - 0.08, 0, 1e-9);
+  }
+  for (const int node : mesh.nodes_of("hub")) {
+    const Vec3 x = mesh.node.at(node);
+    const double r = std::hypot(x.x, x.y);
+    EXPECT_GE(x.z, -0.05 - 1e-9);
+    EXPECT_NEAR(r > 0.09 ? x.z - span : std::hypot(r - 0.09, x.z + 0.05) - 0.08, 0, 1e-9);
+  }
+  double lowest = 1;
+  for (const int node : mesh.nodes_of("impeller_walls")) lowest = std::min(lowest, mesh.node.at(node).z);
+  EXPECT_NEAR(lowest, gap, 1e-12);
+}
+
+// A plane flow has no gap at the tips; a rod and a pipe need room on the axis and before the casing.
+TEST(BladeRowsMesh, RefusesAnInletThatDoesNotFit) {
+  const std::string rows =
+      "blade_rows --out blade_rows_no_inlet.msh --set 'blade_radius_mm=[150, 200, 200, 150]' 'blade_angle_deg=[0, 0, 10, 10]' "
+      "'vane_radius_mm=[240, 260, 260, 240]' 'vane_angle_deg=[0, 0, 6, 6]' thickness_mm=40 ";
+  for (const auto& [values, words] :
+       {std::pair<std::string, std::string>{"tip_gap_mm=1", "a plane flow"},
+        {"cells_across=8 tip_gap_mm=30", "below half of thickness"},
+        {"cells_across=8 casing_fillet_mm=20 hub_fillet_mm=95 hub_radius_mm=90", "hub_radius"},
+        {"cells_across=8 casing_fillet_mm=70 hub_fillet_mm=95 hub_radius_mm=96", "pipe wider than the rod"},
+        {"cells_across=8 casing_fillet_mm=20 hub_fillet_mm=95 hub_radius_mm=99 inlet_length_mm=40", "inlet_length"}}) {
+    const auto refused = snag_mesh(rows + values);
+    EXPECT_EQ(refused.code, 2) << values << "\n" << refused.output;
+    EXPECT_NE(refused.output.find(words), std::string::npos) << values << "\n" << refused.output;
+  }
+}
+
 // Layers that would reach over the sliding interface are refused with the place; so is an outline with radii and angles of different
 // numbers.
 TEST(BladeRowsMesh, RefusesRowsWithoutRoom) {
