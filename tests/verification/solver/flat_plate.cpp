@@ -14,7 +14,7 @@ TEST(FlatPlate, friction) {
   constexpr double by_nasa = 0.0026909;
   for (const auto& [y_plus, n_across] : {std::pair{0.4, 96}, {5.0, 72}, {30.0, 56}, {100.0, 56}}) {
     NasaPlate plate(4, n_across, y_plus);
-    EXPECT_TRUE(march(plate.solver, 0.05, 80));
+    EXPECT_TRUE(march(plate.solver, 0.1, 40));
     const double friction = plate.friction(0.97);
     std::printf("%d cells: c_f at x = 0.97 %.6f, y+ there %.2f\n", plate.mesh.n_cells, friction,
                 at(plate.wall(), &WallPlace::y_plus, 0.97));

@@ -56,7 +56,7 @@ class NasaPlate {
   static FlowSolver flow_solver(const Mesh& mesh) {
     FlowSettings settings;
     settings.density = 1, settings.kinematic_viscosity = 1 / reynolds, settings.initial_velocity = {1, 0, 0};
-    settings.n_outer_correctors = 2, settings.momentum_tolerance = 1e-6;
+    settings.n_outer_correctors = 3, settings.momentum_tolerance = 1e-6;
     const CaseFile file = CaseFile::parse(R"(
 [turbulence]
 model = "k_omega_sst"
