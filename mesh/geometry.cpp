@@ -5,6 +5,7 @@
 #include "mesh/geometry.hpp"
 
 #include "mesh/shapes.hpp"
+#include "mesh/skewness.hpp"
 
 namespace snag {
 namespace {
@@ -80,6 +81,8 @@ void fill_geometry(Mesh& mesh, const std::vector<Vec3>& shift) {
     mesh.delta[f] = x_N - x_P;
     mesh.weight[f] = dot(S, x_N - x_f) / dot(S, mesh.delta[f]);
   }
+  mesh.skew_share.clear();
+  for (int f = 0; f < mesh.n_interior; ++f) mesh.skew_share.push_back(skew_share(mesh, f));
 }
 
 }  // namespace snag

@@ -4,6 +4,14 @@
 
 namespace snag {
 
+double skew_share(const Mesh& mesh, int f) {
+  const Vec3 s = skewness(mesh, f);
+  double most = 0;  // |s| e
+  for (int k = mesh.face_node_start[f]; k < mesh.face_node_start[f + 1]; ++k)
+    most = std::max(most, std::abs(dot(mesh.node[mesh.face_node[k]] - mesh.face_centre[f], s)));
+  return most > 0 ? std::clamp(2 - norm_squared(s) / most, 0.0, 1.0) : 1;
+}
+
 std::vector<int> skew_faces(const Mesh& mesh) {
   std::vector<int> faces;
   for (int f = 0; f < mesh.first_facet; ++f)

@@ -46,7 +46,8 @@ inline double share_of_face(const Mesh& mesh, int f, bool of_owner) {
 inline double interpolated_flux(const Mesh& mesh, int f, const Vec3& u_on_line, std::span<const Mat3> gradient) {
   const Vec3 s = skewness(mesh, f);
   if (is_skew(mesh, f, s)) return dot(u_on_line, mesh.face_vector[f]);
-  return dot(u_on_line + blend(mesh.weight[f], gradient[mesh.owner[f]], gradient[mesh.neighbour[f]]) * s, mesh.face_vector[f]);
+  const Mat3 G = blend(mesh.weight[f], gradient[mesh.owner[f]], gradient[mesh.neighbour[f]]);
+  return dot(u_on_line + G * counted_skewness(mesh, f), mesh.face_vector[f]);
 }
 
 /// [u]_b.S of a boundary face, m3/s, from velocity and gradient of its cell, with no gradient along the normal.

@@ -18,7 +18,7 @@ struct Central final : FaceScheme<Central> {
     const Mesh& mesh = velocity.mesh;
     const int P = mesh.owner[f], N = mesh.neighbour[f];
     const double w = mesh.weight[f];
-    const Vec3 u_f = blend(w, velocity.u[P], velocity.u[N]) + blend(w, velocity.G[P], velocity.G[N]) * skewness(mesh, f);
+    const Vec3 u_f = blend(w, velocity.u[P], velocity.u[N]) + blend(w, velocity.G[P], velocity.G[N]) * counted_skewness(mesh, f);
     return u_f - velocity.u[F > 0 ? P : N];
   }
 };
