@@ -40,8 +40,8 @@ inline std::span<const int> row(const std::vector<int>& start, const std::vector
   return {entries.data() + start[i], static_cast<std::size_t>(start[i + 1] - start[i])};
 }
 
-/// Fills volumes and centres of cells (owned, then ghosts by halo) and vector, centre, delta, weight, skew_share of faces from nodes and connectivity.
-/// `shift[f]`: what to add to the neighbour's centre across a period (only where present). Collective.
+/// Fills volumes and centres of cells (owned, then ghosts by halo) and vector, centre, delta, weight, skew_share of faces from nodes and
+/// connectivity. `shift[f]`: what to add to the neighbour's centre across a period (only where present). Collective.
 void fill_geometry(Mesh& mesh, const std::vector<Vec3>& shift);
 
 }  // namespace snag
