@@ -37,7 +37,7 @@ namespace {
 const MPI_Comm world = MPI_COMM_WORLD;
 
 constexpr double speed_rpm = 1200, design_flow = 0.0268, kinematic_viscosity = 1.0048e-6;  // 1/min, m3/s, m2/s
-constexpr double frame_step = 5e-4, frame_ramp = 8e-3, sliding_step = 1e-4;              // s
+constexpr double frame_step = 5e-4, frame_ramp = 8e-3, sliding_step = 1e-4;                // s
 constexpr int n_frame_steps = 20, n_warm_up = 2;
 
 const char* const compared =
