@@ -71,6 +71,7 @@ struct Piece {
 
 std::vector<Piece> pieces_of(const std::vector<Plane>& points, const std::vector<Bend>& bends, double edge, double wall) {
   const std::size_t n = points.size();
+  const auto within = [n](std::size_t i) { return i < n ? i : i - n; };
   std::vector<std::size_t> corners;
   for (std::size_t i = 0; i < n; ++i)
     if (bends[i].turn > corner_turn) corners.push_back(i);
@@ -79,15 +80,15 @@ std::vector<Piece> pieces_of(const std::vector<Plane>& points, const std::vector
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const std::size_t from = corners[k], to = corners[(k + 1) % corners.size()];
     std::vector<double> reached{0};
-    for (std::size_t j = from; j != to; j = (j + 1) % n)
-      reached.push_back(reached.back() + length(difference(points[(j + 1) % n], points[j])));
+    for (std::size_t j = from; j != to; j = within(j + 1))
+      reached.push_back(reached.back() + length(difference(points[within(j + 1)], points[j])));
     const double L = reached.back();
     if (L < long_side * wall) {
       pieces.push_back({from, to, grading(L, edge, edge)});
       continue;
     }
     const auto half = std::ranges::min_element(reached, {}, [L](double l) { return std::abs(l - L / 2); });
-    const std::size_t middle = (from + static_cast<std::size_t>(half - reached.begin())) % n;
+    const std::size_t middle = within(from + static_cast<std::size_t>(half - reached.begin()));
     pieces.push_back({from, middle, grading(*half, edge, wall)});
     const Grading back = grading(L - *half, edge, wall);
     pieces.push_back({middle, to, {back.cells, 1 / back.ratio}});

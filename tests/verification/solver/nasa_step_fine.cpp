@@ -47,8 +47,10 @@ TEST(NasaStepFine, three_grids) {
     for (const WallPlace& place : upstream) print_row("step-upstream", m, {place.x, place.friction, place.pressure});
     for (const WallPlace& place : floor) print_row("step-floor", m, {place.x, place.friction, step.pressure(place.x)});
     for (const double x : {-4, 1, 4, 6, 10})
-      for (double y = x < 0 ? 1.05 : 0.02; y < 8.9; y += y < 2 ? 0.05 : 0.25)
-        print_row("step-profile", m, {x, y, speed_at(step.solver.flow, x, y) / U});
+      for (int i = 0; i < 68; ++i) {
+        const double y = (x < 0 ? 1.05 : 0.02) + (i < 40 ? 0.05 * i : 2 + 0.25 * (i - 40));
+        if (y < 8.9) print_row("step-profile", m, {x, y, speed_at(step.solver.flow, x, y) / U});
+      }
   }
   const GridLimit limit = grid_limit(grids, reattached);
   std::printf("reattachment on infinitely fine grids %.3f H, uncertainty of the finest %.3f H\n", limit.limit, limit.uncertainty);
