@@ -38,7 +38,7 @@ TEST(FlatPlateFine, three_grids) {
     for (std::size_t k = 0; k < u_plus.size(); ++k)
       EXPECT_NEAR(u_plus_at(std::pow(10, log10_y_plus[k])) / u_plus[k], 1, 0.03) << "y+ " << std::pow(10, log10_y_plus[k]);
     for (const WallPlace& place : plate.wall()) print_row("plate-wall", m, {place.x, place.friction, place.y_plus});
-    for (int i = 0; i < 78; ++i) print_row("plate-profile", m, {std::pow(10, 0.05 * i), u_plus_at(std::pow(10, 0.05 * i))});
+    for (int at = 0; at < 78; ++at) print_row("plate-profile", m, {std::pow(10, 0.05 * at), u_plus_at(std::pow(10, 0.05 * at))});
   }
   const GridLimit of_friction = grid_limit(grids, friction), of_drag = grid_limit(grids, drag);
   std::printf("on infinitely fine grids c_f %.6f, uncertainty of the finest %.6f; drag %.6f, uncertainty %.6f\n", of_friction.limit,

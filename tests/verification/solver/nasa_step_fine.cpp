@@ -47,8 +47,8 @@ TEST(NasaStepFine, three_grids) {
     for (const WallPlace& place : upstream) print_row("step-upstream", m, {place.x, place.friction, place.pressure});
     for (const WallPlace& place : floor) print_row("step-floor", m, {place.x, place.friction, step.pressure(place.x)});
     for (const double x : {-4, 1, 4, 6, 10})
-      for (int i = 0; i < 68; ++i) {
-        const double y = (x < 0 ? 1.05 : 0.02) + (i < 40 ? 0.05 * i : 2 + 0.25 * (i - 40));
+      for (int at = 0; at < 68; ++at) {
+        const double y = (x < 0 ? 1.05 : 0.02) + (at < 40 ? 0.05 * at : 2 + 0.25 * (at - 40));
         if (y < 8.9) print_row("step-profile", m, {x, y, speed_at(step.solver.flow, x, y) / U});
       }
   }
