@@ -3,7 +3,7 @@
 // precision:
 //
 //   (D + L) x = b                       forward Gauss-Seidel on the rows of the rank, b = r on the finest level
-//   r = b - A x                         with G: columns of other ranks
+//   r = b - A x                         with the columns of other ranks, G
 //   b_coarse = P^T r,   x += P x_coarse
 //   (D + U) x' = b - (L + G) x          backward
 //

@@ -1,8 +1,8 @@
 """Small rags that move in water, by a program that shares nothing with Snag but the format of the data.
 
 The sheet is a grid of N x N nodes, each in the middle of a square of its own of the side a. Membrane: springs along edges and diagonals, whose
-rest length is kept by projection; bending: the energy is the sum of (second difference)^2 along and across (the quadratic energy of a sheet that
-does not stretch, Bergou et al. 2006), stiffness D_l and D_w per width. Both have one constant matrix, so that the step is implicit in them and
+rest length is kept by projection. Energy of bending: the sum of (second difference)^2 along and across, times the stiffness per width, D_l and D_w.
+This is the quadratic energy of a sheet that does not stretch (Bergou et al. 2006). Both have one constant matrix, so that the step is implicit in them and
 solved by alternating projections (Bouaziz et al. 2014) with the matrix inverted once. Time: the second backward difference formula, the load of
 the water extrapolated from two steps before,
 
