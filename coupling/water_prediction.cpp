@@ -23,33 +23,39 @@ WaterPrediction::WaterPrediction(const Flow& flow, double kernel_width) : flow_(
     resolved_.push_back(std::clamp(8 * kernel_width / std::cbrt(flow.mesh.cell_volume[c]) - 3, 0.0, 1.0));
 }
 
-void WaterPrediction::begin_step(double dt) { scheme_ = bdf(dt, flow_.time_step_size); }
+void WaterPrediction::begin_step(double dt) {
+  scheme_ = bdf(dt, flow_.time_step_size);
+  const RotatingZone* zone = flow_.rotating_zone;
+  turn_ = zone && zone->slides() ? rotation(zone->axis(), zone->angle(flow_.time + dt) - zone->angle(flow_.time)) : Mat3{};
+}
+
+/// A vector that turns with the zone of its cell, at the end of the step.
+Vec3 WaterPrediction::turned(int cell, const Vec3& v) const {
+  const RotatingZone* zone = flow_.rotating_zone;
+  return zone && zone->slides() && flow_.mesh.cell_zone[cell] == zone->zone() ? turn_ * v : v;
+}
 
 void WaterPrediction::predict(std::span<const int> cells) {
   const double dt = scheme_.dt;
   const Mesh& mesh = flow_.mesh;
   const RotatingZone* zone = flow_.rotating_zone;
   const Vec3 omega = zone ? zone->rotation_speed(flow_.time) : Vec3{};
-  const Mat3 R = zone && zone->slides() ? rotation(zone->axis(), zone->angle(flow_.time + dt) - zone->angle(flow_.time)) : Mat3{};
-  const bool slides = zone && zone->slides();
   for (auto* field : {&velocity_, &change_, &acceleration_}) field->resize(mesh.n_cells);
   for (const int c : cells) {
     if (!resumed_) velocity_[c] = start_velocity(c);
-    const bool turns = zone && mesh.cell_zone[c] == zone->zone();
-    const auto turned = [&](const Vec3& v) { return turns && slides ? R * v : v; };
     const Vec3& u = flow_.velocity[c];
     const Mat3& G = flow_.velocity_gradient[c];
     Vec3 change, by_rags;
     if (known_) {
-      change = (1 / scheme_.now) * (dt * turned(rate_[c]) - scheme_.old * u - scheme_.older * flow_.velocity_old[c]) - u;
-      by_rags = (dt / (scheme_.now * flow_.density)) * turned(flow_.reaction[c]);
+      change = (1 / scheme_.now) * (dt * turned(c, rate_[c]) - scheme_.old * u - scheme_.older * flow_.velocity_old[c]) - u;
+      by_rags = (dt / (scheme_.now * flow_.density)) * turned(c, flow_.reaction[c]);
     } else {
-      change = turned(u) - u;
+      change = turned(c, u) - u;
     }
-    if (turns) {
+    if (zone && mesh.cell_zone[c] == zone->zone()) {
       const Vec3 x = mesh.cell_centre[c] - zone->origin();
       // A zone that stands in the turning frame has its components there.
-      change += slides ? -1 * (G * (turned(x) - x)) : dt * (cross(omega, u) - G * cross(omega, x));
+      change += zone->slides() ? -1 * (G * (turned(c, x) - x)) : dt * (cross(omega, u) - G * cross(omega, x));
     }
     change_[c] = change;
     acceleration_[c] = (1 / dt) * (change + by_rags) + G * u;
@@ -102,7 +108,7 @@ std::vector<Vec3> WaterPrediction::missed_rates(const Kernel& kernel, std::span<
   }
   std::vector<Vec3> density(flow_.mesh.n_cells);
   kernel.spread(missed, 3, flat(density));
-  for (std::size_t c = 0; c < density.size(); ++c) density[c] *= resolved_[c];
+  for (int c = 0; c < flow_.mesh.n_cells; ++c) density[c] = resolved_[c] * turned(c, density[c]);
   std::vector<Vec3> rates = kernel.average(std::span<const Vec3>(density));
   for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = (1 / (scheme_.now * flow_.density * response[b])) * rates[b];  // A S^T 1
   return rates;

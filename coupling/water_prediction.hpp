@@ -23,7 +23,7 @@
 // e_b is what the answers of the last step were missed by: the flow shares f among cells side by side (f~, solver/continuity.hpp), and
 // d_b J_b is (A S^T J)_b only where neighbours have the same impulse.
 //
-//   e_b = s_b F(m),   m = (d_b J_b + A f~ dt/(now rho))/dt,   F(m) = A S^T m / (A S^T 1)
+//   e_b = s_b F(m),   m = (d_b J_b + A f~ dt/(now rho))/dt,   F(m) = A R S^T m / (A S^T 1)
 //
 // In a steady flow change + A f~ dt/(now rho) = 0, so that with e = m the particle feels u^n during the whole step, and the law of its drag
 // holds for the velocity that the flow has, whatever d_b and the step. F keeps modes of the impulses small that the flow hardly answers to.
@@ -72,8 +72,8 @@ class WaterPrediction {
   double dt() const { return scheme_.dt; }
   /// d at the particles of the kernel, 1/kg. Collective.
   std::vector<double> response(const Kernel& kernel) const;
-  /// e at the particles of the kernel, m/s2, after a step and with the weights it was made with. `response`: d, 1/kg; `impulse`: J, N s, of
-  /// that step. Collective.
+  /// e of the next step at the particles of the kernel, m/s2, after a step and with the weights it was made with. `response`: d, 1/kg;
+  /// `impulse`: J, N s, of that step. Collective.
   std::vector<Vec3> missed_rates(const Kernel& kernel, std::span<const double> response, std::span<const Vec3> impulse) const;
 
   /// Collective; throws Error(io).
@@ -83,10 +83,12 @@ class WaterPrediction {
  private:
   std::span<const std::int64_t> owned_ids() const;
   Vec3 start_velocity(int cell) const;
+  Vec3 turned(int cell, const Vec3& v) const;
 
   const Flow& flow_;
   std::vector<double> resolved_;  // s, of the owned cells
   TimeScheme scheme_;
+  Mat3 turn_;                       // R of the step
   bool known_ = false;              // r: not before the first step
   bool resumed_ = false;            // u^n is that of a checkpoint: its fluxes of the sliding interface are not kept
   std::vector<Vec3> rate_;          // r of the last step, of the owned cells, m/s2

@@ -132,5 +132,26 @@ TEST(SolidBodyRotation, NeutralClothStaysAtItsRadius) {
     }
 }
 
+// Requirement: what the water's answer was missed by, a vector that the water carries, turns by the angle of the step in the zone that
+// turns and not in the one at rest.
+TEST(MissedRates, TurnWithTheZone) {
+  TurningWater water;
+  const Vec3 force{0, 300, 0};  // N/m3
+  const double angle = 0.1;
+  for (const double radius : {0.1, 0.2}) {
+    const auto shape = kernel_shapes().make("gaussian", "test");
+    Kernel kernel(*shape, 0.012, water.mesh);
+    kernel.locate(std::vector<Vec3>{water.shells.origin + Vec3{radius, 0, 0.05}});  // one particle of each rank
+    WaterPrediction prediction(water.flow, 0.012);
+    prediction.begin_step(angle / water.speed);
+    water.flow.reaction.assign(static_cast<std::size_t>(water.mesh.n_cells), force);
+    const std::vector<double> response = prediction.response(kernel);
+    const Vec3 rate = prediction.missed_rates(kernel, response, std::vector<Vec3>(1))[0];
+    const Vec3 missed = force / water.flow.density;  // the first step: implicit Euler
+    const Vec3 expected = radius < 0.15 ? rotation({0, 0, 1}, angle) * missed : missed;
+    EXPECT_LT(norm(rate - expected), 1e-3 * norm(missed)) << radius << " m";
+  }
+}
+
 }  // namespace
 }  // namespace snag
