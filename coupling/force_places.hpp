@@ -4,6 +4,8 @@
 // therefore loses the couple
 //
 //   L = |sum_b (x'_b - x_b) x J_b|   of   T = sum_b |(x_b - X) x J_b|,   X = sum |J_b| x_b / sum |J_b| of the rag
+//
+// A rag of one particle has no T: it counts in neither.
 #include <span>
 
 #include <mpi.h>

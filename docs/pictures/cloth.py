@@ -229,8 +229,9 @@ def turning():
     figure, ((radius, swirl), (mixture, behind)) = plt.subplots(2, 2, figsize=(9, 5.8))
     with running(co_rotation.CoRotation) as test:
         start = test.start()
-        for (mode, lengthwise), colour, line in zip(co_rotation.PAIRS, (BLUE, RED), ("-", "--")):
-            turns, r, speed = test.turn(start, mode, lengthwise)
+        for cloth, colour, line in zip(co_rotation.CLOTHS[:2], (BLUE, RED), ("-", "--")):
+            turns, r, speed = test.turn(start, *cloth)
+            mode, lengthwise, _ = cloth
             name = f"whole program, {mode.replace('_', '-')}, {'across' if lengthwise[0] else 'along'} the stream"
             radius.plot(turns, 100 * (r - 1), line, color=colour, linewidth=1.2, label=name)
             swirl.plot(turns, 100 * (speed - 1), line, color=colour, linewidth=1.2, label=name)

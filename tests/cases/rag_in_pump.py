@@ -62,7 +62,7 @@ impact_speed_m_s = 15
 mode = "two_way"
 kernel = "{kernel}"
 kernel_width_mm = 6
-forces = ["free_stream_drag"]
+forces = ["recommended"]
 """
 MONITORS = ("rags", "passage", "rag_forces", "contacts", "wall_contacts", "coupling", "patches", "pump")
 
@@ -71,7 +71,7 @@ class RagInPump(harness.CaseTest):
     """25 steps, in which each rag does what it is there for; rag_in_pump_long.py has 50 of them, more numbers of ranks and another kernel."""
 
     n_steps, n_steps_before_last_rag = 25, 10
-    settings = {"end_ms": 2.5, "height_m": 0.0915, "speed_m_s": 7, "insert_ms": 1, "picture_ms": 1.25}
+    settings = {"end_ms": 2.5, "height_m": 0.0906, "speed_m_s": 7, "insert_ms": 1, "picture_ms": 1.25}
     ranks = {"gaussian": (3,)}  # that are compared with one rank
 
     def pump(self, kernel="gaussian"):

@@ -13,14 +13,14 @@ namespace {
 
 constexpr double delta = 2e-2;  // m
 
-/// Of a row of particles along x at the height z over the plane z = 0, 1 N s along `push` on each; on rank 0.
-ForcePlaces row_at(double z, const Vec3& push) {
+/// Of a row of 2 half + 1 particles along x at the height z over the plane z = 0, 1 N s along `push` on each; on rank 0.
+ForcePlaces row_at(double z, const Vec3& push, int half = 2) {
   const Mesh mesh = structured_box(MPI_COMM_WORLD, {-0.2, -0.2, 0}, {0.2, 0.2, 0.4}, {40, 40, 40});  // two cells a width
   const auto shape = kernel_shapes().make("gaussian", "test");
   Kernel kernel(*shape, delta, mesh);
   std::vector<Vec3> places;
   if (rank_of(MPI_COMM_WORLD) == 0)
-    for (int i = -2; i <= 2; ++i) places.push_back({0.01 * i + 0.001, 0.002, z});
+    for (int i = -half; i <= half; ++i) places.push_back({0.01 * i + 0.001, 0.002, z});
   kernel.locate(places);
   const std::vector<Vec3> impulses(places.size(), push);
   const std::vector<int> rag_of(places.size(), 0);
@@ -40,6 +40,15 @@ TEST(ForcePlaces, NearAndFarFromAWall) {
   EXPECT_GT(at_wall.displacement, 0.3 * delta);
   EXPECT_NEAR(at_wall.couple_lost, 5 * at_wall.displacement, 0.01 * at_wall.couple_lost);
   EXPECT_NEAR(at_wall.couple, 0, 1e-12) << "all forces are along the row";
+}
+
+// Requirement: the force of a single particle has no torque about its centre, and round-off does not pass for one.
+TEST(ForcePlaces, OfOneParticle) {
+  const ForcePlaces alone = row_at(0.001, {0.3, 0.7, 0.1}, 0);
+  EXPECT_GT(alone.displacement, 0.3 * delta);
+  EXPECT_EQ(alone.couple, 0);
+  EXPECT_EQ(alone.couple_lost, 0);
+  EXPECT_EQ(alone.relative(), 0);
 }
 
 }  // namespace
