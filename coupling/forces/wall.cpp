@@ -31,7 +31,9 @@ struct Wall final : FluidForce {
     return {.name = name,
             .equation = "F -> (1 + theta (lambda_n - 1)) F_n + (1 + theta (lambda_t - 1)) F_t",
             .source = "Brenner (1961), Faxen (1923), Lorentz (1907)",
-            .valid_for = "spheres near one plane wall, Re < 1",
+            .valid_for =
+                "spheres near one plane wall, Re < 1; two-way beside self_disturbance, which takes off what the resolved wall does (alone "
+                "it counts a part of that twice)",
             .samples = {.wall = true},
             .role = Role::drag_modifier,
             .prior = Prior{.key = "coupling.wall.strength",

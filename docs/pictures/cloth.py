@@ -1,4 +1,4 @@
-"""Pictures of the validation of cloth in water, as SVG: cloth.py PICTURE OUT.svg, PICTURE one of forced, layers, turning, spheres, bending, with SNAG_BINARY_DIR and SNAG_SOURCE_DIR set. Runs the cases
+"""Pictures of the validation of cloth in water, as SVG: cloth.py PICTURE OUT.svg, PICTURE one of forced, layers, turning, spheres, bending, choices, with SNAG_BINARY_DIR and SNAG_SOURCE_DIR set. Runs the cases
 of tests/cases and the test programs of the build folder (for turning and bending), and draws what they find over exact solutions, theories and models; needs numpy, matplotlib, vtk. Takes one to five
 minutes a picture.
 
@@ -30,11 +30,13 @@ import held
 import impulsive_sheet
 import impulsive_sheet_long
 import inclined_plate
+import independence
 import plate_across
 import reconfiguration
 import sedimenting_sheet_long
 import sphere_drag
 import stuart_loop
+import strip_over_edge
 
 BLUE, GREEN, RED, GREY = "#2060b0", "#207040", "#c03020", "0.2"
 CIRCLES = {"marker": "o", "linestyle": "none", "markersize": 4, "markerfacecolor": "none"}
@@ -415,12 +417,37 @@ def bending():
     return figure
 
 
+def choices():
+    """What a result owes to choices of the user: particles, cells, steps and sub-steps."""
+    figure, (free, held, rest) = plt.subplots(1, 3, figsize=(10.5, 3.6))
+    settings = {f"radius {radius} mm": f"rag.0.radius_mm={radius}" for radius in (1, 1.5, 2.5, 4)}
+    settings |= {"cells 1/2": "mesh.parameters='channel-half.toml'", "cells 1/3": "mesh.parameters='channel-third.toml'", "step 1/2": "time.step_ms=2", "step 1/4": "time.step_ms=1"}
+    with running(independence.IndependenceOfParticles) as test:
+        for axes, piece in ((free, "free"), (held, "held")):
+            found = [test.deviations(piece, setting) for setting in settings.values()]
+            for k, (name, colour) in enumerate(zip(found[0], (BLUE, RED))):
+                axes.barh(numpy.arange(len(found)) + 0.4 * k - 0.2, [100 * deviations[name] for deviations in found], height=0.36, color=colour, label=name)
+            axes.set_yticks(range(len(found)), list(settings), fontsize=7)
+            axes.invert_yaxis()
+            axes.axvspan(-3, 3, color="0.93", zorder=0)
+            axes.set_xlim(-4, 4)
+            label(axes, f"{piece} rag", "deviation [%]", "")
+    with running(strip_over_edge.StripOverEdge) as test:
+        for safety, colour, line in ((0.8, BLUE, "-"), (0.08, RED, "--")):
+            _, _, rags = test.rest('["recommended"]', 0.5, safety)
+            name = "chosen sub-step" if safety == 0.8 else "a tenth of it"
+            rest.semilogy(1e3 * rags.column("time [s]"), 1e3 * rags.column("kinetic_energy [J]"), line, color=colour, linewidth=1, label=f"kinetic energy [mJ], {name}")
+            rest.semilogy(1e3 * rags.column("time [s]"), rags.column("bond_strain_p99 [1]"), line, color=GREEN if line == "-" else GREY, linewidth=1, label=f"strain of 99 %, {name}")
+    label(rest, "strip over an edge", "time [ms]", "")
+    return figure
+
+
 if __name__ == "__main__":
     picture, out = sys.argv[1:]
     if picture == "channel":
         closed_channel(out)
     else:
         plt.rcParams.update({"font.size": 9, "svg.hashsalt": "snag"})
-        figure = {f.__name__: f for f in (forced, layers, turning, spheres, bending)}[picture]()
+        figure = {f.__name__: f for f in (forced, layers, turning, spheres, bending, choices)}[picture]()
         figure.tight_layout()
         figure.savefig(out, metadata={"Date": None})
