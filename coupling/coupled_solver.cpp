@@ -32,6 +32,14 @@ void require_turbulence(const FluidForces& forces, bool there) {
                                    (names.size() > 1 ? "the forces" : "the force"));
 }
 
+/// The drag law that takes the solid fraction, "" if none does.
+std::string drag_in_packings(const FluidForces& forces) {
+  for (const auto& force : forces)
+    if (const ForceDescription description = force->description(); description.role == Role::drag && description.samples.solid_fraction)
+      return description.name;
+  return "";
+}
+
 /// Adds the time of some work to `seconds`.
 template <class Work>
 void timed(double& seconds, const Work& work) {
@@ -107,7 +115,7 @@ void CoupledSolver::spread(double dt) {
   for (std::size_t b = 0; b < screen.size(); ++b) screen[b] = load_->screen(particles.tile(b), particles.place(b));
   const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .impulse = impulses_}, dt);
   report_.max_solid_fraction = balance.max_solid_fraction;
-  warn_of_packing();
+  judge_packing();
   if (!coupling_.settings.two_way()) return;
   check_momentum(balance);
   report_.force_on_rags = balance.on_rags / dt;
@@ -124,14 +132,19 @@ void CoupledSolver::spread(double dt) {
   report_.max_drag_number = maximum(rags_.comm(), largest);
 }
 
-void CoupledSolver::warn_of_packing() {
+// Solid fraction enters the equations of the water nowhere; of the forces, those of suspensions hold up to a dense packing only.
+void CoupledSolver::judge_packing() {
   if (report_.max_solid_fraction <= densest_packing || warned_of_packing_) return;
-  warned_of_packing_ = true;
   const double width = coupling_.kernel_width(rags_.rags());
   const std::string kernel = coupling_.shape->has_width() ? "kernel_width is " + number_text(1e3 * width) + " mm" : "kernel is \"cell\"";
-  log::warning("coupling: the particles fill " + number_text(report_.max_solid_fraction) + " of a cell at " + number_text(rags_.time()) +
-               " s, more than the " + number_text(densest_packing) + " of a dense packing; " + kernel +
-               ": widen it until monitors/coupling.csv stays below (said once)");
+  const std::string found = "the particles fill " + number_text(report_.max_solid_fraction) + " of a cell at " + number_text(rags_.time()) +
+                            " s, more than the " + number_text(densest_packing) + " of a dense packing; " + kernel;
+  const std::string remedy = "widen it until max_solid_fraction of monitors/coupling.csv stays below";
+  if (const std::string law = drag_in_packings(coupling_.forces); !law.empty())
+    throw Error(ExitCode::usage, "[coupling] forces: " + law + " is a law for packings up to " + number_text(densest_packing) + ", but " +
+                                     found + ": " + remedy + ", or take a drag law without the solid fraction");
+  warned_of_packing_ = true;
+  log::warning("coupling: " + found + ": " + remedy + " (said once)");
 }
 
 void CoupledSolver::write_report(double dt) {

@@ -44,7 +44,8 @@ class CoupledSolver {
   /// Walls for forces that need them; `walls` must outlive the solver.
   void set_walls(const WallSet& walls) { load_->set_walls(walls); }
   /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit in the velocities of particles and water together.
-  /// Collective. Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost.
+  /// Collective. Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost; Error(usage) if the
+  /// particles fill more of a cell than the drag law holds for.
   void step(double dt);
   /// Mean velocity of the water at the particles of a rag, m/s; none in a prescribed flow. Collective.
   std::optional<Vec3> water_velocity(int rag);
@@ -67,7 +68,7 @@ class CoupledSolver {
  private:
   void mesh_moved();
   void spread(double dt);
-  void warn_of_packing();
+  void judge_packing();
   void write_report(double dt);
 
   Coupling coupling_;

@@ -21,6 +21,13 @@ class CouplingNotes(harness.CaseTest):
         self.assertEqual(told.count("more than the 0.6 of a dense packing"), 1, told)
         self.assertGreater(run.monitor("coupling").column("max_solid_fraction").max(), 0.6)
 
+    def test_drag_of_suspensions_refuses_an_overfilled_cell(self):
+        text = self.channel("two_way")
+        rag, forces = text[text.index("[[rag]]") : text.index("[coupling]")], text[text.index("forces = ") :].split("\n")[0]
+        run = self.run_case(self.case(text.replace(rag, SPHERE).replace(forces, 'forces = ["di_felice"]')), 2, code=2)
+        for words in ("di_felice is a law for packings up to 0.6", 'kernel is "cell"', "widen it"):
+            self.assertIn(words, run.stderr)
+
     def test_cloth_that_fits_is_not_warned_of(self):
         run = self.run_case(self.case(self.channel("two_way")), 2)
         self.assertNotIn("dense packing", run.stdout + run.stderr)

@@ -108,6 +108,9 @@ class RagInPump(harness.CaseTest):
         numpy.testing.assert_allclose(walls.column("impeller_walls_power"), -speed * torque, rtol=1e-9, atol=1e-12)
         numpy.testing.assert_allclose(pump.column("shaft_power_total"), pump.column("shaft_power") - speed * torque, rtol=1e-12)
         self.assertEqual(numpy.abs(walls.column("casing_walls_power")).max(), 0)
+        lost, worst = summary["coupling"]["couple_lost_rel"], run.monitor("coupling").column("couple_lost_rel").max()
+        print(f"  couple lost in the exchange: {100 * lost:.2f} % of the torque on the rags, {100 * worst:.2f} % in the worst step")
+        self.assertLess(lost, 0.05)
         conservation = summary["conservation"]
         for name in ("particles_lost", "bonds_lost", "particles_beyond_walls"):
             self.assertEqual(conservation[name], 0, name)
