@@ -54,13 +54,7 @@ class NasaPlate {
   }
 
   static FlowSolver flow_solver(const Mesh& mesh) {
-    FlowSettings settings;
-    settings.density = 1, settings.kinematic_viscosity = 1 / reynolds, settings.initial_velocity = {1, 0, 0};
-    settings.n_outer_correctors = 3, settings.momentum_tolerance = 1e-6;
-    const CaseFile file = CaseFile::parse(R"(
-[turbulence]
-model = "k_omega_sst"
-tolerance = 1e-6
+    return nasa_solver(mesh, reynolds, 1, FlowSettings{}.pressure_tolerance, R"(
 [[boundary]]
 patch = "inlet"
 kind = "velocity_inlet"
@@ -79,7 +73,6 @@ kind = "wall"
 patches = ["before", "sides"]
 kind = "symmetry"
 )");
-    return {mesh, settings, read_boundaries(file.root()), read_turbulence(file.root())};
   }
 };
 

@@ -48,14 +48,8 @@ class NasaBump {
   }
 
   static FlowSolver flow_solver(const Mesh& mesh) {
-    FlowSettings settings;
-    settings.density = 1, settings.kinematic_viscosity = 1 / reynolds, settings.initial_velocity = {1, 0, 0};
-    settings.n_outer_correctors = 3, settings.momentum_tolerance = 1e-6, settings.pressure_tolerance = 1e-6;
     // k = 9e-9 a^2 and omega = 1e-6 a^2/nu enter, a = U/0.2
-    const CaseFile file = CaseFile::parse(R"(
-[turbulence]
-model = "k_omega_sst"
-tolerance = 1e-6
+    return nasa_solver(mesh, reynolds, 1, 1e-6, R"(
 [[boundary]]
 patch = "inlet"
 kind = "velocity_inlet"
@@ -72,7 +66,6 @@ kind = "wall"
 patches = ["symmetry", "sides"]
 kind = "symmetry"
 )");
-    return {mesh, settings, read_boundaries(file.root()), read_turbulence(file.root())};
   }
 };
 

@@ -14,6 +14,15 @@
 
 namespace snag::test {
 
+/// Density 1 kg/m3; `entering`: speed of the stream at the start, m/s; `text`: further keys of [turbulence], then the boundaries.
+inline FlowSolver nasa_solver(const Mesh& mesh, double reynolds, double entering, double pressure_tolerance, const std::string& text) {
+  FlowSettings settings;
+  settings.density = 1, settings.kinematic_viscosity = 1 / reynolds, settings.initial_velocity = {entering, 0, 0};
+  settings.n_outer_correctors = 3, settings.momentum_tolerance = 1e-6, settings.pressure_tolerance = pressure_tolerance;
+  const CaseFile file = CaseFile::parse("[turbulence]\nmodel = \"k_omega_sst\"\ntolerance = 1e-6\n" + text);
+  return {mesh, settings, read_boundaries(file.root()), read_turbulence(file.root())};
+}
+
 /// A place of a wall: along the stream; c_f, positive downstream, and c_p, with rho U^2/2; y+ of its cell.
 struct WallPlace {
   double x, friction, pressure, y_plus;

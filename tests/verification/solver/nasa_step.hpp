@@ -46,14 +46,8 @@ class NasaStep {
   }
 
   static FlowSolver flow_solver(const Mesh& mesh) {
-    FlowSettings settings;
-    settings.density = 1, settings.kinematic_viscosity = 1 / reynolds, settings.initial_velocity = {entering, 0, 0};
-    settings.n_outer_correctors = 3, settings.momentum_tolerance = 1e-6, settings.pressure_tolerance = 1e-4;
     // k = 9e-9 a^2 and omega = 1e-6 a^2/nu enter, a = U/0.128
-    const CaseFile file = CaseFile::parse(R"(
-[turbulence]
-model = "k_omega_sst"
-tolerance = 1e-6
+    return nasa_solver(mesh, reynolds, entering, 1e-4, R"(
 initial_k = "1e-3 m2/s2"
 initial_epsilon = "1e-4 m2/s3"
 [[boundary]]
@@ -72,7 +66,6 @@ kind = "wall"
 patches = ["before", "sides"]
 kind = "symmetry"
 )");
-    return {mesh, settings, read_boundaries(file.root()), read_turbulence(file.root())};
   }
 };
 
