@@ -21,7 +21,8 @@ class RagKept(harness.CaseTest):
         print(f"  {ranks} ranks: {rag['outcome']}, wholly in the casing from {kept[0]:.3f} s to {kept[-1]:.3f} s, "
               f"{rag['recirculations']} recirculations, flow {summary['pump']['flow_m3_s'] * 1000:.2f} L/s, head {summary['pump']['head_m']:.2f} m, "
               f"wall overlap {rag['max_wall_overlap_over_radius']:.2f} r, strain p99 {rag['bond_strain_p99']:.4f}, {summary['wall_s']:.0f} s")
-        self.assertGreater(kept[-1] - kept[0], 20 * REVOLUTION)
+        if not tears:  # pieces of a torn rag may leave
+            self.assertGreater(kept[-1] - kept[0], 20 * REVOLUTION)
         self.assertAlmostEqual(summary["pump"]["flow_m3_s"], 2e-3, delta=2e-5)
         self.assertEqual(rag["broken_bonds"] > 0, tears)
         for name in ("particles_lost", "bonds_lost", "particles_beyond_walls"):
