@@ -80,7 +80,7 @@ class TurningZone(harness.CaseTest):
         rotor = f'motion = "{motion}"\nrotation_speed = "1200 rpm"\nramp = "0.02 s"\nstart_angle = "5 deg"'
         return self.case(pump_case(
             "turning-rings", mesh, rotor=rotor, time=f"end_s = {self.n_steps * STEP}\nstep_s = {STEP}", flow=tight_flow("1e-11"),
-            flow_rate_L_s=2, walls=RING_WALLS, more=f'[turbulence]\nmodel = "{model}"\n' + START,
+            flow_rate_L_s=2, walls=RING_WALLS, more=f'[turbulence]\nmodel = "{model}"\n' + ("curvature_correction = true\n" if model == "k_omega_sst" else "") + START,
             output=f"single_precision = false\n[checkpoint]\ninterval_s = {self.n_before_checkpoint * STEP}"), f"{motion}-{model}")
 
     def agree(self, motion, model="k_epsilon"):

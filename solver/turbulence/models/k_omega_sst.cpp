@@ -7,6 +7,7 @@
 //
 //   F_1 = tanh(min(max(t, v), 4 sigma_omega2 k / (C+ y^2))^4),     t = k^(1/2) / (beta* omega y),   v = 500 nu / (y^2 omega)
 //   F_2 = tanh(max(2 t, v)^2),   C+ = max(C, 1e-10 1/s2)
+//   with curvature_correction P and alpha S^2 times f of solver/turbulence/curvature.hpp
 //   each of alpha, beta, sigma_k, sigma_omega:  F_1 (.)_1 + (1 - F_1) (.)_2
 //
 // y: distance from the nearest wall, of the mesh as it stands at the start; in a turning zone that of the other zone's walls is kept.
@@ -33,6 +34,7 @@
 #include "mesh/geometry.hpp"
 #include "mesh/wall_distance.hpp"
 #include "solver/turbulence/automatic_walls.hpp"
+#include "solver/turbulence/curvature.hpp"
 #include "solver/turbulence/two_equation_model.hpp"
 
 namespace snag {
@@ -49,6 +51,9 @@ class KOmegaSst final : public TwoEquationModel {
   static constexpr const char* name = "k_omega_sst";
   KOmegaSst() : TwoEquationModel("omega") {}
   Section section() override;
+  void prepare(Flow& flow, const BoundarySet& boundary) override;
+  void mesh_turned(Flow& flow, const BoundarySet& boundary) override;
+  void begin_step(Flow& flow, const TimeScheme& time) override;
   TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
   WallTreatment wall_treatment() const override { return WallTreatment::automatic; }
   std::vector<StoredField> stored() override;
@@ -87,6 +92,9 @@ class KOmegaSst final : public TwoEquationModel {
     double ratio_cells, ratio_face;  // ln(y_N/y_P), ln(y_f/y_P)
   };
 
+  bool curvature_correction_ = false;
+  Curvature curvature_;
+  std::vector<double> curvature_factor_;  // f, [n_cells]; empty without the correction
   double a_1_ = 0.31;
   Constants near_{5.0 / 9, 3.0 / 40, 0.85, 0.5}, far_{0.44, 0.0828, 1, 0.856};  // (.)_1, (.)_2
   SpaldingLaw law_;
@@ -105,15 +113,39 @@ Section KOmegaSst::section() {
   Section model{.name = name,
                 .meaning = "k-omega SST model (Menter, Kuntz and Langtry 2003) with automatic wall treatment: y+ from below 1 to 300.",
                 .parameters = initial_parameters()};
-  for (Parameter& parameter :
-       std::vector<Parameter>{constant("beta_star", &C_mu_, 0.01, 1), constant("a_1", &a_1_, 0.01, 10),
-                              constant("alpha_1", &near_.alpha, 0.01, 10), constant("beta_1", &near_.beta, 0.001, 1),
-                              constant("sigma_k1", &near_.sigma_k, 0.1, 10), constant("sigma_omega1", &near_.sigma_omega, 0.1, 10),
-                              constant("alpha_2", &far_.alpha, 0.01, 10), constant("beta_2", &far_.beta, 0.001, 1),
-                              constant("sigma_k2", &far_.sigma_k, 0.1, 10), constant("sigma_omega2", &far_.sigma_omega, 0.1, 10),
-                              constant("kappa", &law_.kappa, 0.2, 1), constant("E", &law_.E, 2, 100), tolerance_parameter()})
+  for (Parameter& parameter : std::vector<Parameter>{
+           constant("beta_star", &C_mu_, 0.01, 1), constant("a_1", &a_1_, 0.01, 10), constant("alpha_1", &near_.alpha, 0.01, 10),
+           constant("beta_1", &near_.beta, 0.001, 1), constant("sigma_k1", &near_.sigma_k, 0.1, 10),
+           constant("sigma_omega1", &near_.sigma_omega, 0.1, 10), constant("alpha_2", &far_.alpha, 0.01, 10),
+           constant("beta_2", &far_.beta, 0.001, 1), constant("sigma_k2", &far_.sigma_k, 0.1, 10),
+           constant("sigma_omega2", &far_.sigma_omega, 0.1, 10), constant("kappa", &law_.kappa, 0.2, 1), constant("E", &law_.E, 2, 100),
+           constant("c_r1", &curvature_.c_r1, 0, 10), constant("c_r2", &curvature_.c_r2, 0, 100), constant("c_r3", &curvature_.c_r3, 0, 10),
+           tolerance_parameter()})
     model.parameters.push_back(std::move(parameter));
+  model.parameters.push_back(
+      setting("curvature_correction", &curvature_correction_,
+              "true: production falls where streamlines are convex and grows where they are concave, Smirnov and Menter (2009); field "
+              "`production_factor`."));
   return model;
+}
+
+void KOmegaSst::prepare(Flow& flow, const BoundarySet& boundary) {
+  field_of_phi(flow);  // the first one
+  if (curvature_correction_) {
+    curvature_.prepare(flow.mesh);
+    flow.model_fields.push_back({"production_factor", "1", 0, std::vector<double>(static_cast<std::size_t>(flow.mesh.n_all_cells()), 1.0)});
+  }
+  TwoEquationModel::prepare(flow, boundary);
+}
+
+void KOmegaSst::mesh_turned(Flow& flow, const BoundarySet& boundary) {
+  TwoEquationModel::mesh_turned(flow, boundary);
+  if (curvature_correction_) curvature_.mesh_turned();
+}
+
+void KOmegaSst::begin_step(Flow& flow, const TimeScheme& time) {
+  TwoEquationModel::begin_step(flow, time);
+  if (curvature_correction_) curvature_.begin_step(flow);
 }
 
 void KOmegaSst::prepare_walls(const Flow& flow, const BoundarySet& boundary) {
@@ -209,6 +241,11 @@ void KOmegaSst::fit_diffusivity(const Mesh& mesh) {
 
 TurbulenceReport KOmegaSst::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) {
   begin_correction(flow, boundary, time, outer);
+  if (curvature_correction_) {
+    curvature_.find(flow, time.dt, phi_.guess, curvature_factor_);
+    for (int c = 0; c < flow.mesh.n_cells; ++c) strain_[c] *= curvature_factor_[c];
+    std::copy(curvature_factor_.begin(), curvature_factor_.end(), flow.model_fields.back().values.begin());
+  }
   walls_.find(flow, boundary, friction_velocity_);
   set_blending(flow);
   const SweepReport of_omega = solve_omega(flow), of_k = solve_k(flow);
