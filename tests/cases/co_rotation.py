@@ -3,6 +3,7 @@
 """Requirement: water that turns as a solid with its housing, whose mesh turns, keeps its swirl for a turn within 1 %, and a neutral cloth in it, one-way and two-way, of particles of 1 to 5 mm, stays within 1 % of its radius, with steps of 3.6 degrees."""
 import harness
 import numpy
+from small_cases import STIFFNESS
 from turning_zone import RingMesh
 
 SPEED, RADIUS = 20 * numpy.pi, 0.06  # rad/s: a turn in 0.1 s; of the cloth, m
@@ -46,14 +47,7 @@ centre_m = [{radius}, 0, 0]
 lengthwise = {lengthwise}
 crosswise = [0, 0, 1]
 mass_per_area_kg_m2 = 0.768614
-properties = "custom"
-normal_stiffness_lengthwise_N_m3 = 1.22e8
-normal_stiffness_crosswise_N_m3 = 6.78e7
-bending_stiffness_lengthwise_N_m3 = 1.55e6
-bending_stiffness_crosswise_N_m3 = 1.40e5
-tangential_stiffness_lengthwise_N_m3 = 2.92e5
-tangential_stiffness_crosswise_N_m3 = 2.92e5
-velocity_m_s = [0, {speed}, 0]
+""" + STIFFNESS + """velocity_m_s = [0, {speed}, 0]
 spin_rad_s = [0, 0, {spin}]
 [coupling]
 mode = "{mode}"

@@ -5,6 +5,7 @@ is free is carried off with its added mass; none of it depends on kernel width o
 import graded_box
 import harness
 import numpy
+from small_cases import STIFFNESS
 
 SIDE, SPEED, DENSITY = 0.1, 1.0, 1000.0  # m, m/s, kg/m3
 SIZE = 0.0125  # of the cells at the plate, m
@@ -36,14 +37,7 @@ centre_m = [0, 0, 0]
 lengthwise = [0, 1, 0]
 crosswise = [0, 0, 1]
 mass_per_area_kg_m2 = {mass}
-properties = "custom"
-normal_stiffness_lengthwise_N_m3 = 1.22e8
-normal_stiffness_crosswise_N_m3 = 6.78e7
-bending_stiffness_lengthwise_N_m3 = 1.55e6
-bending_stiffness_crosswise_N_m3 = 1.40e5
-tangential_stiffness_lengthwise_N_m3 = 2.92e5
-tangential_stiffness_crosswise_N_m3 = 2.92e5
-[coupling]
+""" + STIFFNESS + """[coupling]
 mode = "two_way"
 kernel = "{kernel}"
 {width}

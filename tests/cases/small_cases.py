@@ -1,6 +1,15 @@
 """Case files of a few seconds that several tests run."""
 import re
 
+# Bonds of a cloth whose particles may have any radius.
+STIFFNESS = """properties = "custom"
+normal_stiffness_lengthwise_N_m3 = 1.22e8
+normal_stiffness_crosswise_N_m3 = 6.78e7
+bending_stiffness_lengthwise_N_m3 = 1.55e6
+bending_stiffness_crosswise_N_m3 = 1.40e5
+tangential_stiffness_lengthwise_N_m3 = 2.92e5
+tangential_stiffness_crosswise_N_m3 = 2.92e5
+"""
 # Two sheets of several tiles each: the lower one strikes the ground on its edge and buckles, the upper one falls on it.
 TWO_SHEETS = """
 [case]
