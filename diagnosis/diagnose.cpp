@@ -149,15 +149,15 @@ Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisO
   verdict.notes.insert(verdict.notes.end(), model.notes().begin(), model.notes().end());
   verdict.identifiability = attribution.identifiability;
   verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == VerdictKind::outside);
-  verdict.where = gap_cells(model, fitter);
-  verdict.curves = gap_curves(model, fitter, chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr, verdict.where);
+  const Fit* const with_effects = chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr;
+  verdict.where = gap_cells(model, fitter, attribution.fits.front(), with_effects, static_cast<int>(attribution.fits.size()) - 1);
+  verdict.curves = gap_curves(model, fitter, with_effects, verdict.where);
   if (options.progress) options.progress("withheld points", 0.9);
   measure_shrinkage(model, attribution, chosen, verdict);
   withdraw_what_shrinks_nothing(verdict);
-  if (chosen > 0) {
-    const Fit& fit = attribution.fits[static_cast<std::size_t>(chosen)];
-    verdict.posterior = posterior_draws(model, fit, attribution.names[static_cast<std::size_t>(chosen)], experiment.seed);
-    if (verdict.verdict == VerdictKind::effects) verdict.improved = improved_model(model, fit);
+  if (with_effects) {
+    verdict.posterior = posterior_draws(model, *with_effects, attribution.names[static_cast<std::size_t>(chosen)], experiment.seed);
+    if (verdict.verdict == VerdictKind::effects) verdict.improved = improved_model(model, *with_effects);
   }
   if (verdict.verdict == VerdictKind::tie) verdict.identifiability.new_conditions = new_conditions(model, attribution);
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left

@@ -126,9 +126,9 @@ std::string how_far(const Verdict& v) {
          html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
 }
 
-/// White where |z| is zero, over yellow to dark red at six and more.
-std::string heat(double z) {
-  const double t = std::min(std::abs(z) / 6, 1.0);
+/// White where the score is zero, over yellow to dark red at six and more.
+std::string heat(double score) {
+  const double t = std::min(std::abs(score) / 6, 1.0);
   const auto channel = [t](double at_zero, double at_half, double at_one) {
     return static_cast<int>(t < 0.5 ? at_zero + 2 * t * (at_half - at_zero) : at_half + (2 * t - 1) * (at_one - at_half));
   };
@@ -138,7 +138,7 @@ std::string heat(double z) {
 }
 
 /// A square for every cell: points beside each other, observables and the parts of their time below each other.
-std::string map_of_gap(const Verdict& v) {
+std::string map_of_gap(const Verdict& v, double GapCell::*score) {
   constexpr double left = 190, top = 26, width = 56, height = 24;
   std::vector<std::string> points, rows;
   const auto place = [](std::vector<std::string>& list, const std::string& name) {
@@ -151,15 +151,18 @@ std::string map_of_gap(const Verdict& v) {
   std::string cells;
   for (const GapCell& c : v.where) {
     std::string row = c.observable + (c.region == "all" ? "" : ", " + c.region);
-    if (const int n = ++part[{c.point, row}]; !std::isnan(c.window[0])) row += ", part " + std::to_string(n);
+    if (std::isnan(c.z))
+      row += ", " + (c.point == all_points ? std::string("together") : "all parts");
+    else if (const int n = ++part[{c.point, row}]; !std::isnan(c.window[0]))
+      row += ", part " + std::to_string(n);
     const double x = left + width * place(points, c.point), y = top + height * place(rows, row);
-    char z[32];
-    std::snprintf(z, sizeof z, std::abs(c.z) < 9.95 ? "%.1f" : "%.0f", c.z);
+    char number[32];
+    std::snprintf(number, sizeof number, std::abs(c.*score) < 9.95 ? "%.1f" : "%.0f", c.*score);
     cells += "<rect x=\"" + number_text(x) + "\" y=\"" + number_text(y) + "\" width=\"" + number_text(width - 2) + "\" height=\"" +
-             number_text(height - 2) + "\" fill=\"" + heat(c.z) + "\"" +
+             number_text(height - 2) + "\" fill=\"" + heat(c.*score) + "\"" +
              (c.origin == GapOrigin::born ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" + number_text(x + width / 2 - 1) +
              "\" y=\"" + number_text(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
-             (std::abs(c.z) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + z + "</text>\n";
+             (std::abs(c.*score) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + number + "</text>\n";
   }
   std::string labels;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -173,10 +176,10 @@ std::string map_of_gap(const Verdict& v) {
          "\" role=\"img\">\n" + labels + cells + "</svg>\n";
 }
 
-/// A place on the measured way of a point: the means of its coordinates over a part of the time, and the largest |z| of them there.
+/// A place on the measured way of a point: the means of its coordinates over a part of the time, and the largest |score| of them there.
 struct Place {
   std::map<std::string, double> at;  // by observable, m
-  double z = 0;
+  double score = 0;
 };
 
 /// The measured ways of all points.
@@ -200,16 +203,16 @@ Ways ways_of(const Verdict& v) {
   Ways ways;
   for (const GapCell& c : v.where) {
     const ObservableRecord* record = find_observable(c.observable);
-    if (std::isnan(c.window[0]) || !record || !record->is_position()) continue;
+    if (std::isnan(c.window[0]) || std::isnan(c.z) || !record || !record->is_position()) continue;
     Place& place = ways.of_point[c.point][c.window[0]];
-    place.at[c.observable] = c.measured, place.z = std::max(place.z, std::abs(c.z));
+    place.at[c.observable] = c.measured, place.score = std::max(place.score, std::abs(c.score));
     auto& [low, high] = ways.ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;
     low = std::min(low, c.measured), high = std::max(high, c.measured);
   }
   return ways;
 }
 
-/// Ways in the plane of the two coordinates that change most, each place coloured by |z|.
+/// Ways in the plane of the two coordinates that change most, each place coloured by |score|.
 std::string map_of_ways(const Verdict& v) {
   Ways ways = ways_of(v);
   auto& ranges = ways.ranges;
@@ -230,7 +233,7 @@ std::string map_of_ways(const Verdict& v) {
       if (!place.at.contains(axes[0]) || !place.at.contains(axes[1])) continue;
       const std::string x = number_text(across(place.at.at(axes[0]))), y = number_text(up(place.at.at(axes[1])));
       line += x + "," + y + " ";
-      dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"8\" fill=\"" + heat(place.z) + "\" stroke=\"#596575\"/>";
+      dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"8\" fill=\"" + heat(place.score) + "\" stroke=\"#596575\"/>";
       if (begin == way.rbegin()->first)
         dots += "<text x=\"" + number_text(across(place.at.at(axes[0])) + 12) + "\" y=\"" + y + "\">" + escaped(point) + "</text>\n";
     }
@@ -249,9 +252,7 @@ std::string map_of_ways(const Verdict& v) {
          "\" y=\"" + number_text(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
          number_text(0.5 * height) + "\" transform=\"rotate(-90 14 " + number_text(0.5 * height) + ")\" text-anchor=\"middle\">measured " +
          axes[1] +
-         " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest difference of a "
-         "coordinate over its "
-         "uncertainty there.</p>\n";
+         " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest score of a coordinate there.</p>\n";
 }
 
 /// What a cell is to the others.
@@ -265,11 +266,16 @@ std::string remark_on(const GapCell& cell) {
   return remark + (cell.withheld ? "withheld" : "");
 }
 
+std::string effects_in_words(const Verdict& v) {
+  std::string effects;
+  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
+  return effects;
+}
+
 /// Data and simulation of the paths that differ most: as they are, and beside it what is left of the measured values.
 std::string curves(const Verdict& v) {
-  std::string plots, effects;
-  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
-  const std::string with = (v.verdict == VerdictKind::outside ? "in part: with " : "with ") + effects + ", inputs fitted";
+  std::string plots;
+  const std::string with = (v.verdict == VerdictKind::outside ? "in part: with " : "with ") + effects_in_words(v) + ", inputs fitted";
   for (const GapCurve& c : v.curves) {
     const auto less_measured = [&](std::vector<double> values) {
       for (std::size_t i = 0; i < values.size(); ++i) values[i] -= c.measured[i];
@@ -299,27 +305,39 @@ std::string curves(const Verdict& v) {
                              plots + "</div>\n";
 }
 
+std::string number_or_dash(double value) { return std::isnan(value) ? "-" : html::number(value); }
+
 std::string where(const Verdict& v) {
   std::vector<const GapCell*> cells;
   for (const GapCell& cell : v.where) cells.push_back(&cell);
-  std::stable_sort(cells.begin(), cells.end(), [](const GapCell* a, const GapCell* b) { return std::abs(a->z) > std::abs(b->z); });
+  std::stable_sort(cells.begin(), cells.end(), [](const GapCell* a, const GapCell* b) { return std::abs(a->score) > std::abs(b->score); });
   constexpr std::size_t shown = 8;
   std::vector<std::vector<std::string>> rows, more;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const GapCell& c = *cells[i];
     (i < shown ? rows : more)
         .push_back({escaped(c.observable + (c.region == "all" ? "" : ", " + c.region) + " at " + c.point + ", " + window_in_words(c)),
-                    html::number(c.measured), html::number(c.simulated), html::number(c.u_val),
-                    (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.z) + "</span>", remark_on(c)});
+                    number_or_dash(c.measured), number_or_dash(c.simulated), number_or_dash(c.u_val), number_or_dash(c.z),
+                    (c.significant ? "<span class=\"fail\">" : "<span class=\"idle\">") + html::number(c.score) + "</span>",
+                    number_or_dash(c.score_after), remark_on(c)});
   }
-  const std::vector<std::string> header{"Cell", "measured (SI)", "simulated", "u of the difference", "difference/u", ""};
+  const std::vector<std::string> header{"Cell",         "measured (SI)", "simulated",   "u of the difference",
+                                        "difference/u", "score",         "score after", ""};
   const auto n = std::count_if(v.where.begin(), v.where.end(), [](const GapCell& c) { return c.significant; });
+  const bool has_after = std::any_of(v.where.begin(), v.where.end(), [](const GapCell& c) { return !std::isnan(c.score_after); });
   return "<p>" + std::to_string(n) + " of " + std::to_string(v.where.size()) +
-         " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: difference over its "
-         "standard uncertainty; one column for each point. A run is started again from the measured state at the beginning of each part: "
-         "if it "
-         "differs again, a gap begins in that part (framed: born here); if it agrees, the gap is inherited from an earlier part.</p>\n" +
-         map_of_gap(v) + map_of_ways(v) + curves(v) + html::table(header, rows) +
+         " cells differ beyond what their uncertainty explains (false discovery rate 0.05). Colour and number: the normal score of the "
+         "best "
+         "test of a cell; one column for each point. The tests are: the mean difference over its uncertainty, all rows of the cell with "
+         "the "
+         "inputs as fitted, and what the effects would add there. A run is started again from the measured state at the beginning of each "
+         "part: if it differs again, a gap begins in that part (framed: born here); if it agrees, the gap is inherited from an earlier "
+         "part.</p>\n" +
+         map_of_gap(v, &GapCell::score) +
+         (has_after
+              ? "<p>What " + effects_in_words(v) + " leaves, strengths and inputs fitted.</p>\n" + map_of_gap(v, &GapCell::score_after)
+              : "") +
+         map_of_ways(v) + curves(v) + html::table(header, rows) +
          (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
 }
 

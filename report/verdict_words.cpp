@@ -91,7 +91,8 @@ std::string verdict_advice(const Verdict& v) {
   }
   const GapCell* largest = nullptr;
   for (const GapCell& cell : v.where)
-    if (!cell.withheld && (largest == nullptr || std::abs(cell.z) > std::abs(largest->z))) largest = &cell;
+    if (!cell.withheld && cell.point != all_points && (largest == nullptr || std::abs(cell.score) > std::abs(largest->score)))
+      largest = &cell;
   if (v.verdict == VerdictKind::outside)
     return std::string("Do not tune the case to these data: no strength of an effect is right.") +
            (largest == nullptr ? ""

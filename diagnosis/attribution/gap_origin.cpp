@@ -13,6 +13,7 @@ namespace snag {
 namespace {
 
 constexpr double inherited_share = 0.5;  // of the gap that may stay when it is called inherited
+constexpr double seen_in_mean = 2;       // means are compared, so that of the cell has to show the gap, in standard uncertainties
 
 struct Fitted {
   Eigen::VectorXd value;       // coefficients at the time asked for
@@ -167,7 +168,7 @@ class OriginJudge {
 
   void judge(std::vector<GapCell>& cells) {
     for (GapCell& cell : cells)
-      if (cell.significant && !std::isnan(cell.window[0])) restart(cell);
+      if (cell.significant && !std::isnan(cell.window[0]) && std::abs(cell.z) > seen_in_mean) restart(cell);
     const auto born = benjamini_hochberg(p_values_);
     for (std::size_t i = 0; i < judged_.size(); ++i)
       judged_[i]->origin = born[i] ? GapOrigin::born : gone_[i] ? GapOrigin::inherited : GapOrigin::undecided;

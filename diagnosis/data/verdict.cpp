@@ -29,6 +29,8 @@ Json cell(const GapCell& c) {
   json["blind"] = c.blind;
   json["p"] = number(c.p);
   json["test"] = word(c.test);
+  json["score"] = number(c.score);
+  json["score_after"] = number(c.score_after);
   json["withheld"] = c.withheld;
   json["measured"] = number(c.measured);
   json["simulated"] = number(c.simulated);

@@ -13,6 +13,9 @@
 
 namespace snag {
 
+/// A cell of "where" that no single point shows is of all of them.
+inline constexpr const char* all_points = "all points";
+
 /// One cell of "where": an observable in a window of time at an operating point.
 struct GapCell {
   std::string observable, region = "all", point;
@@ -22,7 +25,9 @@ struct GapCell {
   double u_S = 0;                          // scatter of the simulation over the number of runs, as a standard uncertainty
   double u_val = 0;                        // of the difference
   double z = 0;                            // (simulated - measured)/u_val; of exact tests the normal score of their p
-  double p = 1;                            // two-sided
+  double p = 1;                            // two-sided, of the best test, times the number of tests
+  double score = 0;                        // normal score of p, with the sign of the difference
+  double score_after = std::numeric_limits<double>::quiet_NaN();  // the same of what the fit that the verdict rests on leaves
   CellTest test = CellTest::z;
   bool withheld = false, significant = false, onset = false, blind = false;
   double restart_z =

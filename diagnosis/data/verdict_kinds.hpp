@@ -21,14 +21,14 @@ enum class VerdictKind {
 enum class Wording { no_gap, attributed, suspected, undecided, outside, blind };
 
 /// Test of one cell of "where".
-enum class CellTest { z, binomial, negative_binomial, log_rank, energy_distance };
+enum class CellTest { z, binomial, negative_binomial, log_rank, energy_distance, fitted, shape };
 
 /// Of the gap in a window, by a restart from the measured state.
 enum class GapOrigin { not_judged, born, inherited, undecided };
 
 inline constexpr std::array verdict_kind_words{"none", "effects", "outside", "tie", "blind"};
 inline constexpr std::array wording_words{"no gap beyond u_val", "attributed", "suspected", "undecided", "outside", "blind"};
-inline constexpr std::array cell_test_words{"z", "binomial", "negative_binomial", "log_rank", "energy_distance"};
+inline constexpr std::array cell_test_words{"z", "binomial", "negative_binomial", "log_rank", "energy_distance", "fitted", "shape"};
 inline constexpr std::array gap_origin_words{"", "born", "inherited", "undecided"};
 
 constexpr const char* word(VerdictKind kind) { return verdict_kind_words[static_cast<std::size_t>(kind)]; }

@@ -39,7 +39,7 @@ GapCurve curve_of(const Responses& model, const Fitter& fitter, const Fit* effec
 
 std::vector<GapCurve> gap_curves(const Responses& model, const Fitter& fitter, const Fit* effect, std::vector<GapCell> cells,
                                  std::size_t most) {
-  std::stable_sort(cells.begin(), cells.end(), [](const GapCell& a, const GapCell& b) { return std::abs(a.z) > std::abs(b.z); });
+  std::stable_sort(cells.begin(), cells.end(), [](const GapCell& a, const GapCell& b) { return std::abs(a.score) > std::abs(b.score); });
   std::vector<GapCurve> curves;
   for (const GapCell& cell : cells) {
     const bool drawn = std::any_of(curves.begin(), curves.end(),

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <initializer_list>
 #include <limits>
 #include <numeric>
+#include <optional>
 
+#include "diagnosis/localisation/fitted_gap.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -13,6 +15,12 @@ namespace snag {
 namespace {
 
 constexpr int n_windows = 4, least_of_distribution = 5;
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+
+struct CellOfRows {
+  GapCell cell;
+  std::vector<int> rows;  // of its point; then over all training points
+};
 
 // One cell's rows of a point's linearization.
 class PointCells {
@@ -20,8 +28,8 @@ class PointCells {
   PointCells(Responses& model, const Linearization& base, std::size_t p)
       : model_(model), base_(base), p_(p), point_(model.points()[model.training()[p]]) {}
 
-  std::vector<GapCell> cells() {
-    std::vector<GapCell> cells;
+  std::vector<CellOfRows> cells() {
+    std::vector<CellOfRows> cells;
     const int n = static_cast<int>(point_.rows.size());
     for (int begin = 0, end = 0; begin < n; begin = end) {
       const Row& first = point_.rows[begin];
@@ -32,8 +40,10 @@ class PointCells {
       const int windows = std::min(n_windows, end - begin);
       if (first.kind == Row::Kind::spread) continue;
       for (int w = 0; w < windows; ++w) {
-        cells.push_back(cell(begin + w * (end - begin) / windows, begin + (w + 1) * (end - begin) / windows));
-        cells.back().region = region;
+        const int from = begin + w * (end - begin) / windows, to = begin + (w + 1) * (end - begin) / windows;
+        cells.push_back({cell(from, to), std::vector<int>(static_cast<std::size_t>(to - from))});
+        cells.back().cell.region = region;
+        std::iota(cells.back().rows.begin(), cells.back().rows.end(), from);
       }
     }
     return cells;
@@ -186,57 +196,137 @@ double simes(std::vector<double> p) {
   return least;
 }
 
-// One level of the hierarchy: cells fall into groups by a key, groups whose combined p pass are handed on.
-void select(const std::vector<GapCell*>& cells, const std::vector<std::function<std::string(const GapCell&)>>& keys, std::size_t level) {
-  if (level == keys.size()) {
-    for (GapCell* cell : cells) cell->significant = true;
-    return;
-  }
-  std::vector<std::string> names;
-  std::vector<std::vector<GapCell*>> groups;
-  for (GapCell* cell : cells) {
-    const std::string name = keys[level](*cell);
-    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
-    if (at == static_cast<std::ptrdiff_t>(names.size())) names.push_back(name), groups.emplace_back();
-    groups[at].push_back(cell);
-  }
-  std::vector<double> p;
-  for (const auto& group : groups) {
-    std::vector<double> own;
-    for (const GapCell* cell : group) own.push_back(cell->p);
-    p.push_back(simes(own));
-  }
-  const auto passed = benjamini_hochberg(p);
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    if (passed[g]) select(groups[g], keys, level + 1);
-}
+// p that the better of several tests reaches by chance at most (Bonferroni).
+double better_of(std::initializer_list<double> p) { return std::min(1.0, static_cast<double>(p.size()) * std::min(p)); }
 
-}  // namespace
+// The cells with what the evidence says of each: the significant ones level by level.
+class Hierarchy {
+ public:
+  Hierarchy(std::vector<CellOfRows>& cells, const FittedGap& before, const FittedGap* after, int n_shapes)
+      : cells_(cells), before_(before), after_(after), n_shapes_(n_shapes) {}
 
-void mark_significant(std::vector<GapCell>& cells) {
-  std::vector<GapCell*> all;
-  for (GapCell& cell : cells) cell.significant = cell.onset = false, all.push_back(&cell);
-  select(all,
-         {[](const GapCell& c) { return c.observable; }, [](const GapCell& c) { return c.region; },
-          [](const GapCell& c) { return c.point; }, [](const GapCell& c) { return std::to_string(c.window[0]); }},
-         0);
-  constexpr double onset_z = 3;
+  std::vector<GapCell> judged() {
+    for (CellOfRows& c : cells_) judge(c);
+    std::vector<std::size_t> all(cells_.size());
+    std::iota(all.begin(), all.end(), 0);
+    select(all, 0);
+    std::vector<GapCell> result;
+    for (CellOfRows& c : cells_) result.push_back(std::move(c.cell));
+    result.insert(result.end(), coarse_.begin(), coarse_.end());
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t n_levels = 4;
+
+  static std::string key(const GapCell& cell, std::size_t level) {
+    return level == 0 ? cell.observable : level == 1 ? cell.region : level == 2 ? cell.point : std::to_string(cell.window[0]);
+  }
+
+  // A shape that the best of several hypotheses gives is as good as the best of as many tests.
+  double p_of_shape(const std::vector<int>& rows) const { return std::min(1.0, n_shapes_ * before_.p_of_shape(rows)); }
+
+  void judge(CellOfRows& c) const {
+    GapCell& cell = c.cell;
+    const bool exact = cell.test != CellTest::z && cell.test != CellTest::energy_distance;
+    if (!exact) {
+      const double of_means = cell.p, any = before_.p_of_any(c.rows), shape = p_of_shape(c.rows);
+      if (std::min(any, shape) < of_means) cell.test = any < shape ? CellTest::fitted : CellTest::shape;
+      cell.p = before_.has_shape() ? better_of({of_means, any, shape}) : better_of({of_means, any});
+    }
+    cell.score = std::copysign(score_of_p(cell.p), cell.z);
+    if (after_)
+      cell.score_after = std::copysign(score_of_p(better_of({after_->p_of_any(c.rows), after_->p_of_mean(c.rows)})), -after_->mean(c.rows));
+  }
+
+  std::vector<int> rows_of(const std::vector<std::size_t>& group) const {
+    std::vector<int> rows;
+    for (const std::size_t i : group) rows.insert(rows.end(), cells_[i].rows.begin(), cells_[i].rows.end());
+    return rows;
+  }
+
+  // Of a level: groups of cells by a key; those whose combined p pass are handed on. Returns whether one passed. A gap that is spread so
+  // thin that no part of a group shows it is a coarse cell, the group itself.
+  bool select(const std::vector<std::size_t>& cells, std::size_t level) {
+    if (level == n_levels) {
+      for (const std::size_t i : cells) cells_[i].cell.significant = true;
+      return true;
+    }
+    std::vector<std::string> names;
+    std::vector<std::vector<std::size_t>> groups;
+    for (const std::size_t i : cells) {
+      const std::string name = key(cells_[i].cell, level);
+      const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+      if (at == static_cast<std::ptrdiff_t>(names.size())) names.push_back(name), groups.emplace_back();
+      groups[static_cast<std::size_t>(at)].push_back(i);
+    }
+    std::vector<double> p;
+    for (const auto& group : groups) {
+      std::vector<double> own;
+      for (const std::size_t i : group) own.push_back(cells_[i].cell.p);
+      p.push_back(before_.has_shape() && group.size() > 1 ? better_of({simes(own), p_of_shape(rows_of(group))}) : simes(own));
+    }
+    const auto passed = benjamini_hochberg(p);
+    bool any = false;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (!passed[g]) continue;
+      if (!select(groups[g], level + 1)) add_coarse(groups[g], level, p[g]);
+      any = true;
+    }
+    return any;
+  }
+
+  void add_coarse(const std::vector<std::size_t>& group, std::size_t level, double p) {
+    const std::vector<int> rows = rows_of(group);
+    const GapCell& first = cells_[group.front()].cell;
+    GapCell cell;
+    cell.measured = cell.simulated = cell.z = cell.u_num = cell.u_input = cell.u_D = cell.u_S = cell.u_val = not_there;
+    cell.observable = first.observable;
+    cell.region = level > 0 ? first.region : "all", cell.point = level > 1 ? first.point : all_points;
+    cell.window = first.window;
+    for (const std::size_t i : group) {
+      cell.window[0] = std::min(cell.window[0], cells_[i].cell.window[0]);
+      cell.window[1] = std::max(cell.window[1], cells_[i].cell.window[1]);
+    }
+    cell.p = p, cell.test = CellTest::shape, cell.significant = true;
+    cell.score = std::copysign(score_of_p(p), -before_.mean(rows));
+    if (after_) cell.score_after = std::copysign(score_of_p(after_->p_of_any(rows)), -after_->mean(rows));
+    coarse_.push_back(std::move(cell));
+  }
+
+  std::vector<CellOfRows>& cells_;
+  const FittedGap& before_;
+  const FittedGap* after_;
+  int n_shapes_;
+  std::vector<GapCell> coarse_;
+};
+
+void mark_onsets(std::vector<GapCell>& cells) {
+  constexpr double onset_score = 3;
+  const auto shows = [](const GapCell& c) { return c.significant && !std::isnan(c.z) && std::abs(c.score) > onset_score; };
   for (GapCell& cell : cells) {
-    if (!cell.significant || std::abs(cell.z) <= onset_z || std::isnan(cell.window[0])) continue;
+    if (!shows(cell) || std::isnan(cell.window[0])) continue;
     cell.onset = std::none_of(cells.begin(), cells.end(), [&](const GapCell& c) {
-      return c.point == cell.point && c.significant && std::abs(c.z) > onset_z &&
-             (c.window[0] < cell.window[0] || (c.window[0] == cell.window[0] && c.onset));
+      return c.point == cell.point && shows(c) && (c.window[0] < cell.window[0] || (c.window[0] == cell.window[0] && c.onset));
     });
   }
 }
 
-std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter) {
-  std::vector<GapCell> cells;
+}  // namespace
+
+std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const Fit& none, const Fit* chosen, int n_tried) {
+  const FittedGap before(model, none, chosen);
+  const std::optional<FittedGap> after = chosen ? std::optional<FittedGap>(std::in_place, model, *chosen) : std::nullopt;
+  std::vector<CellOfRows> cells;
   for (std::size_t p = 0; p < model.training().size(); ++p) {
-    for (GapCell& cell : PointCells(model, fitter.base(), p).cells()) cells.push_back(std::move(cell));
+    for (CellOfRows& c : PointCells(model, fitter.base(), p).cells()) {
+      for (int& row : c.rows) row = before.row(p, row);
+      cells.push_back(std::move(c));
+    }
   }
-  mark_significant(cells);
-  return cells;
+  std::vector<GapCell> judged = Hierarchy(cells, before, after ? &*after : nullptr, n_tried).judged();
+  mark_onsets(judged);
+  return judged;
 }
 
 }  // namespace snag

@@ -3,8 +3,11 @@
 //
 //   u_val^2 = u_num^2 + u_input^2 + u_D^2 + scatter_S/N_S                                              [ASME V&V 20]
 //
-// exact tests for counts and events, log-rank for censored times, energy distance for the scatter of repeats, and a false discovery rate of
-// 5 % in four levels: observable, region, point, window.
+// exact tests for counts and events, log-rank for censored times, energy distance for the scatter of repeats. The mean over a window hides
+// what changes sign in it, and u_input counts the inputs anew in each cell; so rows are also tested with the inputs as all rows fit them,
+// for anything and for what the effects of the verdict add (fitted_gap.hpp). The best test counts, times their number. False discovery rate
+// 5 % in four levels: observable, region, point, window; a level at which the rows show the effects together, but no part of it alone does,
+// is a cell of its own.
 #include <vector>
 
 #include "diagnosis/data/verdict.hpp"
@@ -12,12 +15,8 @@
 
 namespace snag {
 
-/// Cells of the training points.
-std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter);
-
-/// Marks cells as significant: an observable where its combined p (Simes) passes at rate 0.05 among the observables, a region within it
-/// among its regions, a point within that among its points, a window among its windows. Then the onset: the first significant window of a
-/// path with |z| > 3.
-void mark_significant(std::vector<GapCell>& cells);
+/// Cells of the training points, judged by the fit of no effects and, if there is one, by the chosen fit with effects, the best of
+/// `n_tried`.
+std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const Fit& none, const Fit* chosen = nullptr, int n_tried = 1);
 
 }  // namespace snag

@@ -68,6 +68,11 @@ Experiment of_one_row(const Observable& observable, const std::vector<Datum>& da
   return experiment;
 }
 
+std::vector<GapCell> cells_of(Responses& responses) {
+  Fitter fitter(responses);
+  return gap_cells(responses, fitter, fitter.fit({}, Eigen::VectorXd()));
+}
+
 /// Requirement: a cell tells that repeats scatter otherwise than runs, and only then, though their means agree.
 TEST(Rows, ScatterOfRepeatsIsCompared) {
   std::vector<Datum> data;
@@ -77,7 +82,7 @@ TEST(Rows, ScatterOfRepeatsIsCompared) {
   const auto cell_of = [&](double scatter) {
     Scattered simulator(2, scatter);
     Responses responses(experiment, simulator);
-    return gap_cells(responses, Fitter(responses)).front();
+    return cells_of(responses).front();
   };
   const GapCell alike = cell_of(1), other = cell_of(12);
   EXPECT_GT(alike.p, 0.1);
@@ -152,11 +157,30 @@ TEST(Rows, CellsAreToldApartByRegion) {
   experiment.regions = {{.id = "pipe", .upper = {0.95, 1, 1}}, {.id = "eye", .upper = {1.45, 1, 1}}};
   Straight simulator(n);
   Responses responses(experiment, simulator);
-  for (const GapCell& cell : gap_cells(responses, Fitter(responses))) {
+  for (const GapCell& cell : cells_of(responses)) {
     const double middle = 0.5 * (cell.window[0] + cell.window[1]);
     EXPECT_EQ(cell.region, middle < 0.95 ? "pipe" : middle < 1.45 ? "eye" : "elsewhere") << middle;
     EXPECT_LE(cell.window[1], cell.region == "pipe" ? 0.95 : cell.region == "eye" ? 1.45 : 2);
     EXPECT_EQ(cell.significant, cell.region == "eye") << middle;
+  }
+}
+
+/// Requirement: a gap that changes sign within a cell, so that its mean shows nothing, is found, and only then.
+TEST(Rows, GapThatChangesSignIsFound) {
+  constexpr int n = 20;
+  for (const double size : {0.0, 5e-3}) {
+    std::vector<Datum> data;
+    for (int i = 0; i < n; ++i) data.push_back({.time = 0.1 * i, .value = 0.1 * i + (i >= 5 && i < 10 ? size * (i % 2 ? 1 : -1) : 0)});
+    const Experiment experiment = of_one_row({.id = "x", .unit = "m", .noise_u = 1e-3, .calibration_group = ""}, data);
+    Straight simulator(n);
+    Responses responses(experiment, simulator);
+    for (const GapCell& cell : cells_of(responses)) {
+      const bool is_there = size > 0 && cell.window[0] < 0.95 && cell.window[1] > 0.45;
+      EXPECT_LT(std::abs(cell.z), 3);
+      EXPECT_EQ(cell.significant, is_there) << cell.window[0];
+      EXPECT_EQ(cell.test, is_there ? CellTest::fitted : CellTest::z);
+      EXPECT_EQ(std::abs(cell.score) > 3, is_there);
+    }
   }
 }
 

@@ -15,8 +15,8 @@ std::vector<GapCell> cells_of(const formula::Truth& truth, std::uint64_t seed) {
   const Experiment experiment = formula::experiment(truth, 6, 0, 3, 3e-4, seed);
   formula::Sphere sphere(experiment);
   Responses model(experiment, sphere);
-  const Fitter fitter(model);
-  std::vector<GapCell> cells = gap_cells(model, fitter);
+  Fitter fitter(model);
+  std::vector<GapCell> cells = gap_cells(model, fitter, fitter.fit({}, Eigen::VectorXd()));
   judge_origins(model, fitter, cells);
   return cells;
 }
