@@ -72,7 +72,7 @@ std::vector<int> live_candidates(const Responses& model, std::map<std::string, s
 
 Attribution attribute(Responses& model, Fitter& fitter, const std::function<void(const std::string&, double)>& progress);
 
-/// Probabilities of all hypotheses from evidence, tempered by the calibration, and prior.
+/// Probabilities of all hypotheses from evidence and prior.
 void set_probabilities(Attribution& attribution);
 
 /// Probability that all of these effects act, alone or with others.

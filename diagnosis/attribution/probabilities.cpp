@@ -1,15 +1,14 @@
 // Which hypothesis leads, and the probabilities of all from evidence and prior:
 //
-//   P(h) = exp(ln Z_h/T + ln prior_h) / sum over all hypotheses, those that were not fitted and outside among them
+//   P(h) = Z_h prior_h / sum over all hypotheses, those that were not fitted and outside among them
 //
-// Z: evidence with the choice of a remainder, less what a guard takes away; T: temperature of the calibration, by which evidence
-// overstates.
+// Z: evidence with the choice of a remainder, less what a guard takes away. Evidence counts in full (Bayes), with no exponent that is fitted
+// to sets whose truth is known: what the models leave is in the hypotheses themselves (errors of form, remainder, outside).
 #include <algorithm>
 #include <cmath>
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/attribution.hpp"
-#include "diagnosis/attribution/calibration.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -84,10 +83,9 @@ std::map<std::string, NotFitted> larger_sets(const Attribution& attribution) {
 }  // namespace
 
 void set_probabilities(Attribution& attribution) {
-  // The evidence overstates, not the prior: data that say nothing leave it as it is.
   std::vector<std::pair<std::string, double>> weights;
   const auto add = [&](const std::string& name, double log_evidence, double log_prior) {
-    weights.emplace_back(name, (log_evidence - attribution.fits.front().log_evidence) / calibration().temperature + log_prior);
+    weights.emplace_back(name, log_evidence - attribution.fits.front().log_evidence + log_prior);
   };
   for (std::size_t i = 0; i < attribution.names.size(); ++i)
     add(attribution.names[i], attribution.log_evidence(static_cast<int>(i)), attribution.log_prior[i]);

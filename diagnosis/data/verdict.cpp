@@ -114,8 +114,7 @@ std::string verdict_json(const Verdict& v) {
                       {"leave_one_point_out", numbers(v.leave_one_out)},
                       {"screening", numbers(v.screening)},
                       {"weak_form", numbers(v.weak_form)},
-                      {"sham_rate", v.placebo_rate},
-                      {"temperature", v.temperature}};
+                      {"sham_rate", v.placebo_rate}};
   json["nuisances"] = numbers(v.nuisances);
   json["noise"] = Json::object();
   for (const auto& [observable, noise] : v.noise)

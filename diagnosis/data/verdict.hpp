@@ -157,7 +157,6 @@ struct Verdict {
   Shrinkage shrinkage_regression;                         // of a correction without physics
   GapBars gap;
   Identifiability identifiability;
-  double temperature = 1;  // that tempered the probabilities
   int runs = 0;
   std::string data_sha256, withheld_sha256;
 };

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/words.hpp"
-#include "diagnosis/attribution/calibration.hpp"
 #include "diagnosis/judgement/checks.hpp"
 
 namespace snag {
@@ -106,7 +105,6 @@ class Judge {
     set_probabilities(a_);
     v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.weak_form = a_.weak_form,
     v_.placebo_rate = a_.placebo_rate;
-    v_.temperature = calibration().temperature;
     for (std::size_t i = 0; i < a_.fits.size(); ++i) {
       v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence + a_.remainder[i].gain - a_.fits[0].log_evidence;
       if (!a_.fits[i].hypothesis.effects.empty()) v_.remainder[a_.names[i]] = a_.remainder[i].log_evidence;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "diagnosis/attribution/attribution.hpp"
-#include "diagnosis/attribution/calibration.hpp"
 
 namespace snag {
 namespace {
@@ -27,7 +26,7 @@ Attribution with_evidence(double none, double a, double b, double both, double d
   return attribution;
 }
 
-/// Requirement: data that say nothing leave the prior as it is, whatever the temperature; so do those that cannot show an effect.
+/// Requirement: data that say nothing leave the prior as it is; so do those that cannot show an effect.
 TEST(Probabilities, ArePriorsWhereDataSayNothing) {
   Attribution attribution = with_evidence(-7, -7, -7, -7, -7);
   attribution.not_fitted["unseen"] = {-7, std::log(prior_effect)};
@@ -39,14 +38,13 @@ TEST(Probabilities, ArePriorsWhereDataSayNothing) {
   EXPECT_NEAR(attribution.probability.at("outside"), prior_discrepancy / total, 1e-12);
 }
 
-/// Requirement: evidence counts by its share of the temperature, and what a guard takes from a fit does not count.
+/// Requirement: evidence counts in full, and what a guard takes from a fit does not count.
 TEST(Probabilities, WeighEvidence) {
   Attribution attribution = with_evidence(0, 10, 2, 14, -50);
   set_probabilities(attribution);
   const auto ratio = [&](const char* x, const char* y) { return attribution.probability.at(x) / attribution.probability.at(y); };
-  const double T = calibration().temperature;
-  EXPECT_NEAR(std::log(ratio("a", "b")), 8 / T, 1e-9);
-  EXPECT_NEAR(std::log(ratio("a+b", "a")), 4 / T + std::log(prior_effect / prior_none), 1e-9);
+  EXPECT_NEAR(std::log(ratio("a", "b")), 8.0, 1e-9);
+  EXPECT_NEAR(std::log(ratio("a+b", "a")), 4.0 + std::log(prior_effect / prior_none), 1e-9);
   attribution.evidence_penalty.back() = 4;
   set_probabilities(attribution);
   EXPECT_NEAR(std::log(ratio("a+b", "a")), std::log(prior_effect / prior_none), 1e-9);
@@ -61,7 +59,7 @@ TEST(Probabilities, OneMoreKeepsItsPrior) {
   set_probabilities(attribution);
   const auto over_set = [&](const char* name) { return attribution.probability.at(name) / attribution.probability.at("a+b"); };
   EXPECT_NEAR(over_set("a+b+c"), more / set, 1e-12);
-  EXPECT_NEAR(std::log(over_set("a+b+d")), std::log(more / set) - 4 / calibration().temperature, 1e-9);
+  EXPECT_NEAR(std::log(over_set("a+b+d")), std::log(more / set) - 4, 1e-9);
   EXPECT_NEAR(probability_of(attribution, {"a", "b"}), 1, 1e-9);
   // What a guard takes from the set it takes from the larger ones, too.
   attribution.evidence_penalty[3] = 20;
