@@ -67,6 +67,8 @@ std::string verdict_sentence(const Verdict& v) {
   const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
   for (std::size_t i = 0; i < v.effects.size(); ++i) {
     causes += (i > 0 ? ", " : "") + v.effects[i];
+    if (const auto other = v.same_as.find(v.effects[i]); other != v.same_as.end())
+      causes += " (or " + joined(other->second) + ", which does the same here)";
     constexpr double least_share = 0.005;
     if (has_shares && i < v.causes.size() && v.causes[i].share >= least_share)
       causes += " (" + share_in_words(v.causes[i].share) + " of it)";

@@ -44,6 +44,10 @@ struct Attribution {
   Identifiability identifiability;
   double placebo_rate = 0;
   std::vector<std::string> notes{};
+  std::map<int, int> other_name_of{};  // effect -> the one of the verdict that is the same cause (same_cause.hpp)
+
+  /// The effects of a fit, each by its name in the verdict, in order, once.
+  std::vector<int> causes_of(int fit) const;
 
   int first() const;  // the likeliest fit
   /// The likeliest fit by what its effects explain, its remainder aside; of those that do not hold effect `without`.
@@ -75,8 +79,9 @@ Attribution attribute(Responses& model, Fitter& fitter, const std::function<void
 /// Probabilities of all hypotheses from evidence and prior.
 void set_probabilities(Attribution& attribution);
 
-/// Probability that all of these effects act, alone or with others.
-double probability_of(const Attribution& attribution, const std::vector<std::string>& effects);
+/// Probability that all of these effects act, alone or with others; each under its own name or one of these that mean the same.
+double probability_of(const Attribution& attribution, const std::vector<std::string>& effects,
+                      const std::map<std::string, std::vector<std::string>>& same_as = {});
 
 /// Log predictive density of each training point given the others, summed.
 double leave_one_out(const Fit& fit);

@@ -2,8 +2,8 @@
 //
 //   P(h) = Z_h prior_h / sum over all hypotheses, those that were not fitted and outside among them
 //
-// Z: evidence with the choice of a remainder, less what a guard takes away. Evidence counts in full (Bayes), with no exponent that is fitted
-// to sets whose truth is known: what the models leave is in the hypotheses themselves (errors of form, remainder, outside).
+// Z: evidence with the choice of a remainder, less what a guard takes away. Evidence counts in full (Bayes), with no exponent that is
+// fitted to sets whose truth is known: what the models leave is in the hypotheses themselves (errors of form, remainder, outside).
 #include <algorithm>
 #include <cmath>
 
@@ -44,14 +44,25 @@ int Attribution::best_part_of(int fit, int without) const {
   return best;
 }
 
+std::vector<int> Attribution::causes_of(int fit) const {
+  std::vector<int> causes;
+  for (const int k : fits[static_cast<std::size_t>(fit)].hypothesis.effects) {
+    const auto other = other_name_of.find(k);
+    causes.push_back(other == other_name_of.end() ? k : other->second);
+  }
+  std::sort(causes.begin(), causes.end());
+  causes.erase(std::unique(causes.begin(), causes.end()), causes.end());
+  return causes;
+}
+
 std::vector<int> Attribution::alternatives_to(int fit) const {
   const auto holds = [](const std::vector<int>& all, const std::vector<int>& part) {
-    return std::all_of(part.begin(), part.end(), [&](int k) { return std::count(all.begin(), all.end(), k) > 0; });
+    return std::includes(all.begin(), all.end(), part.begin(), part.end());
   };
-  const auto& own = fits[static_cast<std::size_t>(fit)].hypothesis.effects;
+  const std::vector<int> own = causes_of(fit);
   std::vector<int> alternatives;
   for (int j = 0; j < static_cast<int>(fits.size()); ++j) {
-    const auto& other = fits[static_cast<std::size_t>(j)].hypothesis.effects;
+    const std::vector<int> other = causes_of(j);
     const double behind = weight[static_cast<std::size_t>(fit)] - weight[static_cast<std::size_t>(j)];
     if (behind < nats_of_rule && !holds(other, own) && !holds(own, other)) alternatives.push_back(j);
   }
@@ -99,13 +110,17 @@ void set_probabilities(Attribution& attribution) {
   for (const auto& [name, weight] : weights) attribution.probability[name] = std::exp(weight - total);
 }
 
-double probability_of(const Attribution& attribution, const std::vector<std::string>& effects) {
+double probability_of(const Attribution& attribution, const std::vector<std::string>& effects,
+                      const std::map<std::string, std::vector<std::string>>& same_as) {
   double sum = 0;
   for (const auto& [name, p] : attribution.probability) {
     const std::vector<std::string> acting = split(name, '+');
-    const bool all = std::all_of(effects.begin(), effects.end(),
-                                 [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; });
-    if (all) sum += p;
+    const auto is_there = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
+    const auto acts = [&](const std::string& effect) {
+      const auto others = same_as.find(effect);
+      return is_there(effect) || (others != same_as.end() && std::any_of(others->second.begin(), others->second.end(), is_there));
+    };
+    if (std::all_of(effects.begin(), effects.end(), acts)) sum += p;
   }
   return sum;
 }

@@ -90,6 +90,7 @@ Json how_far(const Verdict& v) {
 std::string verdict_json(const Verdict& v) {
   Json json{{"name", v.name}, {"verdict", word(v.verdict)},    {"effects", v.effects}, {"wording", word(v.wording)},
             {"tie", v.tie},   {"alternatives", v.alternatives}};
+  json["same_as"] = v.same_as.empty() ? Json::object() : Json(v.same_as);
   json["probability"] = numbers(v.probability);
   json["acts"] = numbers(v.acts);
   json["causes"] = Json::array();
@@ -109,12 +110,9 @@ std::string verdict_json(const Verdict& v) {
                                         {"remainder", number(v.gap.remainder)}}
                                  : Json("not computable");
   json["identifiability"] = identifiability(v.identifiability);
-  json["evidence"] = {{"log_evidence", numbers(v.log_evidence)},
-                      {"remainder", numbers(v.remainder)},
-                      {"leave_one_point_out", numbers(v.leave_one_out)},
-                      {"screening", numbers(v.screening)},
-                      {"weak_form", numbers(v.weak_form)},
-                      {"sham_rate", v.placebo_rate}};
+  json["evidence"] = {
+      {"log_evidence", numbers(v.log_evidence)}, {"remainder", numbers(v.remainder)}, {"leave_one_point_out", numbers(v.leave_one_out)},
+      {"screening", numbers(v.screening)},       {"weak_form", numbers(v.weak_form)}, {"sham_rate", v.placebo_rate}};
   json["nuisances"] = numbers(v.nuisances);
   json["noise"] = Json::object();
   for (const auto& [observable, noise] : v.noise)

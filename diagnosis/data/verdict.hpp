@@ -128,7 +128,8 @@ struct Verdict {
   std::string name;  // of the experiment
   VerdictKind verdict = VerdictKind::none;
   std::vector<std::string> effects{};  // of the first hypothesis that names effects; for outside: the best effect, partial and no cause
-  double p_effects = 0;                // that all of them act, alone or with others
+  std::map<std::string, std::vector<std::string>> same_as{};  // named effect -> other names of the same cause: nothing tells them apart
+  double p_effects = 0;                                       // that all of them act, under one of these names, alone or with others
   Wording wording = Wording::no_gap;
   std::vector<std::string> alternatives{};        // other causes that the data do not tell from the named ones by the nats of the rule
   std::vector<std::string> tie{};                 // hypotheses that share the verdict of a tie

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/words.hpp"
+#include "diagnosis/attribution/same_cause.hpp"
 #include "diagnosis/judgement/checks.hpp"
 
 namespace snag {
@@ -184,11 +185,21 @@ class Judge {
     if (best > 0) v_.effects = effect_names(model_, a_.fits[best]);
   }
 
+  void find_other_names(int first) {
+    for (const int k : a_.fits[static_cast<std::size_t>(first)].hypothesis.effects) {
+      for (const int other : same_causes(a_, first, k)) {
+        a_.other_name_of[other] = k;
+        v_.same_as[model_.effects()[k].name].push_back(model_.effects()[other].name);
+      }
+    }
+  }
+
   void effects(int first) {
+    find_other_names(first);
     const int rival = best_predictor(first);
     v_.effects = effect_names(model_, a_.fits[first]);
     // Whether a further effect acts that is too weak to be named does not make the named ones less certain.
-    const double p = v_.p_effects = probability_of(a_, v_.effects);
+    const double p = v_.p_effects = probability_of(a_, v_.effects, v_.same_as);
     const bool several_points = model_.training().size() > 1;
     if (discrepancy_leads_by_ > 0) {
       tie({a_.names[first], "outside"});
@@ -223,7 +234,9 @@ class Judge {
   void note_weak_second(int first) {
     const auto likeliest =
         std::max_element(v_.probability.begin(), v_.probability.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    const std::vector<std::string> acting = split(likeliest->first, '+');
+    std::vector<std::string> acting = split(likeliest->first, '+');
+    for (const auto& [effect, others] : v_.same_as)
+      std::erase_if(acting, [&](const std::string& name) { return std::count(others.begin(), others.end(), name) > 0; });
     const auto acts = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
     if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
     v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + number_text(v_.probability.at(a_.names[first])) + ") is " +
@@ -235,7 +248,7 @@ class Judge {
   int equal_rival(int first) const {
     constexpr double equal = 1;  // nats
     for (int i = 0; i < static_cast<int>(a_.fits.size()); ++i) {
-      if (i != first && a_.fits[i].hypothesis.effects.size() == a_.fits[first].hypothesis.effects.size() &&
+      if (a_.causes_of(i) != a_.causes_of(first) && a_.fits[i].hypothesis.effects.size() == a_.fits[first].hypothesis.effects.size() &&
           a_.weight[i] > a_.weight[first] - equal)
         return i;
     }
@@ -248,9 +261,8 @@ class Judge {
     int best = first;
     for (int i = 0; i < static_cast<int>(a_.fits.size()); ++i) {
       const Fit& fit = a_.fits[i];
-      const auto &own = a_.fits[first].hypothesis.effects, &other = fit.hypothesis.effects;
-      const bool surplus = other.size() > own.size() &&
-                           std::all_of(own.begin(), own.end(), [&](int k) { return std::count(other.begin(), other.end(), k) > 0; });
+      const std::vector<int> own = a_.causes_of(first), other = a_.causes_of(i);
+      const bool surplus = i != first && std::includes(other.begin(), other.end(), own.begin(), own.end());
       const Eigen::Index bounded = fit.linear.lower.size(), m = static_cast<Eigen::Index>(model_.nuisances().size());
       const Eigen::VectorXd nuisances = (fit.solution.d - fit.linear.prior).segment(bounded, m);
       constexpr double far = 3;

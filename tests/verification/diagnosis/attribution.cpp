@@ -87,6 +87,7 @@ TEST(Attribution, SingleEffects) {
       if (!hit) std::printf("%s: %s %s\n", name.c_str(), word(verdict.verdict), joined_effects(verdict).c_str());
       EXPECT_TRUE(verdict.gap.computable);
       if (!hit) continue;
+      EXPECT_TRUE(verdict.same_as.empty()) << name;
       for (const GapCell& cell : verdict.where) ++cells_after, gaps_after += std::abs(cell.score_after) > 1.96;
       const EffectEstimate& estimate = verdict.parameters.at(name);
       ++strengths, covered += std::abs(estimate.mean - theta) < 1.96 * estimate.sd + 0.05 * theta * (i % 2);
@@ -200,13 +201,20 @@ TEST(Attribution, OutsideIsNoEffectWithALargeRemainder) {
   for (const double gust : {1.0, 5.0}) EXPECT_EQ(formula::said(judged({.gust = gust}, 9001)), "outside") << gust;
 }
 
-// Two effects that move a particle in the same way are a tie, never one of them; the tie is told before any data as well.
-TEST(Attribution, IndistinguishableEffectsTie) {
+// Two effects that move a particle in the same way are one cause of two names, as sure as the one alone; before any data it is told that
+// they are a tie.
+TEST(Attribution, TwoNamesOfOneCause) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 4, 0, 3, noise, 11);
   formula::Sphere sphere(experiment, false, true);
-  const Verdict verdict = diagnose(experiment, sphere);
-  EXPECT_EQ(verdict.verdict, VerdictKind::tie);
-  EXPECT_EQ(verdict.tie, (std::vector<std::string>{"added_mass", "entrained_water"}));
+  const Verdict verdict = diagnose(experiment, sphere), alone = formula::judged(experiment);
+  EXPECT_EQ(verdict.verdict, VerdictKind::effects);
+  EXPECT_EQ(verdict.wording, Wording::attributed);
+  EXPECT_EQ(verdict.effects, std::vector<std::string>{"added_mass"});
+  EXPECT_EQ(verdict.same_as, (std::map<std::string, std::vector<std::string>>{{"added_mass", {"entrained_water"}}}));
+  EXPECT_TRUE(verdict.alternatives.empty());
+  EXPECT_TRUE(alone.same_as.empty());
+  EXPECT_NEAR(verdict.p_effects, alone.p_effects, 0.05);
+  EXPECT_GT(verdict.probability.at("entrained_water"), 0.2);  // each has its own share of the prior
   EXPECT_FALSE(verdict.curves.empty());
   for (const GapCurve& curve : verdict.curves) {
     EXPECT_EQ(curve.base.size(), curve.time.size());

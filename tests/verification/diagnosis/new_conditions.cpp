@@ -1,6 +1,6 @@
 // labels: long
 // timeout: 300
-// cost: 5
+// cost: 20
 // Requirement: where the data do not decide, a condition is proposed at which one test tells the two likeliest hypotheses apart by at least
 // twice the nats of a repeat, in 8 of 10 ties; none is proposed for effects that are one at every condition.
 #include <gtest/gtest.h>
@@ -78,6 +78,6 @@ TEST(NewConditions, NoneForTwins) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 6, 0, 3, 5e-4, 8800);
   formula::Sphere sphere(experiment, false, true);
   const Verdict verdict = diagnose(experiment, sphere);
-  EXPECT_EQ(verdict.verdict, VerdictKind::tie);
+  EXPECT_FALSE(verdict.same_as.empty());
   EXPECT_TRUE(verdict.identifiability.new_conditions.empty());
 }
