@@ -1,5 +1,5 @@
 // timeout: 600
-// cost: 25
+// cost: 35
 // Requirement: the diagnosis names the effect that made the data, or none, or says that it is not in the library; its intervals cover the
 // truth. Truths come with another time step, other inputs within their uncertainty, and effects of another form.
 #include <gtest/gtest.h>
@@ -144,6 +144,27 @@ TEST(Attribution, ThreeEffectsInRounds) {
   std::printf("three effects: all right in %d of 6, outside %d\n", right, outside);
   EXPECT_GE(right, 5);
   EXPECT_EQ(outside, 0);
+}
+
+// Four and five effects, each clear of the others.
+TEST(Attribution, FourAndFiveEffectsInRounds) {
+  const std::map<std::string, double> five{
+      {"added_mass", 0.5}, {"drag_magnitude", 0.4}, {"lift", 1.8}, {"operating_point", 0.3}, {"pressure_gradient", 1}};
+  int right = 0, named = 0, wrong = 0, act = 0;
+  for (int i = 0; i < 8; ++i) {
+    std::map<std::string, double> effects = five;
+    if (i % 4 != 3) effects.erase(std::array{"drag_magnitude", "lift", "operating_point"}.at(static_cast<std::size_t>(i % 4)));
+    std::string truth;
+    for (const auto& [name, theta] : effects) truth += (truth.empty() ? "" : "+") + name;
+    const Verdict verdict = judged({.effects = effects}, 3400 + i);
+    const bool hit = formula::said(verdict) == truth;
+    if (!hit) std::printf("%s: %s %s\n", truth.c_str(), word(verdict.verdict), joined_effects(verdict).c_str());
+    right += hit, act += static_cast<int>(effects.size());
+    for (const std::string& effect : verdict.effects) (effects.contains(effect) ? named : wrong) += 1;
+  }
+  std::printf("four and five effects: all right in %d of 8; %d of %d named, %d others\n", right, named, act, wrong);
+  EXPECT_GE(right, 6);
+  EXPECT_EQ(wrong, 0);
 }
 
 // An effect whose law is another one by up to 30 %, more than any form of it: it is named, and a share of the gap stays.

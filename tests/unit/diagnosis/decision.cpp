@@ -1,0 +1,98 @@
+// Requirement: the guards of a verdict do what docs/theory.md says of them, each on a verdict or a fit that is made for it.
+#include "diagnosis/judgement/decision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/verification/diagnosis/formula.hpp"
+
+namespace snag {
+namespace {
+
+/// Names lift, with what the withheld points say of it.
+Verdict named_lift(double shrunk) {
+  Verdict verdict;
+  verdict.verdict = VerdictKind::effects, verdict.wording = Wording::attributed;
+  verdict.effects = {"lift"}, verdict.causes = {{.effect = "lift", .share = 0.9}}, verdict.unexplained = 0.1;
+  verdict.shrinkage["lift"] = {shrunk, shrunk - 0.1, shrunk + 0.1};
+  return verdict;
+}
+
+TEST(Decision, WhatShrinksNothingIsWithdrawn) {
+  for (const double shrunk : {0.0, -0.3}) {
+    Verdict verdict = named_lift(shrunk);
+    withdraw_what_shrinks_nothing(verdict);
+    EXPECT_EQ(verdict.verdict, VerdictKind::tie);
+    EXPECT_EQ(verdict.wording, Wording::undecided);
+    EXPECT_EQ(verdict.tie, (std::vector<std::string>{"lift", "outside"}));
+    EXPECT_TRUE(verdict.causes.empty());
+    EXPECT_TRUE(std::isnan(verdict.unexplained));
+    ASSERT_EQ(verdict.notes.size(), 1);
+    EXPECT_EQ(verdict.notes[0], "The evidence is for lift, but the gap at the withheld points does not shrink by it: it is not named.");
+  }
+}
+
+TEST(Decision, WhatShrinksOrCannotBeMeasuredStays) {
+  Verdict without = named_lift(1);
+  without.shrinkage.clear();
+  Verdict outside = named_lift(-1);
+  outside.verdict = VerdictKind::outside;
+  for (Verdict verdict : {named_lift(0.01), named_lift(0.9), named_lift(std::numeric_limits<double>::quiet_NaN()), without, outside}) {
+    const VerdictKind before = verdict.verdict;
+    withdraw_what_shrinks_nothing(verdict);
+    EXPECT_EQ(verdict.verdict, before);
+    EXPECT_TRUE(verdict.notes.empty());
+    EXPECT_EQ(verdict.causes.size(), 1);
+  }
+}
+
+/// The attribution of data with lift, changed before it is judged.
+template <class Change>
+Verdict judged_after(const Change& change) {
+  const Experiment experiment = formula::experiment({.effects = {{"lift", 1}}}, 4, 0, 3, 5e-4, 71);
+  formula::Sphere sphere(experiment);
+  Responses model(experiment, sphere);
+  Fitter fitter(model);
+  Attribution attribution = attribute(model, fitter, {});
+  EXPECT_EQ(attribution.names[static_cast<std::size_t>(attribution.first())], "lift");
+  change(attribution);
+  Verdict verdict;
+  judge(model, attribution, verdict);
+  return verdict;
+}
+
+bool has_note(const Verdict& verdict, const std::string& begin) {
+  return std::any_of(verdict.notes.begin(), verdict.notes.end(), [&](const std::string& note) { return note.starts_with(begin); });
+}
+
+TEST(Decision, EffectLessThanTwoDeviationsClearIsRefused) {
+  for (const double clear : {1.9, 2.1}) {
+    // A strength alone that is hardly known, whatever the evidence: forms and random runs can make that.
+    const Verdict verdict = judged_after([&](Attribution& a) {
+      for (std::size_t i = 0; i < a.fits.size(); ++i) {
+        Fit& fit = a.fits[i];
+        if (fit.hypothesis.effects.size() > 1) a.weight[i] -= 1e3, a.evidence_penalty[i] = 1e3;
+        for (Eigen::Index e = 0; e < fit.theta.size(); ++e) fit.theta_sd[e] = std::abs(fit.theta[e]) / clear;
+      }
+    });
+    EXPECT_EQ(verdict.verdict == VerdictKind::effects, clear > 2) << clear;
+    EXPECT_EQ(has_note(verdict, "A strength of lift is less than 2 standard deviations clear of nothing"), clear < 2) << clear;
+  }
+}
+
+TEST(Decision, CheckThatFailsIsNotedAndDecidesNothing) {
+  const Verdict sound = judged_after([](Attribution&) {});
+  const Verdict failing = judged_after([](Attribution& a) { a.fits[static_cast<std::size_t>(a.first())].residual[3] += 9; });
+  EXPECT_EQ(sound.verdict, VerdictKind::effects);
+  EXPECT_EQ(failing.verdict, VerdictKind::effects);
+  EXPECT_EQ(failing.effects, sound.effects);
+  EXPECT_EQ(failing.wording, sound.wording);
+  EXPECT_EQ(failing.probability, sound.probability);
+  EXPECT_FALSE(has_note(sound, "Data like these are not expected under lift"));
+  EXPECT_TRUE(has_note(failing, "Data like these are not expected under lift"));
+}
+
+}  // namespace
+}  // namespace snag
