@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -20,6 +21,7 @@
 #include "diagnosis/judgement/posterior.hpp"
 #include "diagnosis/judgement/shrinkage.hpp"
 #include "diagnosis/localisation/gap_cells.hpp"
+#include "diagnosis/localisation/missing_force.hpp"
 
 namespace snag {
 
@@ -150,7 +152,10 @@ Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisO
   verdict.identifiability = attribution.identifiability;
   verdict.identifiability.next_experiment = next_experiment(model, attribution, verdict.verdict == VerdictKind::outside);
   const Fit* const with_effects = chosen > 0 ? &attribution.fits[static_cast<std::size_t>(chosen)] : nullptr;
-  verdict.where = gap_cells(model, fitter, attribution.fits.front(), with_effects, static_cast<int>(attribution.fits.size()) - 1);
+  const FittedGap before(model, attribution.fits.front(), with_effects);
+  const auto after = with_effects ? std::optional<FittedGap>(std::in_place, model, *with_effects) : std::nullopt;
+  verdict.where = gap_cells(model, fitter, before, after ? &*after : nullptr, static_cast<int>(attribution.fits.size()) - 1);
+  verdict.missing_force = missing_forces(model, before, after ? &*after : nullptr);
   verdict.curves = gap_curves(model, fitter, with_effects, verdict.where);
   if (options.progress) options.progress("withheld points", 0.9);
   measure_shrinkage(model, attribution, chosen, verdict);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 
 #include "base/version.hpp"
@@ -126,6 +127,12 @@ std::string how_far(const Verdict& v) {
          html::table({"The gap shrinks by adding", "by", "95 % interval"}, rows);
 }
 
+std::string effects_in_words(const Verdict& v) {
+  std::string effects;
+  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
+  return effects;
+}
+
 /// White where the score is zero, over yellow to dark red at six and more.
 std::string heat(double score) {
   const double t = std::min(std::abs(score) / 6, 1.0);
@@ -157,11 +164,12 @@ std::string map_of_gap(const Verdict& v, double GapCell::*score) {
       row += ", part " + std::to_string(n);
     const double x = left + width * place(points, c.point), y = top + height * place(rows, row);
     char number[32];
-    std::snprintf(number, sizeof number, std::abs(c.*score) < 9.95 ? "%.1f" : "%.0f", c.*score);
+    const double shown = std::abs(c.*score) < 0.05 ? 0 : c.*score;  // no "-0.0"
+    std::snprintf(number, sizeof number, std::abs(shown) < 9.95 ? "%.1f" : "%.0f", shown);
     cells += "<rect x=\"" + number_text(x) + "\" y=\"" + number_text(y) + "\" width=\"" + number_text(width - 2) + "\" height=\"" +
              number_text(height - 2) + "\" fill=\"" + heat(c.*score) + "\"" +
-             (c.origin == GapOrigin::born ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" + number_text(x + width / 2 - 1) +
-             "\" y=\"" + number_text(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
+             (c.origin == GapOrigin::born && score == &GapCell::score ? " stroke=\"#000\" stroke-width=\"2\"" : "") + "/><text x=\"" +
+             number_text(x + width / 2 - 1) + "\" y=\"" + number_text(y + 0.66 * height) + "\" text-anchor=\"middle\"" +
              (std::abs(c.*score) > 4.5 ? " style=\"fill:#fff\"" : "") + ">" + number + "</text>\n";
   }
   std::string labels;
@@ -209,7 +217,81 @@ Ways ways_of(const Verdict& v) {
     auto& [low, high] = ways.ranges.try_emplace(c.observable, std::array{c.measured, c.measured}).first->second;
     low = std::min(low, c.measured), high = std::max(high, c.measured);
   }
+  for (const MissingForce& f : v.missing_force)
+    for (std::size_t d = 0; d < f.place.size(); ++d)
+      if (const auto range = ways.ranges.find(std::string(1, "xyz"[d])); range != ways.ranges.end() && !std::isnan(f.place.at(d)))
+        range->second = {std::min(range->second[0], f.place.at(d)), std::max(range->second[1], f.place.at(d))};
   return ways;
+}
+
+constexpr const char *colour_before = "#c0392b", *colour_after = "#1f6fb2";
+
+/// Size of the largest missing force of the base model in the plane of two coordinates, N/kg.
+double largest_of(const std::vector<MissingForce>& forces, const std::vector<std::string>& axes) {
+  const std::size_t a = std::string("xyz").find(axes[0]), b = std::string("xyz").find(axes[1]);
+  double largest = 0;
+  for (const MissingForce& f : forces)
+    if (const double size = std::hypot(f.before.at(a), f.before.at(b)); std::isfinite(size)) largest = std::max(largest, size);
+  return largest;
+}
+
+/// Missing forces as arrows from their places, in the plane of two coordinates; the longest is `longest` pixels long.
+template <class Across, class Up>
+std::string arrows(const Verdict& v, const std::vector<std::string>& axes, const Across& across, const Up& up) {
+  constexpr double longest = 60, shortest = 1;
+  const std::size_t a = std::string("xyz").find(axes[0]), b = std::string("xyz").find(axes[1]);
+  const double largest = largest_of(v.missing_force, axes);
+  std::string all;
+  for (const MissingForce& f : v.missing_force) {
+    for (const auto& [force, colour] : {std::pair{&f.before, colour_before}, std::pair{&f.after, colour_after}}) {
+      const double dx = longest * force->at(a) / largest, dy = -longest * force->at(b) / largest, length = std::hypot(dx, dy);
+      if (!(length > shortest) || std::isnan(f.place.at(a) + f.place.at(b))) continue;
+      const double x = across(f.place.at(a)), y = up(f.place.at(b)), head = std::min(5.0, 0.5 * length) / length;
+      const auto at = [](double px, double py) { return number_text(px) + " " + number_text(py); };
+      const double tx = x + dx, ty = y + dy, bx = tx - head * dx, by = ty - head * dy;
+      all += "<path d=\"M " + at(x, y) + " L " + at(tx, ty) + " M " + at(bx - 0.5 * head * dy, by + 0.5 * head * dx) + " L " + at(tx, ty) +
+             " L " + at(bx + 0.5 * head * dy, by - 0.5 * head * dx) + "\" fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"1.5\"/>\n";
+    }
+  }
+  return all;
+}
+
+/// Sizes of the missing forces over time, place and speed.
+std::string missing_force(const Verdict& v) {
+  if (v.missing_force.empty()) return "";
+  const auto size = [](const std::array<double, 3>& force) {
+    double square = 0;
+    for (const double one : force) square += std::isnan(one) ? 0 : one * one;
+    return std::sqrt(square);
+  };
+  const bool has_after =
+      std::any_of(v.missing_force.begin(), v.missing_force.end(), [&](const MissingForce& f) { return size(f.after) > 0; });
+  std::vector<std::pair<std::string, std::function<double(const MissingForce&)>>> over{
+      {"t [s]", [](const MissingForce& f) { return f.time; }}};
+  for (std::size_t d = 0; d < 3; ++d)
+    if (!std::isnan(v.missing_force.front().place.at(d)))
+      over.emplace_back("measured " + std::string(1, "xyz"[d]) + " [m]", [d](const MissingForce& f) { return f.place.at(d); });
+  over.emplace_back("speed [m/s]", [](const MissingForce& f) { return f.speed; });
+  std::string plots;
+  for (const auto& [label, x] : over) {
+    LinePlot plot{.title = "Missing force over " + label.substr(0, label.find(" [")),
+                  .x_label = label,
+                  .y_label = "force over mass [N/kg]",
+                  .lines = {}};
+    PlotLine before{.label = "base model, inputs fitted", .x = {}, .y = {}, .scattered = true}, after = before, u = before;
+    after.label = "with " + effects_in_words(v), u.label = "standard uncertainty";
+    for (const MissingForce& f : v.missing_force) {
+      for (PlotLine* line : {&before, &after, &u}) line->x.push_back(x(f));
+      before.y.push_back(size(f.before)), after.y.push_back(size(f.after)), u.y.push_back(size(f.u));
+    }
+    plot.lines = {before};
+    if (has_after) plot.lines.push_back(after);
+    plot.lines.push_back(u);
+    plots += figure(plot);
+  }
+  return "<p>The force that is missing at all points, over the mass that it moves: the mean missing acceleration in parts of the measured "
+         "paths, with the inputs as fitted.</p>\n<div class=\"plots\">" +
+         plots + "</div>\n";
 }
 
 /// Ways in the plane of the two coordinates that change most, each place coloured by |score|.
@@ -247,12 +329,17 @@ std::string map_of_ways(const Verdict& v) {
   return "<svg viewBox=\"0 0 " + number_text(width) + " " + number_text(height) + "\" role=\"img\" aria-label=\"Ways\">\n<rect x=\"" +
          number_text(left - 16) + "\" y=\"" + number_text(top - 12) + "\" width=\"" + number_text(width - left - right + 50) +
          "\" height=\"" + number_text(height - top - bottom + 24) + "\" fill=\"none\" stroke=\"#dde3ea\"/>\n" + lines + dots +
-         ends(axes[0], left, height - 14, width - right, height - 14, "middle") +
+         arrows(v, axes, across, up) + ends(axes[0], left, height - 14, width - right, height - 14, "middle") +
          ends(axes[1], left - 22, height - bottom, left - 22, top + 8, "end") + "<text x=\"" + number_text(0.5 * (left + width - right)) +
          "\" y=\"" + number_text(height - 14) + "\" text-anchor=\"middle\">measured " + axes[0] + " [m]</text><text x=\"14\" y=\"" +
          number_text(0.5 * height) + "\" transform=\"rotate(-90 14 " + number_text(0.5 * height) + ")\" text-anchor=\"middle\">measured " +
          axes[1] +
-         " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest score of a coordinate there.</p>\n";
+         " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest score of a coordinate there." +
+         (v.missing_force.empty() ? ""
+                                  : " Arrows: the missing force over mass, red of the base model, blue with " +
+                                        (v.effects.empty() ? "the effects of the verdict" : effects_in_words(v)) +
+                                        "; the longest red one is " + html::number(largest_of(v.missing_force, axes)) + " N/kg.") +
+         "</p>\n";
 }
 
 /// What a cell is to the others.
@@ -264,12 +351,6 @@ std::string remark_on(const GapCell& cell) {
               " (restarted: " + html::number(cell.restart_z) + ") ";
   if (cell.blind && !cell.significant) remark += "blind ";
   return remark + (cell.withheld ? "withheld" : "");
-}
-
-std::string effects_in_words(const Verdict& v) {
-  std::string effects;
-  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
-  return effects;
 }
 
 /// Data and simulation of the paths that differ most: as they are, and beside it what is left of the measured values.
@@ -337,7 +418,7 @@ std::string where(const Verdict& v) {
          (has_after
               ? "<p>What " + effects_in_words(v) + " leaves, strengths and inputs fitted.</p>\n" + map_of_gap(v, &GapCell::score_after)
               : "") +
-         map_of_ways(v) + curves(v) + html::table(header, rows) +
+         map_of_ways(v) + missing_force(v) + curves(v) + html::table(header, rows) +
          (more.empty() ? "" : "<details><summary>The other cells</summary>\n" + html::table(header, more) + "</details>\n");
 }
 

@@ -44,6 +44,12 @@ Json cell(const GapCell& c) {
   return json;
 }
 
+Json missing_force(const MissingForce& f) {
+  const auto vector = [](const std::array<double, 3>& v) { return Json{number(v[0]), number(v[1]), number(v[2])}; };
+  return {{"point", f.point},           {"t_s", f.time},    {"place_m", vector(f.place)}, {"speed_m_s", number(f.speed)},
+          {"before", vector(f.before)}, {"u", vector(f.u)}, {"after", vector(f.after)}};
+}
+
 Json curve(const GapCurve& c) {
   Json json{{"observable", c.observable}, {"unit", c.unit}, {"point", c.point}};
   const auto add = [&](const char* name, const std::vector<double>& values) {
@@ -101,6 +107,8 @@ std::string verdict_json(const Verdict& v) {
   for (const auto& [name, e] : v.parameters) json["parameters"][name] = parameter(e);
   json["where"] = Json::array();
   for (const GapCell& c : v.where) json["where"].push_back(cell(c));
+  json["missing_force"] = Json::array();
+  for (const MissingForce& f : v.missing_force) json["missing_force"].push_back(missing_force(f));
   json["curves"] = Json::array();
   for (const GapCurve& c : v.curves) json["curves"].push_back(curve(c));
   json["shrinkage"] = how_far(v);

@@ -35,6 +35,18 @@ struct GapCell {
   GapOrigin origin = GapOrigin::not_judged;
 };
 
+/// The mean missing acceleration about a time of a path: force over mass, N/kg, along x, y, z; NaN along an axis that was not measured.
+struct MissingForce {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::string point;
+  double time = 0;                                         // s
+  double speed = 0;                                        // m/s, of the measured path there
+  std::array<double, 3> place{unknown, unknown, unknown};  // m, measured
+  std::array<double, 3> before{unknown, unknown, unknown},
+      u{unknown, unknown, unknown};                        // with the inputs fitted; its standard uncertainty
+  std::array<double, 3> after{unknown, unknown, unknown};  // with the fit that the verdict rests on
+};
+
 /// Simulation and data of one observable at one operating point over time, in the unit of the data, each value a mean over a bin of time
 /// (lognormal: a geometric mean).
 struct GapCurve {
@@ -152,6 +164,7 @@ struct Verdict {
   std::vector<std::string> notes{};  // guards that spoke, in sentences
   double placebo_rate = 0;           // of placebo effects that a screening would have chosen
   std::vector<GapCell> where{};
+  std::vector<MissingForce> missing_force{};              // of the training points; empty: no path of a position is long enough
   std::vector<GapCurve> curves{};                         // of the largest differences
   std::map<std::string, Shrinkage> shrinkage{};           // of the chosen effect, by hypothesis
   std::map<std::string, Shrinkage> shrinkage_rejected{};  // of the others that were fitted

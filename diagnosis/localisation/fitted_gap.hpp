@@ -33,6 +33,9 @@ class FittedGap {
   /// Two-sided, of z; 1 where the shape is nothing there.
   double p_of_shape(const std::vector<int>& rows) const;
   double mean(const std::vector<int>& rows) const { return e_(rows).mean(); }
+  /// e, and its covariance.
+  Eigen::VectorXd left(const std::vector<int>& rows) const { return e_(rows); }
+  Eigen::MatrixXd covariance(const std::vector<int>& rows) const { return covariance_(rows, rows); }
 
  private:
   std::vector<int> first_row_;

@@ -5,9 +5,7 @@
 #include <initializer_list>
 #include <limits>
 #include <numeric>
-#include <optional>
 
-#include "diagnosis/localisation/fitted_gap.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -314,9 +312,7 @@ void mark_onsets(std::vector<GapCell>& cells) {
 
 }  // namespace
 
-std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const Fit& none, const Fit* chosen, int n_tried) {
-  const FittedGap before(model, none, chosen);
-  const std::optional<FittedGap> after = chosen ? std::optional<FittedGap>(std::in_place, model, *chosen) : std::nullopt;
+std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const FittedGap& before, const FittedGap* after, int n_tried) {
   std::vector<CellOfRows> cells;
   for (std::size_t p = 0; p < model.training().size(); ++p) {
     for (CellOfRows& c : PointCells(model, fitter.base(), p).cells()) {
@@ -324,7 +320,7 @@ std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const Fit
       cells.push_back(std::move(c));
     }
   }
-  std::vector<GapCell> judged = Hierarchy(cells, before, after ? &*after : nullptr, n_tried).judged();
+  std::vector<GapCell> judged = Hierarchy(cells, before, after, n_tried).judged();
   mark_onsets(judged);
   return judged;
 }

@@ -11,12 +11,13 @@
 #include <vector>
 
 #include "diagnosis/data/verdict.hpp"
-#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/localisation/fitted_gap.hpp"
 
 namespace snag {
 
-/// Cells of the training points, judged by the fit of no effects and, if there is one, by the chosen fit with effects, the best of
-/// `n_tried`.
-std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const Fit& none, const Fit* chosen = nullptr, int n_tried = 1);
+/// Cells of the training points, judged by what the fit of no effects leaves and, if there is one, by what the chosen fit with effects
+/// does, the best of `n_tried`.
+std::vector<GapCell> gap_cells(Responses& model, const Fitter& fitter, const FittedGap& before, const FittedGap* after = nullptr,
+                               int n_tried = 1);
 
 }  // namespace snag

@@ -70,7 +70,7 @@ Experiment of_one_row(const Observable& observable, const std::vector<Datum>& da
 
 std::vector<GapCell> cells_of(Responses& responses) {
   Fitter fitter(responses);
-  return gap_cells(responses, fitter, fitter.fit({}, Eigen::VectorXd()));
+  return gap_cells(responses, fitter, FittedGap(responses, fitter.fit({}, Eigen::VectorXd())));
 }
 
 /// Requirement: a cell tells that repeats scatter otherwise than runs, and only then, though their means agree.

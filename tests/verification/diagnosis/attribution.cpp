@@ -36,6 +36,26 @@ struct CellsOfVerdicts {
   }
 };
 
+/// Missing forces over their uncertainty: the largest and its time, and the root mean squares before and after the verdict.
+struct Missing {
+  double largest = 0, time = 0, before = 0, after = 0;
+};
+
+Missing missing(const Verdict& verdict) {
+  Missing result;
+  int n = 0;
+  for (const MissingForce& force : verdict.missing_force) {
+    for (const std::size_t axis : {0, 2}) {
+      const double before = std::abs(force.before.at(axis)) / force.u.at(axis), after = force.after.at(axis) / force.u.at(axis);
+      if (before > result.largest) result.largest = before, result.time = force.time;
+      result.before += before * before, result.after += after * after, ++n;
+    }
+    EXPECT_TRUE(std::isnan(force.before[1]));  // y was not measured
+  }
+  result.before = std::sqrt(result.before / n), result.after = std::sqrt(result.after / n);
+  return result;
+}
+
 std::string joined_effects(const Verdict& verdict) {
   std::string name;
   for (const std::string& effect : verdict.effects) name += (name.empty() ? "" : "+") + effect;
@@ -272,7 +292,7 @@ TEST(Attribution, StatedNumericsNeedNoRuns) {
     Responses model(experiment, sphere);
     Fitter fitter(model);
     runs = sphere.n_runs();
-    return gap_cells(model, fitter, fitter.fit({}, Eigen::VectorXd()));
+    return gap_cells(model, fitter, FittedGap(model, fitter.fit({}, Eigen::VectorXd())));
   };
   int found = 0, stated = 0;
   judged_cells(found);
@@ -325,4 +345,27 @@ TEST(Where, OnsetAndFalseDiscoveries) {
   EXPECT_GT(std::abs(onset->score), 3);
   EXPECT_GT(onset->u_input, 0);
   EXPECT_GT(onset->u_num, 0);
+}
+
+// The missing force is found at its time, with the sign of what is missing; the effect that is missing takes it away; of nothing there is
+// noise.
+TEST(Where, MissingForce) {
+  const Verdict gust = judged({.gust = 4}, 6200, false, 0);
+  const Missing of_gust = missing(gust), of_effect = missing(judged({.effects = {{"pressure_gradient", 1}}}, 6100, false, 0)),
+                of_nothing = missing(judged({}, 6000, false, 0));
+  std::printf("missing force over u: gust %.0f at %.2f s; effect, rms %.1f, after the verdict %.2f; nothing %.2f\n", of_gust.largest,
+              of_gust.time, of_effect.before, of_effect.after, of_nothing.before);
+  EXPECT_GT(of_gust.largest, 10);
+  EXPECT_NEAR(of_gust.time, 0.34, 0.1);  // half the width of a test function
+  int along = 0, n = 0;  // components with the sign of the gust, in its middle; later the drag answers the speed that it leaves
+  for (const MissingForce& force : gust.missing_force) {
+    if (std::abs(force.time - 0.31) > 0.03) continue;
+    for (const std::size_t axis : {0, 2}) ++n, along += force.before.at(axis) > 0;
+  }
+  std::printf("%d of %d components along the gust\n", along, n);
+  EXPECT_GE(n, 12);
+  EXPECT_GE(along, 0.9 * n);
+  EXPECT_GT(of_effect.before, 3);
+  EXPECT_NEAR(of_effect.after, 1, 0.3);
+  EXPECT_NEAR(of_nothing.before, 1, 0.3);
 }

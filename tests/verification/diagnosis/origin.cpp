@@ -16,7 +16,7 @@ std::vector<GapCell> cells_of(const formula::Truth& truth, std::uint64_t seed) {
   formula::Sphere sphere(experiment);
   Responses model(experiment, sphere);
   Fitter fitter(model);
-  std::vector<GapCell> cells = gap_cells(model, fitter, fitter.fit({}, Eigen::VectorXd()));
+  std::vector<GapCell> cells = gap_cells(model, fitter, FittedGap(model, fitter.fit({}, Eigen::VectorXd())));
   judge_origins(model, fitter, cells);
   return cells;
 }
