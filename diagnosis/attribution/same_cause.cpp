@@ -7,7 +7,7 @@ namespace snag {
 
 namespace {
 
-constexpr double alike = 0.999, told = 1;
+constexpr double alike = 0.999, seen = 1;
 
 /// What an effect of a fit adds, whitened as `by` is; empty where that is not known.
 Eigen::VectorXd added(const Fit& fit, int effect, const Fit& by) {
@@ -31,7 +31,7 @@ bool is_same(const Fit& fit, int effect, const Fit& other, int instead) {
   const double aa = a.dot(projected(a)), bb = b.dot(projected(b)), ab = a.dot(projected(b));
   if (!(aa > 0) || !(bb > 0)) return false;
   const double cosine = ab / std::sqrt(aa * bb);
-  return cosine > alike && std::sqrt(aa * std::max(0.0, 1 - cosine * cosine)) < told;
+  return cosine > alike && std::sqrt(aa * std::max(0.0, 1 - cosine * cosine)) < seen;
 }
 
 /// Index of the fit of these effects, in any order; -1: there is none.

@@ -5,7 +5,7 @@
 //
 //   cos = p_a.P p_b / sqrt(p_a.P p_a  p_b.P p_b) > 0.999   and   sqrt(p_a.P p_a (1 - cos^2)) < 1
 //
-// The first says that they are alike, not only too small to be told apart; the second that the data tell half a nat between them at most.
+// The first says that they are alike, not only too small to be distinguished; the second that the data distinguish them by half a nat at most.
 #include "diagnosis/attribution/attribution.hpp"
 
 namespace snag {
