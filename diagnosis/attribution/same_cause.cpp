@@ -9,20 +9,22 @@ namespace {
 
 constexpr double alike = 0.999, seen = 1;
 
-/// What an effect of a fit adds, whitened as `by` is; empty where that is not known.
-Eigen::VectorXd added(const Fit& fit, int effect, const Fit& by) {
+/// What an effect of a fit adds, whitened as `by` is; empty where that is not known. Of a row with a likelihood of its own: the derivative
+/// of its residual times the strength.
+Eigen::VectorXd added(const Responses& model, const Fit& fit, int effect, const Fit& by) {
   const auto& effects = fit.hypothesis.effects;
   const auto e = static_cast<std::size_t>(std::find(effects.begin(), effects.end(), effect) - effects.begin());
   if (fit.at.parts.size() != effects.size()) return {};
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(by.first_row.back());
+  const auto column = static_cast<Eigen::Index>(e);
+  Eigen::VectorXd all = -fit.linear.J.col(column) * (fit.theta[column] / model.effects()[static_cast<std::size_t>(effect)].sd);
   for (std::size_t p = 0; p + 1 < by.first_row.size(); ++p)
     if (const Eigen::Index g = by.whitening.factor[p].rows(); g > 0)
       all.segment(by.first_row[p], g) = by.whitening.factor[p].matrixL().solve(fit.at.parts[e][p].head(g));
   return all;
 }
 
-bool is_same(const Fit& fit, int effect, const Fit& other, int instead) {
-  const Eigen::VectorXd a = added(fit, effect, fit), b = added(other, instead, fit);
+bool is_same(const Responses& model, const Fit& fit, int effect, const Fit& other, int instead) {
+  const Eigen::VectorXd a = added(model, fit, effect, fit), b = added(model, other, instead, fit);
   if (a.size() == 0 || b.size() == 0) return false;
   const Eigen::Index bounded = fit.linear.lower.size();
   const auto J = fit.linear.J.middleCols(bounded, fit.linear.J.cols() - bounded - fit.at.state.shares.size());
@@ -47,7 +49,7 @@ int fit_of(const Attribution& attribution, std::vector<int> effects) {
 
 }  // namespace
 
-std::vector<int> same_causes(const Attribution& attribution, int fit, int effect) {
+std::vector<int> same_causes(const Responses& model, const Attribution& attribution, int fit, int effect) {
   const Fit& own = attribution.fits[static_cast<std::size_t>(fit)];
   std::vector<int> others, same;
   for (const Fit& any : attribution.fits)
@@ -59,9 +61,9 @@ std::vector<int> same_causes(const Attribution& attribution, int fit, int effect
     std::vector<int> swapped = own.hypothesis.effects;
     std::replace(swapped.begin(), swapped.end(), effect, k);
     const int here = fit_of(attribution, swapped), one = fit_of(attribution, {effect}), other = fit_of(attribution, {k});
-    const bool is_one = here >= 0 ? is_same(own, effect, attribution.fits[static_cast<std::size_t>(here)], k)
+    const bool is_one = here >= 0 ? is_same(model, own, effect, attribution.fits[static_cast<std::size_t>(here)], k)
                                   : one >= 0 && other >= 0 &&
-                                        is_same(attribution.fits[static_cast<std::size_t>(one)], effect,
+                                        is_same(model, attribution.fits[static_cast<std::size_t>(one)], effect,
                                                 attribution.fits[static_cast<std::size_t>(other)], k);
     if (is_one) same.push_back(k);
   }

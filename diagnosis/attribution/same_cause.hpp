@@ -5,13 +5,14 @@
 //
 //   cos = p_a.P p_b / sqrt(p_a.P p_a  p_b.P p_b) > 0.999   and   sqrt(p_a.P p_a (1 - cos^2)) < 1
 //
-// The first says that they are alike, not only too small to be distinguished; the second that the data distinguish them by half a nat at most.
+// The first says that they are alike, not only too small to be distinguished; the second that the data distinguish them by half a nat at
+// most.
 #include "diagnosis/attribution/attribution.hpp"
 
 namespace snag {
 
 /// Effects that are the same cause as effect `effect` of this fit: by the fits of the same set with another one in its place, or, where
 /// that set is not fitted, by those of both alone.
-std::vector<int> same_causes(const Attribution& attribution, int fit, int effect);
+std::vector<int> same_causes(const Responses& model, const Attribution& attribution, int fit, int effect);
 
 }  // namespace snag

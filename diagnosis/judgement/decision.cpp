@@ -187,7 +187,7 @@ class Judge {
 
   void find_other_names(int first) {
     for (const int k : a_.fits[static_cast<std::size_t>(first)].hypothesis.effects) {
-      for (const int other : same_causes(a_, first, k)) {
+      for (const int other : same_causes(model_, a_, first, k)) {
         a_.other_name_of[other] = k;
         v_.same_as[model_.effects()[k].name].push_back(model_.effects()[other].name);
       }

@@ -29,9 +29,10 @@ Passage passage(int point, double sticking, double slip, NormalNumbers& random) 
 
 class Pump final : public Simulator {
  public:
-  Pump() {
+  explicit Pump(bool with_twin = false) {
     effects_ = {{.name = "slip", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4},
                 {.name = "sticking", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4}};
+    if (with_twin) effects_.push_back({.name = "twin", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4});
     for (int o = 0; o < 3; ++o) slots_.push_back({o});
   }
   const std::vector<Effect>& effects() const override { return effects_; }
@@ -43,7 +44,7 @@ class Pump final : public Simulator {
       ++n_runs_;
       NormalNumbers random(r.seed * 100 + static_cast<std::uint64_t>(r.point));
       const auto theta = [&](const char* name) { return r.effects.contains(name) ? r.effects.at(name) : 0; };
-      const Passage p = passage(r.point, theta("sticking"), theta("slip"), random);
+      const Passage p = passage(r.point, theta("sticking") + theta("twin"), theta("slip"), random);
       results.push_back({{p.time, p.recirculations, p.exited}, ""});
     }
     return results;
@@ -100,4 +101,14 @@ TEST(Rates, NamesTheEffectOfARandomModel) {
   EXPECT_GE(none, 3);
   EXPECT_GE(sticking, 3);
   EXPECT_GE(slip, 3);
+}
+
+// Another name of the effect is no rival, also where the data are counts, events and times.
+TEST(Rates, TwoNamesOfOneCause) {
+  const Experiment e = measured(1, 0, 50);
+  Pump pump(true);
+  const Verdict verdict = diagnose(e, pump);
+  EXPECT_EQ(verdict.verdict, VerdictKind::effects);
+  EXPECT_EQ(verdict.effects, std::vector<std::string>{"sticking"});
+  EXPECT_EQ(verdict.same_as, (std::map<std::string, std::vector<std::string>>{{"sticking", {"twin"}}}));
 }
