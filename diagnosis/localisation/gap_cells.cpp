@@ -282,12 +282,14 @@ class Hierarchy {
     cell.observable = first.observable;
     cell.region = level > 0 ? first.region : "all", cell.point = level > 1 ? first.point : all_points;
     cell.window = first.window;
+    double difference = 0;
     for (const std::size_t i : group) {
+      difference += cells_[i].cell.simulated - cells_[i].cell.measured;
       cell.window[0] = std::min(cell.window[0], cells_[i].cell.window[0]);
       cell.window[1] = std::max(cell.window[1], cells_[i].cell.window[1]);
     }
     cell.p = p, cell.test = CellTest::shape, cell.significant = true;
-    cell.score = std::copysign(score_of_p(p), -before_.mean(rows));
+    cell.score = std::copysign(score_of_p(p), difference);
     if (after_) cell.score_after = std::copysign(score_of_p(after_->p_of_any(rows)), -after_->mean(rows));
     coarse_.push_back(std::move(cell));
   }
