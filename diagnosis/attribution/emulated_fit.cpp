@@ -41,6 +41,7 @@ class EmulatedFit {
     for (std::size_t i = 0; i < n; ++i) mean += std::exp(log_terms[i] - total) * strength(i);
     for (std::size_t i = 0; i < n; ++i) square += std::exp(log_terms[i] - total) * std::pow(strength(i) - mean, 2);
     Fit fit = at(strength(best), likeliest_form_error(strength(best)));
+    fit.at.origin = fitter_.base().responses, fit.at.by_nuisance = fitter_.base().by_nuisance;
     add_strength(fit, strength(best), step);
     fit.log_evidence = total;
     fit.theta = Eigen::VectorXd::Constant(1, mean);

@@ -41,6 +41,8 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
     for (const int p : training) requests.push_back({state, p});
   }
   const auto responses = model.run(requests);
+  // An emulated fit has no runs of these seeds: of them the signature is the difference, not of the draws of chance.
+  if (model.base_is_random()) around_.responses = model.run(around_.state, training);
   whitening_ = fitter.whiten(around_);
   weak_form_.emplace(model, whitening_);
   rho_ = fitter.residual(around_.responses, whitening_);

@@ -56,7 +56,7 @@ class Screening {
   Responses& model_;
   Fitter& fitter_;
   std::vector<int> candidates_;
-  const Linearization around_;
+  Linearization around_;
   Whitening whitening_;
   std::optional<WeakForm> weak_form_;
   Eigen::VectorXd rho_;

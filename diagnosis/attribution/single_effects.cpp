@@ -26,7 +26,8 @@ int Attributor::runs_of_emulator(int effect) const {
 }
 
 bool Attributor::by_emulator(const Hypothesis& hypothesis) const {
-  return model_.base_is_random() && hypothesis.effects.size() == 1 && !model_.effects()[hypothesis.effects[0]].fixed;
+  return model_.base_is_random() && hypothesis.effects.size() == 1 && !model_.effects()[hypothesis.effects[0]].fixed &&
+         model_.changes_runs(hypothesis.effects[0]);
 }
 
 int Attributor::runs_of(const Screened& screened) const {

@@ -91,9 +91,7 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
   leave_out_rows_without_answer(answers);
 }
 
-// Where runs are random a mistake would need as many of them as an effect, and few of its rows are paths: it is not looked for there.
 void Responses::find_mistakes(const std::vector<Response>& answers) {
-  if (base_is_random_) return;
   const auto add = [&](std::vector<Mistake> found) {
     for (Mistake& mistake : found) effects_.push_back(mistake.effect), mistakes_.push_back(std::move(mistake));
   };
@@ -106,7 +104,7 @@ void Responses::find_mistakes(const std::vector<Response>& answers) {
       const Row& row = points_[p].rows[i];
       const Observable& observable = experiment_.observables[static_cast<std::size_t>(row.observable)];
       const double simulated = answers[p].value[i];
-      if (row.kind != Row::Kind::path || observable.kind != Observable::Kind::gaussian || !std::isfinite(simulated)) continue;
+      if (observable.kind != Observable::Kind::gaussian || !std::isfinite(simulated)) continue;
       auto& [both, own] = products[observable.unit];
       both += row.value * simulated, own += simulated * simulated;
     }
@@ -169,6 +167,11 @@ Eigen::MatrixXd Responses::covariance_in_right_units(const State& state, int poi
 const Mistake* Responses::mistake(int effect) const {
   const auto first = static_cast<int>(effects_.size() - mistakes_.size());
   return effect < first ? nullptr : &mistakes_[static_cast<std::size_t>(effect - first)];
+}
+
+bool Responses::changes_runs(int effect) const {
+  const Mistake* made = mistake(effect);
+  return made == nullptr || made->kind == Mistake::Kind::input;
 }
 
 // What the data would say of these runs if the mistakes of the state were made.

@@ -74,6 +74,8 @@ class Responses {
   const std::vector<int>& withheld() const { return withheld_; }
   /// The base model answers with another result for another seed.
   bool base_is_random() const { return base_is_random_; }
+  /// False of mistakes of the measurement: they change what a run answers with, so that their derivatives are exact whatever chance does.
+  bool changes_runs(int effect) const;
   /// Seeds a state is run with, and as many as fill in the distribution that a random effect makes (where the base model is random, every
   /// run is dear, and these are the same).
   int n_seeds(const State& state) const;

@@ -53,7 +53,7 @@ State at_condition(const Responses& model, State state, const Tried& tried) {
 
 std::vector<NewCondition> new_conditions(Responses& model, const Attribution& attribution) {
   const int first = attribution.first(), second = rival_of(attribution, first);
-  if (second < 0 || model.base_is_random()) return {};
+  if (second < 0) return {};
   const Fit &a = attribution.fits[static_cast<std::size_t>(first)], &b = attribution.fits[static_cast<std::size_t>(second)];
   const std::vector<Tried> all = all_conditions(model);
   std::vector<Responses::Request> requests;
@@ -68,7 +68,9 @@ std::vector<NewCondition> new_conditions(Responses& model, const Attribution& at
     }
   }
   const int affordable = std::min(model.runs_left(), model.n_runs() / 4);
-  if (requests.empty() || static_cast<int>(requests.size()) > affordable) return {};
+  int n_runs = 0;
+  for (const Responses::Request& request : requests) n_runs += model.n_seeds(request.state);
+  if (requests.empty() || n_runs > affordable) return {};
   const std::vector<Response> answers = model.run(requests);
   const double of_repeat = best_repeat(model, a, b);
   std::vector<NewCondition> ranked;
@@ -77,6 +79,7 @@ std::vector<NewCondition> new_conditions(Responses& model, const Attribution& at
     const int point = model.training()[static_cast<std::size_t>(tried.point)];
     const Response &of_a = *next++, &of_b = *next++;
     Predictions predictions{finite(of_a.value - of_b.value), a.at.numerical_error[static_cast<std::size_t>(tried.point)], {}};
+    if (model.base_is_random()) predictions.chance = (of_a.scatter + of_b.scatter) / of_a.n_runs;
     for (int j = 0; j < static_cast<int>(model.nuisances().size()); ++j) {
       if (!model.acts_at(j, point)) continue;
       predictions.by_input.push_back((next->value - of_a.value) / nuisance_step);

@@ -25,8 +25,12 @@ Separation separation(const Responses& model, std::size_t p, const Predictions& 
     if (change.allFinite()) C += change * change.transpose();
   }
   C.diagonal().array() += 1e-9 * C.diagonal().mean() + 1e-300;
-  Separation result{difference.dot(C.llt().solve(difference)), model.experiment().observables[first.observable].id,
-                    model.experiment().points[point.point].id, first.begin};
+  // Draws of chance differ whatever the hypotheses are: E d . C^-1 d = T + tr(C^-1 V).
+  const Eigen::LLT<Eigen::MatrixXd> factor(C);
+  const Eigen::MatrixXd chance =
+      predictions.chance.size() > 0 ? Eigen::MatrixXd(predictions.chance.segment(begin, n).asDiagonal()) : Eigen::MatrixXd::Zero(n, n);
+  Separation result{std::max(0.0, difference.dot(factor.solve(difference)) - factor.solve(chance).trace()),
+                    model.experiment().observables[first.observable].id, model.experiment().points[point.point].id, first.begin};
   double largest = 0;
   for (int i = 0; i < n; ++i) {
     const double size = std::abs(difference[i]) / std::sqrt(C(i, i));

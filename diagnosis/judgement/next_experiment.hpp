@@ -11,6 +11,7 @@ namespace snag {
 struct Predictions {
   Eigen::VectorXd difference, numerical_error;
   std::vector<Eigen::VectorXd> by_input{};  // changes by one standard uncertainty of each input
+  Eigen::VectorXd chance{};                 // variance that the seeds of the runs give the difference; empty: none
 };
 
 /// T of one more repeat.
