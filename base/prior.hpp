@@ -16,6 +16,7 @@ enum class Need {
   gravity,
   contact,
   several,  // particles
+  hertz,    // contacts by the law of Hertz
 };
 
 /// theta = 0 is the base model to the bit. A force is switched on by its name in [coupling] forces with theta at `key`.
@@ -34,6 +35,9 @@ struct Prior {
 struct Candidate {
   std::string name;
   Prior prior;
+  bool is_relative = false;         // the value of the case times 1 + theta; else theta is added to it
+  std::string of_force = {};        // whose number it is; empty: of no force
+  std::vector<std::string> with{};  // other values of the case that it takes, "section.key=value"
 };
 
 }  // namespace snag

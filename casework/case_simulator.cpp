@@ -161,6 +161,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
     }
     for (const Alternative& alternative : experiment.alternatives)
       base.set_alternative(alternative.effect, overrides_at(alternative, experiment.points[p].id));
+    for (const OwnCandidate& candidate : experiment.own_candidates) base.set_own_candidate(candidate);
     points_.push_back({std::move(base), std::move(slots), std::move(asked), of_case, sha256(fingerprint)});
   }
   CaseFeatures facts = points_.front().base.facts();
@@ -171,6 +172,7 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
   }
   effects_ = library_effects(facts, {held.begin(), held.end()});
   set_alternatives(effects_, experiment.alternatives);
+  add_own_candidates(effects_, experiment.own_candidates);
   find_nuisances(experiment);
   if (!folder_.empty()) open_cache(folder_ / "runs.tsv");
   if (!experiment.runs.empty()) import_runs(experiment.runs);

@@ -45,13 +45,16 @@ std::vector<KeyNode> nodes_of(const toml::table& root, const std::string& key) {
   return nodes;
 }
 
-std::string scaled_text(const toml::node& node, double factor) {
+std::string changed_text(const toml::node& node, double factor, std::span<const double> added) {
   if (const auto* list = node.as_array()) {
     std::vector<std::string> parts;
-    for (const toml::node& element : *list) parts.push_back(scaled_text(element, factor));
+    for (const toml::node& element : *list) {
+      parts.push_back(changed_text(element, factor, added.first(std::min<std::size_t>(1, added.size()))));
+      if (added.size() > 1) added = added.subspan(1);
+    }
     return "[" + joined(parts) + "]";
   }
-  return toml_text(*node.value<double>() * factor);
+  return toml_text((*node.value<double>() + (added.empty() ? 0 : added.front())) * factor);
 }
 
 void KeyChanges::set(const std::string& text) {
@@ -63,24 +66,26 @@ void KeyChanges::set(const std::string& text) {
 }
 
 void KeyChanges::scale(const std::string& key, double factor) {
+  for (const KeyNode& node : nodes_of(root_, key)) changes_.emplace(node.key, Change{node.value}).first->second.factor *= factor;
+}
+
+void KeyChanges::add(const std::string& key, const std::vector<double>& added) {
   for (const KeyNode& node : nodes_of(root_, key)) {
-    Scaled& scaled = factors_.emplace(node.key, Scaled{node.value, 1}).first->second;
-    scaled.factor *= factor;
+    std::vector<double>& sum = changes_.emplace(node.key, Change{node.value}).first->second.added;
+    sum.resize(added.size(), 0);
+    for (std::size_t i = 0; i < added.size(); ++i) sum[i] += added[i];
   }
 }
 
 std::vector<std::string> KeyChanges::overrides() const {
   std::vector<std::string> all;
   for (const auto& [key, value] : values_)
-    if (!factors_.contains(key)) all.push_back(key + "=" + value);
-  for (const auto& [key, scaled] : factors_) {
+    if (!changes_.contains(key)) all.push_back(key + "=" + value);
+  for (const auto& [key, change] : changes_) {
     const auto set = values_.find(key);
-    if (set == values_.end()) {
-      all.push_back(key + "=" + scaled_text(*scaled.value, scaled.factor));
-    } else {
-      const toml::table given = toml::parse("value = " + set->second);
-      all.push_back(key + "=" + scaled_text(*given.get("value"), scaled.factor));
-    }
+    const toml::table given = set == values_.end() ? toml::table() : toml::parse("value = " + set->second);
+    const toml::node& value = set == values_.end() ? *change.value : *given.get("value");
+    all.push_back(key + "=" + changed_text(value, change.factor, change.added));
   }
   return all;
 }

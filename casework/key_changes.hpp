@@ -1,6 +1,7 @@
 #pragma once
 // Numbers of a case by their keys, and changes of them as overrides of the case file.
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,10 +22,10 @@ struct KeyNode {
 /// All nodes of a key such as "boundary.flow_rate_m3_s"; none if the case has no such number.
 std::vector<KeyNode> nodes_of(const toml::table& root, const std::string& key);
 
-/// Value times factor, number by number, as TOML.
-std::string scaled_text(const toml::node& value, double factor);
+/// Value plus `added` (one for each number; empty: none), times factor, as TOML.
+std::string changed_text(const toml::node& value, double factor, std::span<const double> added = {});
 
-/// Changes of one case: values that effects give to keys, then factors on values; each key is written once.
+/// Changes of one case: values that effects give to keys, then what is added to them, then factors on them; each key is written once.
 class KeyChanges {
  public:
   /// `root`: the resolved case, which must outlive this.
@@ -32,18 +33,20 @@ class KeyChanges {
 
   /// "section.key=value", of every node that has the key. The last value counts.
   void set(const std::string& text);
-  /// Of the numbers that the case has at a key.
+  /// Of the numbers that the case has at a key. What is added has one number, or as many as the key.
   void scale(const std::string& key, double factor);
+  void add(const std::string& key, const std::vector<double>& added);
   std::vector<std::string> overrides() const;
 
  private:
-  struct Scaled {
+  struct Change {
     const toml::node* value;
-    double factor;
+    double factor = 1;
+    std::vector<double> added{};
   };
   const toml::table& root_;
   std::map<std::string, std::string> values_;
-  std::map<std::string, Scaled> factors_;
+  std::map<std::string, Change> changes_;
 };
 
 }  // namespace snag

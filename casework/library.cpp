@@ -15,7 +15,7 @@ namespace {
 
 /// A setting of the rags: of pieces of any shape.
 CatalogueEffect setting_effect(const Candidate& candidate) {
-  CatalogueEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}};
+  CatalogueEffect effect{.name = candidate.name, .prior = candidate.prior, .added_to = {candidate.prior.key}, .setting = candidate};
   if (candidate.prior.key.starts_with("rag."))
     for (const char* shape : {"disc", "fibre"}) effect.added_to.push_back(shape + candidate.prior.key.substr(3));
   if (candidate.prior.key == "contact.wall_friction")  // of pieces that have their own
@@ -68,6 +68,8 @@ const char* reason_against(Need need, const CaseFeatures& facts) {
       return facts.gravity ? "" : "there is no gravity";
     case Need::contact:
       return facts.wall || facts.several ? "" : "nothing can touch";
+    case Need::hertz:
+      return facts.hertz ? "" : "contacts are no spheres of Hertz";
     case Need::several:
       return facts.several ? "" : "there is one particle";
   }
@@ -112,10 +114,11 @@ std::vector<std::string> CatalogueEffect::overrides(double theta, int form, std:
   for (const std::string& key : added_to) {
     double before = 0;
     const std::string text = base(key);
-    if (text.empty()) continue;  // no such piece
+    if (text.empty() && setting.with.empty()) continue;  // no such piece
     std::from_chars(text.data(), text.data() + text.size(), before);
-    all.push_back(key + "=" + toml_text(std::max(0.0, before + theta)));
+    all.push_back(key + "=" + toml_text(setting.is_relative ? before * (1 + theta) : std::max(0.0, before + theta)));
   }
+  all.insert(all.end(), setting.with.begin(), setting.with.end());
   return all;
 }
 
@@ -123,7 +126,8 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
   std::vector<Effect> all;
   for (const CatalogueEffect& effect : effect_catalogue()) {
     const Prior& p = effect.prior;
-    const bool held = std::find(forces.begin(), forces.end(), effect.name) != forces.end();
+    const auto holds = [&](const std::string& force) { return std::find(forces.begin(), forces.end(), force) != forces.end(); };
+    const std::string& of_force = effect.setting.of_force;
     all.push_back({.name = effect.name,
                    .parameter = p.meaning,
                    .unit = p.unit,
@@ -133,7 +137,9 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
                    .maximum = p.maximum,
                    .random = p.random,
                    .acts_on_water = p.acts_on_water,
-                   .blind = held ? "the base case already contains it" : reason_against(p, facts),
+                   .blind = holds(effect.name)                      ? "the base case already contains it"
+                            : !of_force.empty() && !holds(of_force) ? "the base case has no " + of_force
+                                                                    : reason_against(p, facts),
                    // The mean of random runs is no mixture of their forms.
                    .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size()))});
   }

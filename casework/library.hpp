@@ -15,7 +15,8 @@ struct CatalogueEffect {
   Prior prior;
   bool is_force = false;
   std::vector<std::string> forms{};     // of a force that is written in several: values of its key `form`, the usual one first
-  std::vector<std::string> added_to{};  // of a setting: keys whose value in the base case theta is added to; empty: theta is the value
+  std::vector<std::string> added_to{};  // of a setting: keys whose value in the base case theta changes; empty: theta is the value
+  Candidate setting{};                  // how it changes them
 
   /// Keys and values of a run with a form by its index; `base` gives the value of a key of the base case.
   std::vector<std::string> overrides(double theta, int form, std::uint64_t seed,

@@ -12,6 +12,7 @@
 #include "casework/key_changes.hpp"
 #include "casework/library.hpp"
 #include "coupling/coupling_settings.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 #include "simulation/setup/simulation.hpp"
 
 namespace snag {
@@ -65,6 +66,7 @@ CaseFeatures facts_of(const toml::table& root, const Simulation& run) {
     facts.sheet = facts.sheet || (rag.n_columns > 1 && rag.n_rows > 1);
   }
   facts.several = n > 1, facts.oriented = n > 1;
+  facts.hertz = root["contact"]["law"].value_or(std::string()).starts_with("hertz");
   return facts;
 }
 
@@ -130,6 +132,25 @@ void PointCase::set_alternative(const std::string& effect, const std::vector<std
   }
 }
 
+void PointCase::set_own_candidate(const OwnCandidate& candidate) {
+  OwnCandidate own = candidate;
+  own.key = case_file_.with_present_names(candidate.key);
+  if (own.key != candidate.key) log::warning_once(former_name_note(candidate.where + " key ", candidate.key, own.key));
+  const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, own.where + ": key \"" + own.key + "\" " + what); };
+  const auto nodes = nodes_of(tree_->root, own.key);
+  if (nodes.empty())
+    refuse("is not a number of " + file_.string() +
+           "; give one with its unit such as rag.centre_m, as snag run writes it to case.resolved.toml");
+  for (const KeyNode& node : nodes) {
+    const auto* list = node.value->as_array();
+    if (node.value->is_integer()) refuse("is a whole number; a strength needs one that may change by little: give another key");
+    if (list != nullptr && !own.direction)
+      refuse("is a list of " + std::to_string(list->size()) + " numbers; say along which with direction = [..]");
+    if (own.direction && (list == nullptr || list->size() != 3)) refuse("is no vector; leave direction out");
+  }
+  own_candidates_[own.effect.name] = std::move(own);
+}
+
 void PointCase::check_nuisance(const std::string& key) const {
   if (key == drag_law_uncertainty || key == drag_law_uncertainty_per_point || (key == flow_field && (facts_.prescribed || facts_.flows)))
     return;
@@ -156,7 +177,7 @@ std::string PointCase::reason_against(const ObservableRecord& observable) const 
 
 std::string PointCase::value_of(const std::string& key) const {
   std::vector<std::string> values;
-  for (const KeyNode& node : nodes_of(tree_->root, key)) values.push_back(scaled_text(*node.value, 1));
+  for (const KeyNode& node : nodes_of(tree_->root, key)) values.push_back(changed_text(*node.value, 1));
   return joined(values);
 }
 
@@ -197,6 +218,11 @@ class PointCase::Edit final : public RunEdit {
   void add_effect(const std::string& name, double theta, int form, std::uint64_t seed) {
     if (const auto alternative = point_.alternatives_.find(name); alternative != point_.alternatives_.end()) {
       for (const std::string& text : alternative->second) set(text);
+    } else if (const auto own = point_.own_candidates_.find(name); own != point_.own_candidates_.end()) {
+      const double change = theta * own->second.unit * (own->second.effect.random ? even_normal_deviate(seed) : 1);
+      const Vec3 along = own->second.direction.value_or(Vec3{});
+      keys_.add(own->second.key,
+                own->second.direction ? std::vector{change * along.x, change * along.y, change * along.z} : std::vector{change});
     } else if (const CatalogueEffect* of_library = catalogue_effect(name)) {
       if (of_library->is_force) add_force(name);
       for (const std::string& text : of_library->overrides(theta, form, seed, [this](const auto& key) { return point_.value_of(key); }))

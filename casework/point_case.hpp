@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/case_file.hpp"
+#include "diagnosis/data/own_candidate.hpp"
 #include "diagnosis/effects/effect_model.hpp"
 #include "observe/observables.hpp"
 #include "simulation/setup/flow_cache.hpp"
@@ -54,6 +55,8 @@ class PointCase {
                     const std::map<std::string, int>& forms = {}) const;
   /// From now on the effect of that name is these values of the case.
   void set_alternative(const std::string& effect, const std::vector<std::string>& overrides);
+  /// From now on the effect of that name is this candidate. Throws Error(usage) where the case has no such number.
+  void set_own_candidate(const OwnCandidate& candidate);
   /// The name that an uncertain input has today: of a key of the case that was renamed, or of the drag law. A former one gets a warning
   /// that begins with `where`.
   std::string input_name(const std::string& key, const std::string& where) const;
@@ -96,6 +99,7 @@ class PointCase {
   bool has_passage_ = false, has_exit_ = false;                   // [rag_passage]; an exit plane in [virtual_camera]
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
+  std::map<std::string, OwnCandidate> own_candidates_;            // by name
   Vec3 right_, up_;                                               // of the camera
 };
 

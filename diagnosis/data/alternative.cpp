@@ -4,19 +4,22 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "diagnosis/data/own_candidate.hpp"
 
 namespace snag {
 
 namespace {
 
 Section alternative_section(Alternative& one) {
-  Parameter effect = setting("effect", &one.effect, "Name of the effect that this table stands for.");
+  Parameter effect = setting("effect", &one.effect, "Name of the effect that this table stands for: one of the library, or a new one.");
   effect.required = true;
-  return {"alternative",
-          "A change of the case that stands for an effect, instead of the change that the diagnosis would make.",
-          {effect, setting("meaning", &one.meaning, "What it is, in words."),
-           setting("set", &one.set, "Values of the case, as for --set, at every point.")},
-          true};
+  return {
+      "alternative",
+      "A change of the case that stands for an effect: a candidate that is there or not, and of which nothing is fitted. It replaces the "
+      "candidate of the library that has its name.",
+      {effect, setting("meaning", &one.meaning, "What it is, in words."),
+       setting("set", &one.set, "Values of the case, as for --set, at every point.")},
+      true};
 }
 
 struct AtTable {
@@ -52,6 +55,7 @@ std::vector<Alternative> read_alternatives(const Table& root, const std::vector<
         throw Error(ExitCode::usage, at.where() + " point \"" + point + "\" is not the name of a [[point]]; there are " + joined(points));
       one.at[point] = keys.values;
     }
+    check_name_of_hypothesis(one.effect, table.where());
     if (one.set.empty() && one.at.empty())
       throw Error(ExitCode::usage, table.where() + " " + one.effect +
                                        " changes nothing; give set = [\"section.key=value\"], or "
@@ -72,12 +76,8 @@ std::vector<std::string> overrides_at(const Alternative& alternative, const std:
 
 void set_alternatives(std::vector<Effect>& effects, const std::vector<Alternative>& alternatives) {
   for (const Alternative& alternative : alternatives) {
-    const auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == alternative.effect; });
-    if (found == effects.end()) {
-      std::vector<std::string> known;
-      for (const Effect& effect : effects) known.push_back(effect.name);
-      throw Error(ExitCode::usage, "[[alternative]] effect \"" + alternative.effect + "\" is not a candidate; there are " + joined(known));
-    }
+    auto found = std::find_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == alternative.effect; });
+    if (found == effects.end()) found = effects.insert(found, Effect());
     // A range so narrow that linear models take it as it is, wide enough for their integrals.
     constexpr double width = 1e-4;
     *found = {.name = alternative.effect,

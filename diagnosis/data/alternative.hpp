@@ -25,7 +25,7 @@ std::vector<Section> alternative_sections();
 /// What the cases take of it at a point.
 std::vector<std::string> overrides_at(const Alternative& alternative, const std::string& point);
 
-/// The effects with those replaced that stand as alternatives. Throws Error(usage) for one that is no candidate.
+/// The effects with those replaced that stand as alternatives, and those added that have new names.
 void set_alternatives(std::vector<Effect>& effects, const std::vector<Alternative>& alternatives);
 
 }  // namespace snag

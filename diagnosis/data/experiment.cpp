@@ -213,6 +213,18 @@ void check_columns(const Experiment& experiment, const std::string& file) {
   }
 }
 
+// What a table declares and no list examines is misspelt in one of them.
+void check_declared(const Experiment& experiment, const std::string& file) {
+  std::vector<std::pair<std::string, std::string>> declared;  // table, name
+  for (const Alternative& alternative : experiment.alternatives) declared.emplace_back("alternative", alternative.effect);
+  for (const OwnCandidate& own : experiment.own_candidates) declared.emplace_back("candidate", own.effect.name);
+  const auto& examined = experiment.candidates;
+  for (const auto& [table, name] : declared)
+    if (!examined.empty() && std::find(examined.begin(), examined.end(), name) == examined.end())
+      throw Error(ExitCode::usage, file + ": [[" + table + "]] \"" + name + "\" is not among [model] candidates, which are " + joined(examined) +
+                                       "; add it there, or remove the table");
+}
+
 void check_points(const Experiment& experiment, const std::string& file) {
   std::vector<std::vector<double>> values(experiment.points.size());
   for (const Datum& d : experiment.data) values[d.point].push_back(d.value);
@@ -289,6 +301,7 @@ std::vector<Section> experiment_sections() {
   static Region region;
   std::vector<Section> all = single.sections(experiment);
   for (Section section : {observable.section(), point.section(), region_section(region)}) all.push_back(std::move(section));
+  all.push_back(own_candidate_section());
   for (Section& section : alternative_sections()) all.push_back(std::move(section));
   return all;
 }
@@ -313,6 +326,7 @@ Experiment read_experiment(const CaseFile& file) {
   std::vector<std::string> points;
   for (const OperatingPoint& point : experiment.points) points.push_back(point.id);
   experiment.alternatives = read_alternatives(root, points);
+  experiment.own_candidates = read_own_candidates(root);
   if (!keys.runs.empty()) experiment.runs = file.path(keys.runs);
   experiment.seed = static_cast<std::uint64_t>(keys.seed);
   const Table costs = root.table("budget").table("cost");
@@ -328,6 +342,7 @@ Experiment read_experiment(const CaseFile& file) {
   reject_repeated_ids(experiment.observables, "observable", name);
   reject_repeated_ids(experiment.points, "point", name);
   reject_repeated_ids(experiment.regions, "region", name);
+  check_declared(experiment, name);
 
   const std::string data_name = file.path(keys.data).string();
   const auto data_text = file_text(data_name);

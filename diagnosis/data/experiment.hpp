@@ -9,6 +9,7 @@
 
 #include "base/vec3.hpp"
 #include "diagnosis/data/alternative.hpp"
+#include "diagnosis/data/own_candidate.hpp"
 
 namespace snag {
 
@@ -60,6 +61,7 @@ struct Experiment {
   std::vector<Datum> data;              // by point, observable, replicate, time
   std::vector<std::string> candidates;  // empty: all
   std::vector<Alternative> alternatives{};
+  std::vector<OwnCandidate> own_candidates{};
   std::vector<Region> regions{};
   bool pairs = true;
   int max_runs = 20000;

@@ -6,7 +6,7 @@ CaseFeatures any_of(CaseFeatures a, const CaseFeatures& b) {
   a.prescribed = a.prescribed && b.prescribed;
   for (bool CaseFeatures::*fact : {&CaseFeatures::wall, &CaseFeatures::gravity, &CaseFeatures::flows, &CaseFeatures::uniform,
                                    &CaseFeatures::varies, &CaseFeatures::gradient, &CaseFeatures::turbulence, &CaseFeatures::bonds,
-                                   &CaseFeatures::sheet, &CaseFeatures::several, &CaseFeatures::oriented})
+                                   &CaseFeatures::sheet, &CaseFeatures::several, &CaseFeatures::oriented, &CaseFeatures::hertz})
     a.*fact = a.*fact || b.*fact;
   return a;
 }

@@ -18,6 +18,7 @@ struct CaseFeatures {
   bool uniform = false, varies = false;                                  // it has a uniform steady part; one that changes in space or time
   bool gradient = false, turbulence = false;                             // of the velocity; k and epsilon are known
   bool bonds = false, sheet = false, several = false, oriented = false;  // of the pieces: fibres and cloth have a direction
+  bool hertz = false;                                                    // contacts by the law of Hertz
 };
 
 /// What of several cases at least one has; prescribed: all of them.

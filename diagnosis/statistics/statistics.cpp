@@ -32,6 +32,11 @@ double log_sum_exp(std::span<const double> values) {
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 double normal_quantile(double p) { return -std::numbers::sqrt2 * bm::erfc_inv(2 * p); }
+double even_normal_deviate(std::uint64_t seed) {
+  constexpr std::uint64_t golden = 0x9e3779b97f4a7c15U;  // 2^64 (sqrt(5) - 1)/2
+  return normal_quantile((static_cast<double>((seed * golden) >> 11) + 0.5) * 0x1p-53);
+}
+
 double two_sided_p(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
 
 double score_of_p(double p) {

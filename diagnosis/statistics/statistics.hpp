@@ -25,6 +25,9 @@ class NormalNumbers {
 double log_sum_exp(std::span<const double> values);
 double normal_cdf(double z);
 double normal_quantile(double p);
+/// Standard normal deviates that fill the distribution evenly where seeds follow each other, so that the few runs of a diagnosis have its
+/// spread: quantiles of a Weyl sequence with the golden ratio.
+double even_normal_deviate(std::uint64_t seed);
 /// Two-sided p of a normal score.
 double two_sided_p(double z);
 /// Score z >= 0 whose two-sided p this is, at most 38.

@@ -73,9 +73,43 @@ class Diagnose(harness.CaseTest):
         self.assertAlmostEqual(found["mean"], 1, delta=1e-3)
         self.assertEqual(found["sd"], 0)
         self.assertGreater(verdict["shrinkage"]["geometry"]["mean"], 0.8)
-        file.write_text(file.read_text().replace('effect = "geometry"', 'effect = "geometri"'))
+        # By a name that the library does not have it is a candidate beside those of the library; one that no list examines is misspelt.
+        file.write_text(file.read_text().replace('"geometry"', '"spheres_as_ordered"'))
+        renamed = self.verdict(self.diagnose(file, "renamed"))
+        self.assertEqual((renamed["verdict"], renamed["effects"]), ("effects", ["spheres_as_ordered"]), renamed)
+        self.assertEqual(renamed["evidence"]["log_evidence"]["spheres_as_ordered"], verdict["evidence"]["log_evidence"]["geometry"])
+        file.write_text(file.read_text().replace('effect = "spheres_as_ordered"', 'effect = "spheres_as_orderd"'))
         refused = self.diagnose(file, "refused", code=2)
-        self.assertIn("geometri", refused.stderr)
+        self.assertIn('"spheres_as_orderd" is not among [model] candidates', refused.stderr)
+
+    def test_own_candidates(self):
+        """Spheres that started 3 mm lower than the cases say: a candidate of the file is named with its size, among those of the library; without
+        a shift it is not named. (A camera whose place is not known would do the same.) One whose key the cases do not have is refused."""
+        file = self.example() / "DIAGNOSIS.toml"
+        own = """
+[[candidate]]
+name = "start"
+meaning = "height of the start"
+key = "particle.position_m"
+direction = [0, 0, 1]
+unit = "mm"
+sd = 5
+"""
+        text = re.sub(r"(?m)^(case = .*)$", r"""\1\nset = ["coupling.forces=['schiller_naumann', 'added_mass']"]""", file.read_text())
+        text = text.replace("bias_u = 0.05", "bias_u = 0")
+        file.write_text(text + own + '[model]\ncandidates = ["start", "drag_magnitude", "drag_exponent", "history", "gravity"]\n')
+        for shift, named in ((0, []), (-3e-3, ["start"])):
+            place = [f"particle.0.position_m=[0.0, 0.0, {shift}]"]
+            self.data_of_runs(file.parent, "coupling.forces=['schiller_naumann', 'added_mass']", *place)
+            verdict = self.verdict(self.diagnose(file, f"own{shift}"))
+            self.assertEqual(verdict["effects"] if verdict["verdict"] == "effects" else [], named, verdict["notes"])
+        found = verdict["parameters"]["start"]
+        self.assertAlmostEqual(found["mean"], -3, delta=4 * found["sd"])
+        self.assertLess(found["sd"], 0.3)
+        self.assertIn("#   start: strength", (self.work / "own-0.003" / "case_with_effects_A.toml").read_text())
+        file.write_text(file.read_text().replace("particle.position_m", "particle.place_m"))
+        refused = self.diagnose(file, "refused", code=2)
+        self.assertIn('start: key "particle.place_m" is not a number of', refused.stderr)
 
     def data_of_runs(self, folder, *settings):
         """The data of the example made anew: by runs of its own cases with other settings, 20 times each, and noise."""

@@ -13,6 +13,7 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "casework/case_simulator.hpp"
+#include "diagnosis/statistics/statistics.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -330,6 +331,44 @@ TEST_F(CaseSimulatorTest, TablesOfRunsHaveTheFirstNames) {
                     present = key_of("flow.angular_frequency_rad_s=[30, 0, 0]", folder_ / "present");
   EXPECT_NE(former.find("flow.omega_per_s=[30, 0, 0];"), std::string::npos) << former;
   EXPECT_EQ(present, former);
+}
+
+/// Requirement: candidates of the experiment file add to a number of the case, several of one key add up, a random one is another deviate
+/// of the scatter theta in each run, and none leaves the base case as it is. In a uniform flow a path starts elsewhere and is the same.
+TEST_F(CaseSimulatorTest, OwnCandidates) {
+  const auto own = [](const char* name, const char* key, std::optional<Vec3> direction, bool random = false) {
+    return OwnCandidate{
+        {.name = name, .unit = "mm", .minimum = -100, .maximum = 100, .random = random}, key, 1e-3, direction, "[candidate]"};
+  };
+  experiment_.own_candidates = {own("start", "particle.position_m", Vec3{1, 0, 0}),
+                                own("start_askew", "particle.position_m", Vec3{2, 1, 0}),
+                                own("scatter", "particle.position_m", Vec3{1, 0, 0}, true), own("size", "particle.diameter_m", {})};
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto base = values(simulator, RunRequest());
+  EXPECT_EQ(values(simulator, with("start", 0)), base);
+  RunRequest both = with("start", 4);
+  both.effects["start_askew"] = 3;
+  for (const auto& [request, shift] : {std::pair(with("start", 4), 4e-3), std::pair(both, 10e-3)}) {
+    const auto moved = values(simulator, request);
+    for (std::size_t i = 0; i < base.size(); ++i) EXPECT_NEAR(moved[i] - base[i], shift, 1e-12);
+  }
+  RunRequest scattered = with("scatter", 5);
+  for (scattered.seed = 1; scattered.seed < 4; ++scattered.seed)
+    EXPECT_NEAR(values(simulator, scattered)[0] - base[0], 5e-3 * even_normal_deviate(scattered.seed), 1e-12);
+  EXPECT_NE(values(simulator, with("size", 1)), base);
+  const auto refused = [&](const OwnCandidate& candidate) {
+    experiment_.own_candidates = {candidate};
+    try {
+      const CaseSimulator again(MPI_COMM_WORLD, experiment_);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refused(own("start", "particle.place_m", {})).find("\"particle.place_m\" is not a number of"), std::string::npos);
+  EXPECT_NE(refused(own("start", "particle.position_m", {})).find("direction"), std::string::npos);
+  EXPECT_NE(refused(own("start", "particle.diameter_m", Vec3{1, 0, 0})).find("is no vector"), std::string::npos);
+  EXPECT_NE(refused(own("lift", "particle.diameter_m", {})).find("that of another candidate"), std::string::npos);
 }
 
 /// Requirement: an uncertain input that is no number of the case is refused by name.

@@ -1,7 +1,10 @@
 // What is known beforehand of the effects that a diagnosis over cases may find missing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "casework/library.hpp"
+#include "casework/point_case.hpp"
 #include "coupling/fluid_force.hpp"
 
 namespace snag {
@@ -26,6 +29,27 @@ TEST(DiagnosisLibrary, PriorsAreThoseOfTheCards) {
   const auto overrides = catalogue_effect("gravity")->overrides(1, 0, 0, [](const std::string&) { return ""; });
   ASSERT_EQ(overrides.size(), 1u);
   EXPECT_EQ(overrides[0], "gravity.acceleration_m_s2=[0.0, 0.0, -9.81]");
+}
+
+/// Requirement: settings change the value that the case has, by a sum or by a share, and bring the law that has them; a number of a force
+/// is blind where the case does not hold the force.
+TEST(DiagnosisLibrary, Settings) {
+  const auto base = [](const std::string& key) { return key.ends_with("reference_speed_m_s") ? "0.4" : ""; };
+  EXPECT_EQ(catalogue_effect("folding_speed")->overrides(0.5, 0, 0, base),
+            std::vector<std::string>{"coupling.reconfiguration.reference_speed_m_s=0.6000000000000001"});
+  EXPECT_EQ(catalogue_effect("wall_adhesion")->overrides(0.25, 0, 0, base),
+            (std::vector<std::string>{"contact.hertz_dmt.wall_adhesion_J_m2=0.25", "contact.law=\"hertz_dmt\""}));
+  const auto blind = [](const std::string& name, const CaseFeatures& facts, const std::vector<std::string>& forces) {
+    const std::vector<Effect> all = library_effects(facts, forces);
+    return std::find_if(all.begin(), all.end(), [&](const Effect& e) { return e.name == name; })->blind;
+  };
+  CaseFeatures facts;
+  facts.bonds = facts.wall = facts.several = true;
+  EXPECT_EQ(blind("folding_speed", facts, {}), "the base case has no reconfiguration");
+  EXPECT_EQ(blind("folding_speed", facts, {"reconfiguration"}), "");
+  EXPECT_EQ(blind("wall_adhesion", facts, {}), "contacts are no spheres of Hertz");
+  facts.hertz = true;
+  EXPECT_EQ(blind("wall_adhesion", facts, {}), "");
 }
 
 }  // namespace

@@ -177,6 +177,52 @@ TEST_F(ReadExperiment, Alternatives) {
   EXPECT_TOLD(message(head + x_mm + A + "[[alternative]]\neffect = \"geometry\"\n", rows), "changes nothing");
 }
 
+TEST_F(ReadExperiment, AlternativesOfNewNames) {
+  const std::string rows = columns + "A,0,0.1,x,1\n", other = "[[alternative]]\neffect = \"other_mesh\"\nset = [\"a.b=1\"]\n";
+  const auto e = read_experiment(write(head + x_mm + A + other, rows));
+  std::vector<Effect> effects{{.name = "lift"}};
+  set_alternatives(effects, e.alternatives);
+  ASSERT_EQ(effects.size(), 2u);
+  EXPECT_TRUE(effects[1].name == "other_mesh" && effects[1].fixed);
+  EXPECT_TOLD(message(head + x_mm + A + other + "[model]\ncandidates = [\"other_mash\"]\n", rows),
+              "[[alternative]] \"other_mesh\" is not among [model] candidates");
+  EXPECT_TOLD(message(head + x_mm + A + "[[alternative]]\neffect = \"a+b\"\nset = [\"a.b=1\"]\n", rows), "cannot stand in a verdict");
+}
+
+TEST_F(ReadExperiment, OwnCandidates) {
+  const std::string rows = columns + "A,0,0.1,x,1\n";
+  const auto with = [&](const std::string& lines) {
+    return head + x_mm + A + "[[candidate]]\nname = \"start\"\nkey = \"rag.centre_m\"\ndirection = [0, 1, 0]\nunit = \"mm\"\n" + lines;
+  };
+  const auto e = read_experiment(write(with("sd = 20\nminimum = -30\n"), rows));
+  ASSERT_EQ(e.own_candidates.size(), 1u);
+  const OwnCandidate& own = e.own_candidates[0];
+  EXPECT_EQ(own.key, "rag.centre_m");
+  EXPECT_DOUBLE_EQ(own.unit, 1e-3);
+  EXPECT_EQ(own.effect.sd, 20);
+  EXPECT_EQ(own.effect.minimum, -30);
+  EXPECT_EQ(own.direction->y, 1);
+  std::vector<Effect> effects{{.name = "lift"}};
+  add_own_candidates(effects, e.own_candidates);
+  EXPECT_EQ(effects.at(1).name, "start");
+  EXPECT_THROW(add_own_candidates(effects, e.own_candidates), Error);
+  const auto told = [&](const std::string& lines) { return message(with(lines), rows); };
+  EXPECT_TOLD(told(""), "sd");
+  EXPECT_TOLD(told("sd = 0\n"), "sd is 0");
+  EXPECT_TOLD(told("sd = 1\nminimum = 2\n"), "has to hold 0");
+  EXPECT_TOLD(told("sd = 1\nrandom = true\n"), "give minimum = 0");
+  EXPECT_TOLD(told("sd = 1\nmean = 5\nmaximum = 4\n"), "outside of its range");
+  EXPECT_TOLD(told("sd = 1\n[model]\ncandidates = [\"lift\"]\n"), "[[candidate]] \"start\" is not among [model] candidates");
+  const auto unit = [&](const std::string& key, const std::string& text) {
+    return message(head + x_mm + A + "[[candidate]]\nname = \"c\"\nkey = \"" + key + "\"\nsd = 1\nunit = \"" + text + "\"\n", rows);
+  };
+  EXPECT_TOLD(unit("rag.centre_m", "s"), "unit \"s\" is not one of key \"rag.centre_m\"");
+  EXPECT_TOLD(unit("rag.bond_damping", "m"), "is not one of key");
+  EXPECT_EQ(unit("rag.bond_damping", "1"), "accepted");
+  EXPECT_EQ(unit("coupling.reconfiguration.reference_speed_m_s", "cm/s"), "accepted");
+  EXPECT_EQ(unit("flow.dynamic_viscosity_Pa_s", "Pa s"), "accepted");
+}
+
 TEST_F(ReadExperiment, Regions) {
   const std::string rows = columns + "A,0,0.1,x,1\n", near = "[[region]]\nid = \"near\"\nupper_mm = [5, 0, 7]\n";
   const auto e = read_experiment(write(head + x_mm + A + near, rows));
@@ -205,7 +251,8 @@ TEST_F(ReadExperiment, EveryKeyIsInTheManual) {
   const CaseFile file = experiment_file(
       write(head + x_mm + A + B +
                 "[[region]]\nid = \"front\"\n[model]\ncandidates = \"all\"\n[budget]\nseed = 7\ncost = { \"flow.amplitude\" = 2 }\n" +
-                "[[alternative]]\neffect = \"lift\"\n[[alternative.at]]\npoint = \"A\"\nset = [\"time.end_s=1\"]\n",
+                "[[candidate]]\nname = \"start\"\nkey = \"a.b_m\"\nunit = \"m\"\nsd = 1\n[[alternative]]\neffect = "
+                "\"lift\"\n[[alternative.at]]\npoint = \"A\"\nset = [\"time.end_s=1\"]\n",
             columns + "A,0,0.1,x,1\nB,0,0.1,x,2\n"));
   read_experiment(file);
   EXPECT_EQ(keys_without_section(file, experiment_sections(), {"point.input_u", "budget.cost"}), std::vector<std::string>{});
