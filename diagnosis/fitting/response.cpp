@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "diagnosis/data/between_series.hpp"
 
 namespace snag {
 
@@ -83,8 +84,10 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
   for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) {
     const Observable& observable = experiment.observables[o];
     if (observable.bias_u > 0 && !told.contains(calibration_of(observable)))
-      nuisances_.push_back({"bias of " + observable.id, 1, all, o, true});
+      nuisances_.push_back({"bias of " + observable.id, 1, all, o, true, observable.bias_u});
   }
+  for (const BetweenSeries& term : between_series(experiment, points_))
+    nuisances_.push_back({term.name, 1, term.points, term.observable, true, term.u});
   find_randomness();
   const std::vector<Response> answers = run(base(), all);
   find_mistakes(answers);
@@ -198,7 +201,7 @@ bool Responses::acts_at(int nuisance, int point) const {
 
 std::string Responses::name_of_nuisance(int nuisance) const {
   const FreeNuisance& own = nuisances_[static_cast<std::size_t>(nuisance)];
-  if (own.points.size() == experiment_.points.size()) return own.name;
+  if (own.points.size() == experiment_.points.size() || own.name.find('@') != std::string::npos) return own.name;
   std::vector<std::string> points;
   for (const int p : own.points) points.push_back(experiment_.points[static_cast<std::size_t>(p)].id);
   return own.name + "@" + joined(points);
@@ -305,9 +308,8 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
     }
   }
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
-    if (nuisances_[j].bias_observable < 0) continue;
-    const double bias = request.state.nuisances[static_cast<Eigen::Index>(j)] *
-                        experiment_.observables[nuisances_[j].bias_observable].bias_u *
+    if (nuisances_[j].bias_observable < 0 || !acts_at(static_cast<int>(j), request.point)) continue;
+    const double bias = request.state.nuisances[static_cast<Eigen::Index>(j)] * nuisances_[j].bias *
                         factor_of_unit(request.state, nuisances_[j].bias_observable);
     for (int i = 0; i < n; ++i)
       if (point.rows[i].observable == nuisances_[j].bias_observable && point.rows[i].kind != Row::Kind::spread) response.value[i] += bias;

@@ -51,6 +51,7 @@ struct FreeNuisance {
   std::vector<int> points;   // that share it
   int bias_observable = -1;  // an additive bias of this observable, which needs no runs; -1: an input of the simulator
   bool of_data = false;      // an error of the measurement, not of the model
+  double bias = 0;           // its standard uncertainty, SI
 };
 
 /// The state with the leading forms only.

@@ -182,7 +182,7 @@ inline Experiment experiment(const Truth& truth, int n_train, int n_withheld, in
   const double viscosity = 0.02 * random(), drag = 0.05 * random();
   for (int p = 0; p < n_train + n_withheld; ++p) {
     e.points.push_back({.id = std::string(1, static_cast<char>('A' + p)),
-                        .case_file = {},
+                        .case_file = std::string(1, static_cast<char>('a' + p)),
                         .withheld = p >= n_train,
                         .input_u = {{"flow.amplitude", 0.05}}});
     Theta nuisances{{"flow.amplitude", 0.05 * random()}, {"flow.viscosity", viscosity}, {"drag_law_uncertainty", drag}};

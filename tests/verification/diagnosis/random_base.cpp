@@ -73,7 +73,7 @@ Experiment measured(const Theta& effects, const Theta& nuisances, std::uint64_t 
   NormalNumbers random(seed);
   for (int p = 0; p < 12; ++p) {
     e.points.push_back({.id = std::string(1, static_cast<char>('A' + p)),
-                        .case_file = {},
+                        .case_file = std::string(1, static_cast<char>('a' + p)),
                         .withheld = p / 3 == 2,
                         .group = std::array{"low", "middle", "high"}[p % 3]});
     std::vector<std::array<double, 3>> all;
