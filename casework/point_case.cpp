@@ -12,6 +12,7 @@
 #include "casework/key_changes.hpp"
 #include "casework/library.hpp"
 #include "coupling/coupling_settings.hpp"
+#include "coupling/fluid_force.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 #include "simulation/setup/simulation.hpp"
 
@@ -109,6 +110,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   forces_ = listed_forces(tree_->root);
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {
+    drag_is_replaced_ = drag_is_replaced_ || fluid_forces().make(name, "diagnosis")->description().role == Role::drag_replacement;
     const std::string key = "coupling." + name + ".drag_factor";
     if (!nodes_of(tree_->root, key).empty()) drag_factors_.push_back(key);
   }
@@ -234,7 +236,19 @@ class PointCase::Edit final : public RunEdit {
   void add_deviation(const std::string& name, double deviation) {
     if (name == flow_field) return scale_flow(1 + deviation);
     if (name != drag_law_uncertainty && name != drag_law_uncertainty_per_point) return scale(name, 1 + deviation);
-    for (const std::string& key : point_.drag_factors_) scale(key, 1 + deviation);
+    if (point_.drag_is_replaced_)
+      drag_ *= 1 + deviation;
+    else
+      for (const std::string& key : point_.drag_factors_) scale(key, 1 + deviation);
+  }
+  /// The factor on drag that replaces the particles' own; theta: what the candidate drag_magnitude does.
+  void add_magnitude(double theta) {
+    if (drag_ == 1) return;
+    const std::string name = "drag_magnitude", key = "coupling." + name + ".excess";
+    const auto held = nodes_of(point_.tree_->root, key);
+    const double of_case = held.empty() ? 0 : held.front().value->value_or(0.0);
+    set(key + "=" + toml_text((1 + of_case) * (1 + theta) * drag_ - 1));
+    add_force(name);
   }
   /// To the exponent of Re in the drag; theta: what the candidate of that name does.
   void add_exponent(double exponent, double theta) {
@@ -262,6 +276,7 @@ class PointCase::Edit final : public RunEdit {
   std::vector<std::string> forces_;
   std::size_t n_base_forces_;
   double turn_ = 0;  // rad
+  double drag_ = 1;  // factor on drag that replaces the particles' own
   CaseChange change_;
 };
 
@@ -282,6 +297,8 @@ CaseChange PointCase::change(const std::map<std::string, double>& effects, const
   }
   const auto candidate = effects.find("drag_exponent");
   if (exponent != 0) run.add_exponent(exponent, candidate == effects.end() ? 0 : candidate->second);
+  const auto magnitude = effects.find("drag_magnitude");
+  run.add_magnitude(magnitude == effects.end() ? 0 : magnitude->second);
   return run.change();
 }
 

@@ -94,7 +94,8 @@ class PointCase {
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
   CaseFeatures facts_;
-  bool crumpled_ = false;  // a piece starts crumpled, by its seed
+  bool crumpled_ = false;          // a piece starts crumpled, by its seed
+  bool drag_is_replaced_ = false;  // a law of the sheet stands in for that of its particles, whose factor is without effect then
   bool restarts_ = false;
   bool has_passage_ = false, has_exit_ = false;                   // [rag_passage]; an exit plane in [virtual_camera]
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag

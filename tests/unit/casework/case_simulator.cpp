@@ -333,6 +333,41 @@ TEST_F(CaseSimulatorTest, TablesOfRunsHaveTheFirstNames) {
   EXPECT_EQ(present, former);
 }
 
+/// Requirement: an uncertain drag law acts on the drag of a sheet, too, where that stands in for the drag of its particles: as the
+/// candidate drag_magnitude does, and on top of it.
+TEST_F(CaseSimulatorTest, DragLawOfASheetIsUncertain) {
+  if (rank_of(MPI_COMM_WORLD) == 0)
+    std::ofstream(folder_ / "case.toml") << R"(
+[time]
+end_s = 0.1
+[flow]
+kind = "prescribed"
+density_kg_m3 = 1000
+kinematic_viscosity_m2_s = 1e-6
+velocity_m_s = [0.5, 0, 0]
+[[rag]]
+length_m = 0.03
+width_m = 0.02
+radius_m = 2e-3
+centre_m = [0, 0, 0]
+lengthwise = [0, 1, 0]
+crosswise = [0, 0, 1]
+[coupling]
+mode = "one_way"
+forces = ["recommended"]
+)";
+  MPI_Barrier(MPI_COMM_WORLD);
+  for (OperatingPoint& point : experiment_.points) point.input_u = {{"drag_law_uncertainty", 0.2}};
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  const auto base = values(simulator, RunRequest());
+  EXPECT_NE(values(simulator, with_input("drag_law_uncertainty", 0.2)), base);
+  EXPECT_EQ(values(simulator, with_input("drag_law_uncertainty", 0.2)), values(simulator, with("drag_magnitude", 0.2)));
+  RunRequest both = with("drag_magnitude", 0.5);
+  both.nuisances["drag_law_uncertainty"] = 0.2;
+  const auto twice = values(simulator, both), once = values(simulator, with("drag_magnitude", 0.8));
+  for (std::size_t i = 0; i < base.size(); ++i) EXPECT_NEAR(twice[i], once[i], 1e-9 * std::abs(once[i]));
+}
+
 /// Requirement: candidates of the experiment file add to a number of the case, several of one key add up, a random one is another deviate
 /// of the scatter theta in each run, and none leaves the base case as it is. In a uniform flow a path starts elsewhere and is the same.
 TEST_F(CaseSimulatorTest, OwnCandidates) {
