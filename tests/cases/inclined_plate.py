@@ -12,7 +12,6 @@ import harness
 import numpy
 
 CHORD, SPEED, DENSITY = 0.1, 1.0, 1000.0  # m, m/s, kg/m3
-SIZE, THICKNESS = 0.0125, 0.005  # of the cells along the plate and across it, m
 MEASURED = {15: (0.448, 0.542), 30: (0.639, 0.758), 45: (0.902, 0.726), 60: (1.145, 0.588), 90: (1.527, 0)}  # degrees: drag, lift coefficient
 
 CASE = """
@@ -68,14 +67,16 @@ form = "viscous"
 class InclinedPlate(harness.CaseTest):
     """Half of the plate, from the plane of symmetry z = 0 on. Its normal is y."""
 
+    size, thickness = 0.0125, 0.005  # of the cells along the plate and across it, m
+
     def coefficients(self, degrees, delta=None, step=6, Re=100, radius_mm=2, layers=""):
         """Normal and tangential force over the dynamic pressure and the plate's area, of a sheet with the kernel width `delta` (m) or of a rigid plate."""
-        along = graded_box.axis(-0.8, 1.3, (-0.075, 0.1), SIZE, 1.25)
-        across = graded_box.axis(-0.8, 1.0, (-6 * THICKNESS, 6 * THICKNESS), THICKNESS, 1.25)
-        span = numpy.unique(graded_box.axis(0, 0.6, (0, 0.125), SIZE, 1.25))
+        along = graded_box.axis(-0.8, 1.3, (-0.075, 0.1), self.size, 1.25)
+        across = graded_box.axis(-0.8, 1.0, (-6 * self.thickness, 6 * self.thickness), self.thickness, 1.25)
+        span = numpy.unique(graded_box.axis(0, 0.6, (0, 0.125), self.size, 1.25))
         mesh = self.shared / f"{'sheet' if delta else 'plate'}.msh"
         if not mesh.exists():
-            graded_box.write(mesh, (along, across, span), None if delta else ((-CHORD / 2, CHORD / 2), (-THICKNESS, 0), (-CHORD, CHORD)))
+            graded_box.write(mesh, (along, across, span), None if delta else ((-CHORD / 2, CHORD / 2), (-self.thickness, 0), (-CHORD, CHORD)))
         angle = math.radians(degrees)
         stream = f"[{SPEED * math.cos(angle):.9g}, {SPEED * math.sin(angle):.9g}, 0]"
         text = CASE.format(mesh=mesh, step=step, stream=stream, viscosity=DENSITY * SPEED * CHORD / Re)
@@ -99,7 +100,6 @@ class InclinedPlate(harness.CaseTest):
             self.assertLess(abs(found_normal / normal - 1), bound)
             self.assertLess(abs(off), 4)
         return found_normal
-
 
     def along(self, Re, delta, bound, turbulent=False, **keys):
         """Friction of both sides: Blasius (1908) with the term of the trailing edge, Messiter (1970); or 0.074 Re^(-1/5), Prandtl."""

@@ -1,7 +1,8 @@
 # labels: long
 # timeout: 7200
 # cost: 1500
-"""Requirement: inclined_plate.py at five angles, and within 10 % of a rigid plate in the same mesh; a kernel of half a cell along the plate within 12 % of the rigid plate."""
+"""Requirement: inclined_plate.py at five angles, and within 10 % of a rigid plate in the same mesh; a kernel of half a cell along the plate within 12 % of the rigid plate, and on cells half as
+large at the measurement, too."""
 import math
 
 import harness
@@ -26,6 +27,14 @@ class InclinedPlateLong(inclined_plate.InclinedPlate):
             self.along(1e6, delta, 0.20, turbulent=True)
         friction = [self.along(1e4, 0.012, 0.10, step=12, radius_mm=radius) for radius in (1, 2)]
         self.assertLess(abs(friction[0] / friction[1] - 1), 0.03)
+
+
+class InclinedPlateInFineCells(inclined_plate.InclinedPlate):
+    size, thickness = 0.00625, 0.0025  # m
+
+    def test_narrow_kernel(self):
+        for degrees in (30, 45):
+            self.compare(degrees, 0.006, 0.15, step=3)
 
 
 if __name__ == "__main__":
