@@ -221,8 +221,8 @@ void check_declared(const Experiment& experiment, const std::string& file) {
   const auto& examined = experiment.candidates;
   for (const auto& [table, name] : declared)
     if (!examined.empty() && std::find(examined.begin(), examined.end(), name) == examined.end())
-      throw Error(ExitCode::usage, file + ": [[" + table + "]] \"" + name + "\" is not among [model] candidates, which are " + joined(examined) +
-                                       "; add it there, or remove the table");
+      throw Error(ExitCode::usage, file + ": [[" + table + "]] \"" + name + "\" is not among [model] candidates, which are " +
+                                       joined(examined) + "; add it there, or remove the table");
 }
 
 void check_points(const Experiment& experiment, const std::string& file) {
