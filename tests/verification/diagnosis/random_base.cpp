@@ -8,7 +8,7 @@
 #include <map>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/statistics/statistics.hpp"
+#include "tests/verification/diagnosis/random_simulator.hpp"
 
 using namespace snag;
 
@@ -34,7 +34,7 @@ std::array<double, 3> passage(int point, const Theta& effects, const Theta& nuis
 /// Index of the case of a point: points of one case are of one condition.
 int condition(const OperatingPoint& point) { return point.case_file.string().front() - 'a'; }
 
-class Pipe final : public Simulator {
+class Pipe final : public RandomSimulator {
  public:
   explicit Pipe(const Experiment& experiment) : points_(experiment.points) {
     effects_ = {{.name = "drag", .parameter = "", .mean = 0.3, .sd = 0.2, .minimum = -0.6, .maximum = 2},
@@ -45,27 +45,14 @@ class Pipe final : public Simulator {
     nuisances_.push_back({"rag.mass", 0.02, all});
     for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) slots_.push_back({o});
   }
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    std::vector<RunResult> results;
-    for (const RunRequest& r : requests) {
-      ++n_runs_;
-      NormalNumbers random(r.seed * 100 + static_cast<std::uint64_t>(r.point));
-      const auto values = passage(condition(points_[static_cast<std::size_t>(r.point)]), r.effects, r.nuisances, random);
-      results.push_back({{values.begin(), values.end()}, ""});
-    }
-    return results;
-  }
-  int n_runs() const override { return n_runs_; }
 
  private:
+  std::vector<double> values(const RunRequest& r, NormalNumbers& random) const override {
+    const auto found = passage(condition(points_[static_cast<std::size_t>(r.point)]), r.effects, r.nuisances, random);
+    return {found.begin(), found.end()};
+  }
+
   std::vector<OperatingPoint> points_;
-  std::vector<Effect> effects_;
-  std::vector<Nuisance> nuisances_;
-  std::vector<Slot> slots_;
-  int n_runs_ = 0;
 };
 
 /// Forty repeats at twelve points of three groups; `with_pair`: two of different groups have one condition.

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "diagnosis/diagnose.hpp"
-#include "diagnosis/statistics/statistics.hpp"
+#include "tests/verification/diagnosis/random_simulator.hpp"
 
 using namespace snag;
 
@@ -27,7 +27,7 @@ Passage passage(int point, double sticking, double slip, NormalNumbers& random) 
   return p;
 }
 
-class Pump final : public Simulator {
+class Pump final : public RandomSimulator {
  public:
   explicit Pump(bool with_twin = false) {
     effects_ = {{.name = "slip", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4},
@@ -35,27 +35,13 @@ class Pump final : public Simulator {
     if (with_twin) effects_.push_back({.name = "twin", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4});
     for (int o = 0; o < 3; ++o) slots_.push_back({o});
   }
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    std::vector<RunResult> results;
-    for (const RunRequest& r : requests) {
-      ++n_runs_;
-      NormalNumbers random(r.seed * 100 + static_cast<std::uint64_t>(r.point));
-      const auto theta = [&](const char* name) { return r.effects.contains(name) ? r.effects.at(name) : 0; };
-      const Passage p = passage(r.point, theta("sticking") + theta("twin"), theta("slip"), random);
-      results.push_back({{p.time, p.recirculations, p.exited}, ""});
-    }
-    return results;
-  }
-  int n_runs() const override { return n_runs_; }
 
  private:
-  std::vector<Effect> effects_;
-  std::vector<Nuisance> nuisances_;
-  std::vector<Slot> slots_;
-  int n_runs_ = 0;
+  std::vector<double> values(const RunRequest& r, NormalNumbers& random) const override {
+    const auto theta = [&](const char* name) { return r.effects.contains(name) ? r.effects.at(name) : 0; };
+    const Passage p = passage(r.point, theta("sticking") + theta("twin"), theta("slip"), random);
+    return {p.time, p.recirculations, p.exited};
+  }
 };
 
 Experiment measured(double sticking, double slip, std::uint64_t seed) {
