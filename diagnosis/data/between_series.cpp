@@ -14,7 +14,9 @@ struct Same {
   std::string case_file;
   int observable = 0;
   double begin = 0, end = 0;
-  auto operator<=>(const Same&) const = default;
+  friend bool operator<(const Same& a, const Same& b) {
+    return std::tie(a.set, a.case_file, a.observable, a.begin, a.end) < std::tie(b.set, b.case_file, b.observable, b.begin, b.end);
+  }
 };
 
 struct Means {

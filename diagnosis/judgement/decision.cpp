@@ -235,8 +235,8 @@ class Judge {
     const auto likeliest =
         std::max_element(v_.probability.begin(), v_.probability.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     std::vector<std::string> acting = split(likeliest->first, '+');
-    for (const auto& [effect, others] : v_.same_as)
-      std::erase_if(acting, [&](const std::string& name) { return std::count(others.begin(), others.end(), name) > 0; });
+    for (const auto& same : v_.same_as)
+      std::erase_if(acting, [&](const std::string& name) { return std::count(same.second.begin(), same.second.end(), name) > 0; });
     const auto acts = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
     if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
     v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + number_text(v_.probability.at(a_.names[first])) + ") is " +
