@@ -54,17 +54,18 @@ class CellWeights {
   /// Sets rows(), inside() and unresolved(). Collective.
   virtual void locate(const Announcement& announced) = 0;
 
-  /// True if the kernel is cut off at walls: the weights are then those without factors of cells, near the particle only, until
-  /// set_cell_factors() is called.
+  /// True if the kernel is cut off at walls: factors of cells are to be found. Until end_balancing() weights are those near the particle
+  /// only.
   virtual bool start_balancing() { return false; }
-  /// d_c of the owned cells.
+  virtual void end_balancing() {}
+  /// d_c of the owned cells; 1 before.
   virtual void set_cell_factors(const std::vector<double>&) {}
 
   /// Of the announced particles; normalised over all ranks.
   const WeightRows& rows() const { return rows_; }
   /// Forgets the announced particles for which `keeps` [n_received] is 0.
   void keep(std::span<const char> keeps);
-  /// Share of the kernel of each particle that lies in the mesh, 1.
+  /// sum V_c d_c G over int G dV of each particle, 1: the share of its kernel that lies in the mesh, where d_c is 1.
   const std::vector<double>& inside() const { return inside_; }
   /// Particles of this rank for which no cell counts.
   const std::vector<int>& unresolved() const { return unresolved_; }

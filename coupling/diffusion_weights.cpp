@@ -1,17 +1,19 @@
 #include "coupling/diffusion_weights.hpp"
 
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
 #include "parallel/sum.hpp"
-#include "solver/operators/cell_matrix.hpp"
 
 namespace snag {
 
 namespace {
 
+using SymmetricMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
 constexpr double tolerance = 1e-10;
-constexpr int max_sweeps = 2000;
 
 /// Largest distance of a node from the centre of its cell, m. Collective.
 double largest_radius(const Mesh& mesh) {
@@ -24,12 +26,10 @@ double largest_radius(const Mesh& mesh) {
 
 }  // namespace
 
-/// Cells of the graph about the one that comes first, as a mesh of their own for the solver of transport equations.
+/// Cells of the graph about the one that comes first.
 struct DiffusionWeights::Patch {
-  std::vector<int> cell;            // of the graph
-  std::vector<double> conductance;  // of the faces of `mesh`, m
-  std::vector<double> amount;       // in each cell, 1
-  Mesh mesh;
+  std::vector<int> cell;                                  // of the graph
+  std::vector<Eigen::Triplet<double>> minus_conductance;  // of the faces between them, m; place, larger place
 };
 
 DiffusionWeights::DiffusionWeights(const Mesh& mesh, double area, int n_steps, double cut)
@@ -94,11 +94,11 @@ DiffusionWeights::Row DiffusionWeights::made_row(std::int64_t holder_id) {
   if (holder < 0) return row;
   Patch patch;
   find_patch(holder, patch);
-  diffuse(patch);
+  const Eigen::VectorXd amount = diffused(patch);
   for (std::size_t i = 0; i < patch.cell.size(); ++i) {
     const int cell = patch.cell[i];
     row.at_interface = row.at_interface || graph_.at_interface[cell] != 0;
-    if (graph_.own[cell] >= 0) row.cell.push_back(graph_.own[cell]), row.weight.push_back(patch.amount[i]);
+    if (graph_.own[cell] >= 0) row.cell.push_back(graph_.own[cell]), row.weight.push_back(amount[static_cast<Eigen::Index>(i)]);
   }
   return row;
 }
@@ -118,33 +118,30 @@ void DiffusionWeights::find_patch(int holder, Patch& patch) {
         patch.cell.push_back(to);
       }
       if (place < 0 || place <= static_cast<int>(i)) continue;  // beyond the cut, or a face that is known from the other side
-      patch.mesh.owner.push_back(static_cast<int>(i)), patch.mesh.neighbour.push_back(place);
-      patch.conductance.push_back(graph_.conductance[l]);
+      patch.minus_conductance.emplace_back(static_cast<int>(i), place, -graph_.conductance[l]);
     }
   }
   for (const int cell : patch.cell) place_in_patch_[cell] = -1;
-  patch.mesh.n_cells = static_cast<int>(patch.cell.size());
-  patch.mesh.n_interior = patch.mesh.n_faces = patch.mesh.first_facet = static_cast<int>(patch.conductance.size());
 }
 
-void DiffusionWeights::diffuse(Patch& patch) const {
-  const std::size_t n = patch.cell.size();
-  CellMatrix matrix(patch.mesh);
-  std::vector<double> diagonal(n), concentration(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) diagonal[i] = graph_.volume[patch.cell[i]];
-  for (int f = 0; f < patch.mesh.n_interior; ++f) {
-    const double k = area_ * patch.conductance[f];
-    matrix.value[matrix.place_of_owner[f]] = matrix.value[matrix.place_of_neighbour[f]] = -k;
-    diagonal[patch.mesh.owner[f]] += k, diagonal[patch.mesh.neighbour[f]] += k;
-  }
-  patch.amount.assign(n, 0.0);
-  patch.amount[0] = 1;
+/// Share of one at the first cell that is in each cell after m steps, 1.
+Eigen::VectorXd DiffusionWeights::diffused(const Patch& patch) const {
+  const auto n = static_cast<Eigen::Index>(patch.cell.size());
+  Eigen::VectorXd volume(n), amount = Eigen::VectorXd::Unit(n, 0), concentration = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) volume[i] = graph_.volume[patch.cell[static_cast<std::size_t>(i)]];
+  SymmetricMatrix upper(n, n), matrix(n, n);
+  upper.setFromTriplets(patch.minus_conductance.begin(), patch.minus_conductance.end());
+  matrix = area_ * SymmetricMatrix(upper.selfadjointView<Eigen::Upper>());
+  const Eigen::VectorXd diagonal = volume - matrix * Eigen::VectorXd::Ones(n);
+  for (Eigen::Index i = 0; i < n; ++i) matrix.coeffRef(i, i) = diagonal[i];
+  Eigen::ConjugateGradient<SymmetricMatrix, Eigen::Lower | Eigen::Upper> solver(matrix);
+  solver.setTolerance(tolerance);
   for (int step = 0; step < n_steps_; ++step) {
-    solve_rows<double>(patch.mesh, matrix, diagonal, patch.amount, concentration, tolerance, max_sweeps, true);
-    double total = 0;
-    for (std::size_t i = 0; i < n; ++i) total += patch.amount[i] = graph_.volume[patch.cell[i]] * concentration[i];
-    for (double& amount : patch.amount) amount /= total;
+    concentration = solver.solveWithGuess(amount, concentration);
+    amount = volume.cwiseProduct(concentration);
+    amount /= amount.sum();
   }
+  return amount;
 }
 
 }  // namespace snag

@@ -11,6 +11,7 @@
 // sliding interface are made anew in every step. Each rank makes the rows that its cells occur in by itself, on a graph that has all cells
 // within twice the reach of its own, in the order of cell_id: the weights are the same on any number of ranks. Periodic faces count where
 // both cells are nearer than the cut as they stand.
+#include <Eigen/Core>
 #include <unordered_map>
 
 #include "coupling/cell_graph.hpp"
@@ -39,7 +40,7 @@ class DiffusionWeights final : public CellWeights {
   void make_missing_rows(std::span<const double> holder_ids);
   Row made_row(std::int64_t holder_id);
   void find_patch(int holder, Patch& patch);
-  void diffuse(Patch& patch) const;
+  Eigen::VectorXd diffused(const Patch& patch) const;
 
   const Mesh& mesh_;
   double area_;

@@ -14,7 +14,7 @@ namespace snag {
 namespace {
 
 constexpr double none = -infinity;      // exponent where no cell is in the support
-constexpr double reach_of_walls = 2.5;  // in widths: farther away the share of the kernel in the mesh is above 0.99
+constexpr double reach_of_walls = 3.5;  // in widths: farther away the share of the kernel in the mesh is above 0.999
 
 /// int g dV over the ball of this radius, m3.
 double integral(const DistanceKernel& kernel, double width, double radius) {
@@ -56,8 +56,8 @@ class DistanceWeights final : public CellWeights {
   }
   void set_cell_factors(const std::vector<double>& factors) override {
     for (int c = 0; c < mesh_.n_cells; ++c) cell_weight_[c] = mesh_.cell_volume[c] * factors[c];
-    set_support(kernel_.support_radius(width_));
   }
+  void end_balancing() override { set_support(kernel_.support_radius(width_)); }
 
   void locate(const Announcement& announced) override {
     std::vector<double> answers, factors;

@@ -14,8 +14,10 @@ namespace snag {
 
 namespace {
 
-constexpr double balance = 0.75;       // exponent of d_c
-constexpr double least_share = 0.125;  // in a corner of three walls
+// Of the rounds that find d_c. Each leaves at most a third of what is missing, whatever its wavelength.
+constexpr double relaxation = 2.0 / 3.0, least_share = 0.125;  // share of a kernel in the mesh in a corner of three walls
+constexpr double even = 0.01;                                  // what an even layer gives is so near 1
+constexpr int max_rounds = 8;
 
 void sort_out(std::vector<int>& cells) {
   std::sort(cells.begin(), cells.end());
@@ -36,7 +38,7 @@ Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
   weigh_cells();
 }
 
-/// Factors of cells near boundaries, from the shares of the kernels of the cells themselves. Cells of a turning zone keep them.
+/// Factors of cells near boundaries: rounds of (eq. 2) with the kernels of the cells themselves. Cells of a turning zone keep them.
 void Kernel::weigh_cells() {
   if (!weights_->start_balancing()) return;
   std::vector<int> at_boundary(mesh_.owner.begin() + mesh_.n_interior, mesh_.owner.begin() + mesh_.n_faces), near;
@@ -46,11 +48,23 @@ void Kernel::weigh_cells() {
     for (const int place : rows.place) near.push_back(rows.cells()[place]);
     sort_out(near);
   });
-  std::vector<double> factor(mesh_.n_cells, 1.0);
-  locate_in_parts(near, [&](std::size_t first, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) factor[near[first + i]] = std::pow(std::clamp(weights_->inside()[i], least_share, 1.0), -balance);
-  });
-  weights_->set_cell_factors(factor);
+  std::vector<double> factor(mesh_.n_cells, 1.0), next = factor, open(near.size(), 1.0);
+  double missing = infinity;
+  for (int round = 0; round < max_rounds && missing > even; ++round) {
+    missing = 0;
+    locate_in_parts(near, [&](std::size_t first, std::size_t n) {
+      for (std::size_t i = first; i < first + n; ++i) {
+        const double share = weights_->inside()[i - first];
+        if (round == 0) open[i] = std::max(share, 1.0);
+        const double had = factor[near[i]], gives = had * std::max(share / open[i], least_share);
+        missing = std::max(missing, std::abs(gives - 1));
+        next[near[i]] = had * std::pow(gives, -relaxation);
+      }
+    });
+    missing = maximum(mesh_.comm, missing);
+    weights_->set_cell_factors(factor = next);
+  }
+  weights_->end_balancing();
   holder_cell_.clear(), holder_rank_.clear();
 }
 

@@ -81,7 +81,7 @@ class PointWeights final : public CellWeights {
         if (entry[k] != nowhere) total += answers[2 * (entry[k] * n + k) + 1], ++held;
       for (std::size_t k = 0; k < n; ++k)
         if (entry[k] != nowhere) shares[entry[k] * n + k] = answers[2 * (entry[k] * n + k) + 1] / total;
-      inside_[b] = held / static_cast<double>(n);
+      inside_[b] = total / static_cast<double>(n);
       if (held == 0) unresolved_.push_back(static_cast<int>(b));
       n_points_outside_ += static_cast<std::int64_t>(n) - held - (announced.holder_rank[b] < 0 ? 1 : 0);
     }

@@ -50,6 +50,7 @@ void add_run(Study& study, const std::vector<std::size_t>& choice) {
     const std::string value = is_number ? written(vary.values[choice[v]]) : vary.texts[choice[v]];
     run.values.push_back(value);
     run.overrides.push_back(vary.key + "=" + value);
+    if (!vary.with.empty()) run.overrides.push_back(vary.with[choice[v]]);
     run.name += (run.name.empty() ? "" : "_") + folder_word(vary.name) + "-" + folder_word(value);
   }
   study.runs.push_back(run);
@@ -62,6 +63,9 @@ void expand_runs(Study& study) {
   for (const VarySettings& vary : study.vary) {
     if (vary.values.empty() == vary.texts.empty())
       throw Error(ExitCode::usage, where + " key = \"" + shortened(vary.key) + "\": give either values (numbers) or texts");
+    if (!vary.with.empty() && vary.with.size() != n_values(vary))
+      throw Error(ExitCode::usage, where + " key = \"" + shortened(vary.key) + "\" has " + std::to_string(n_values(vary)) +
+                                       " values, with has " + std::to_string(vary.with.size()) + "; give one KEY=VALUE for each value");
     if (study.settings.zip && n_values(vary) != n_values(study.vary[0]))
       throw Error(ExitCode::usage, where + " key = \"" + shortened(vary.key) + "\" has " + std::to_string(n_values(vary)) + " values, \"" +
                                        shortened(study.vary[0].key) + "\" has " + std::to_string(n_values(study.vary[0])) +
@@ -226,7 +230,8 @@ Section VarySettings::section() {
           {required,
            setting("name", &name, "Name in the table and in the names of the runs; by default the last word of the key."),
            {"values", &values, "1", -infinity, infinity, Basis::assumed, "Numbers, in the unit of the key."},
-           setting("texts", &texts, "Texts instead of numbers; a number with a unit (\"12 mm\") is a text.")},
+           setting("texts", &texts, "Texts instead of numbers; a number with a unit (\"12 mm\") is a text."),
+           setting("with", &with, "What goes with each value, as for --set: \"initial_flow.from='results/fine'\" with a mesh.")},
           true};
 }
 

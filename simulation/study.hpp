@@ -32,6 +32,7 @@ struct VarySettings {
   std::string key, name;
   std::vector<double> values;
   std::vector<std::string> texts;
+  std::vector<std::string> with;  // an override that goes with each value; empty: none
   Section section();
 };
 

@@ -5,6 +5,7 @@
 #include "solver/continuity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "parallel/sum.hpp"
@@ -125,24 +126,42 @@ void Continuity::balance_reaction(Flow& flow) {
   const bool any = std::any_of(flow.reaction.begin(), flow.reaction.end(), [](const Vec3& force) { return force != Vec3{}; });
   reaction_.clear(), reaction_excess_.clear();
   if (sum(mesh_.comm, std::int64_t{any}) == 0) return;
-  std::vector<Vec3> moved(static_cast<std::size_t>(mesh_.n_all_cells()));
   reaction_ = flow.reaction;
-  reaction_.resize(moved.size());
+  reaction_.resize(static_cast<std::size_t>(mesh_.n_all_cells()));
   mesh_.halo.exchange(reaction_);
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double w = mesh_.weight[f];
-    const Vec3 over = w * (1 - w) * dot(reaction_[N] - reaction_[P], mesh_.delta[f]) * mesh_.face_vector[f];
-    moved[P] += over, moved[N] -= over;
-  }
-  for (int c = 0; c < mesh_.n_cells; ++c) {
-    moved[c] = 1 / mesh_.cell_volume[c] * moved[c];
-    flow.reaction[c] += moved[c];
-  }
-  mesh_.halo.exchange(moved);
-  reaction_excess_.resize(static_cast<std::size_t>(mesh_.n_interior));
+  std::vector<double> change(static_cast<std::size_t>(mesh_.n_faces));
   for (int f = 0; f < mesh_.n_interior; ++f)
-    reaction_excess_[f] = -dot(blend(mesh_.weight[f], moved[mesh_.owner[f]], moved[mesh_.neighbour[f]]), mesh_.face_vector[f]);
+    change[f] = 0.5 * dot(reaction_[mesh_.owner[f]] + reaction_[mesh_.neighbour[f]], mesh_.delta[f]);
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const Vec3& force = reaction_[mesh_.owner[f]];
+      change[f] = dot(force, squares_.side(p) == Side::value ? mesh_.delta[f] : unit(mesh_.face_vector[f]));
+    }
+  const std::vector<Vec3> held = held_by_pressure(change);
+  std::copy_n(held.begin(), mesh_.n_cells, flow.reaction.begin());
+  reaction_excess_.resize(static_cast<std::size_t>(mesh_.n_interior));
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const Vec3 at_face = blend(mesh_.weight[f], held[mesh_.owner[f]], held[mesh_.neighbour[f]]);
+    reaction_excess_[f] = coefficient_[f] * (change[f] - dot(at_face, mesh_.delta[f]));
+  }
+}
+
+/// f~ of the header in all cells: with the sum of f.
+std::vector<Vec3> Continuity::held_by_pressure(std::span<const double> change) const {
+  std::vector<Vec3> slope(reaction_.size()), held(reaction_.size());
+  squares_.gradient_of_changes(change, slope);
+  gauss_gradient_of_changes(mesh_, squares_, change, slope, held);
+  std::array<double, 4> sums{};  // of (f~ - f) V, N, and of |f| V
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    const Vec3 more = mesh_.cell_volume[c] * (held[c] - reaction_[c]);
+    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(i)] += more[i];
+    sums[3] += mesh_.cell_volume[c] * norm(reaction_[c]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  const Vec3 too_much = Vec3{sums[0], sums[1], sums[2]} / sums[3];
+  for (int c = 0; c < mesh_.n_cells; ++c) held[c] -= norm(reaction_[c]) * too_much;
+  mesh_.halo.exchange(held);
+  return held;
 }
 
 void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {

@@ -182,6 +182,18 @@ void LeastSquares::gradient(std::span<const double> phi, std::span<const double>
   finish<double, Vec3>(phi, boundary, g);
 }
 
+void LeastSquares::gradient_of_changes(std::span<const double> change, std::vector<Vec3>& g) const {
+  std::fill(g.begin(), g.end(), Vec3{});
+  for_each_difference([&](int f, double owner_share, double neighbour_share) {
+    const Vec3& d = mesh_.delta[f];
+    const Vec3 e = change[f] / norm_squared(d) * d;
+    g[mesh_.owner[f]] += owner_share * e;
+    g[mesh_.neighbour[f]] += neighbour_share * e;
+  });
+  const std::vector<double> zero(g.size());
+  finish<double, Vec3>(zero, change.subspan(static_cast<std::size_t>(mesh_.n_interior)), g);
+}
+
 void LeastSquares::gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
                             std::vector<Vec3>& g) const {
   std::fill(g.begin(), g.end(), Vec3{});
@@ -274,6 +286,25 @@ void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<con
   }
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
   close_skew_faces(mesh, squares, slope, g, facets);
+  close_aslant_faces(mesh, squares, slope, boundary, g);
+  for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
+  exchange(mesh, g);
+}
+
+void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<const Vec3> slope,
+                               std::vector<Vec3>& g) {
+  std::fill(g.begin(), g.end(), Vec3{});
+  for (int f = 0; f < mesh.n_interior; ++f) {
+    const int P = mesh.owner[f], N = mesh.neighbour[f];
+    const double w = mesh.weight[f], at_face = (1 - w) * change[f] + dot(skewness(mesh, f), blend(w, slope[P], slope[N]));
+    g[P] += at_face * mesh.face_vector[f];
+    g[N] -= (at_face - change[f]) * mesh.face_vector[f];
+  }
+  const std::vector<double> zero(g.size());
+  std::vector<double> boundary(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior));
+  fill_boundary(mesh, squares, zero, slope, change.subspan(static_cast<std::size_t>(mesh.n_interior)), boundary);
+  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
+  close_skew_faces(mesh, squares, slope, g, {});
   close_aslant_faces(mesh, squares, slope, boundary, g);
   for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
   exchange(mesh, g);

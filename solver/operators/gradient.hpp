@@ -38,6 +38,9 @@ class LeastSquares {
   /// Gradient of a scalar by its values at the faces, w phi_P + (1 - w) phi_N with the weights of a piecewise linear phi that is steep in
   /// some cells only.
   void gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const;
+  /// Gradient of a scalar that is given by its changes, [n_faces]: from owner to neighbour, from the cell to the face where the boundary
+  /// knows the value, and its normal slope where that is known. Collective.
+  void gradient_of_changes(std::span<const double> change, std::vector<Vec3>& g) const;
   /// Gradient of a scalar; `phi` [n_all_cells], `boundary` values at boundary faces (read where known), `g` [n_all_cells], ghosts filled.
   /// Collective.
   void gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const;
@@ -86,5 +89,10 @@ void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<cons
 /// facets, [n_interior - first_facet]. Collective.
 void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
                     std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets = {});
+
+/// The same of a scalar that is given by its changes (LeastSquares::gradient_of_changes()), which need not be those of one scalar: each
+/// cell counts from its own value. Collective.
+void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<const Vec3> slope,
+                               std::vector<Vec3>& g);
 
 }  // namespace snag

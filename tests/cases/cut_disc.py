@@ -23,12 +23,6 @@ velocity_m_s = [0, 0, 1]
 [contact]
 self_contact = false            # sectors that bend overlap; those of the model do not feel each other
 {cloth}
-mass_per_area_kg_m2 = {mass}
-properties = "custom"
-{bonds}
-{cuts}
-[[hold]]
-particles = {held}
 [coupling]
 mode = "one_way"
 forces = ["free_stream_drag", "sheet_drag"]
@@ -38,6 +32,18 @@ normal_coefficient = 1.17
 tangential_coefficient = 0
 [output]
 report = false
+"""
+
+CLOTH = """
+[[{table}]]
+radius_m = {particle!r}
+{shape}
+mass_per_area_kg_m2 = {mass}
+properties = "custom"
+{bonds}
+{cuts}
+[[hold]]
+particles = {held}
 """
 
 
@@ -52,29 +58,38 @@ class Piece:
 
 
 class Disc:
-    def __init__(self, radius, hub=0.009, n_cuts=18):
-        self.radius, self.hub, self.n_cuts = radius, hub, n_cuts
+    """`pressure` C_D rho U^2/2, Pa."""
+
+    def __init__(self, radius, hub=0.009, n_cuts=18, pressure=PRESSURE):
+        self.radius, self.hub, self.n_cuts, self.pressure = radius, hub, n_cuts, pressure
         self.length = radius - hub
 
-    def text(self, table, C, taper, particle, cloth, cuts, held, end, mass):
+    def text(self, table, C, taper, particle, shape, cuts, held, mass):
         """Bonds as stiff against a twist as against a bend: a lattice of such bonds bends alike in all directions."""
-        bending = 4 * taper * PRESSURE * self.length**3 / C / (math.pi * particle**4)
+        bending = 4 * taper * self.pressure * self.length**3 / C / (math.pi * particle**4)
         bonds = {"bending": bending, "tangential": bending / 2, "normal": bending / 2}
-        return CASE.format(end=end, step=end / 100, mass=mass, held=held, cloth=f"[[{table}]]\nradius_m = {particle!r}\n{cloth}",
-                           bonds="\n".join(f"{kind}_stiffness_{way}wise_N_m3 = {value!r}" for kind, value in bonds.items() for way in ("length", "cross")),
-                           cuts="\n".join(f"[[{table}.cut]]\nfrom_m = {list(a)}\nto_m = {list(b)}" for a, b in cuts))
+        return CLOTH.format(table=table, particle=particle, shape=shape, mass=mass, held=held, bonds="\n".join(f"{kind}_stiffness_{way}wise_N_m3 = {value!r}" for kind, value in bonds.items() for way in ("length", "cross")),
+                            cuts="\n".join(f"[[{table}.cut]]\nfrom_m = {list(a)}\nto_m = {list(b)}" for a, b in cuts))
 
-    def whole(self, C, columns, end, mass=1):
-        """The disc, as many particles wide; the hub ends half a spacing behind the last particles that are held."""
+    def places(self, columns):
+        """Of the particles of a square, as many on a side, m."""
+        spacing = 2 * self.radius / columns
+        return [((i - (columns - 1) / 2) * spacing, (j - (columns - 1) / 2) * spacing) for j in range(columns) for i in range(columns)]
+
+    def cloth(self, C, columns, mass, place=""):
+        """Text of the disc, as many particles wide; the hub ends half a spacing behind the last particles that are held."""
         particle = self.radius / columns
-        places = [((2 * i - columns + 1) * particle, (2 * j - columns + 1) * particle) for j in range(columns) for i in range(columns)]
-        held = [k for k, place in enumerate(places) if math.hypot(*place) <= self.hub + particle]
+        held = [k for k, at in enumerate(self.places(columns)) if math.hypot(*at) <= self.hub + particle]
         radii = [(math.cos(a), math.sin(a)) for a in (0.05 + 2 * math.pi * k / self.n_cuts for k in range(self.n_cuts))]
         cuts = [((self.hub * x, self.hub * y), (1.1 * self.radius * x, 1.1 * self.radius * y)) for x, y in radii]
-        area = 4 * particle**2 * sum(math.hypot(*place) <= self.radius * (1 + 1e-12) for place in places)
+        return self.text("disc", C, self.radius / self.hub, particle, f"diameter_m = {2 * self.radius!r}\n{place}", cuts, held, mass)
+
+    def whole(self, C, columns, end, mass=1):
+        """The disc in a prescribed stream."""
+        area = (2 * self.radius / columns) ** 2 * sum(math.hypot(*at) <= self.radius * (1 + 1e-12) for at in self.places(columns))
         hub = math.pi * self.hub**2
-        taper = self.radius / self.hub
-        return Piece(self.text("disc", C, taper, particle, f"diameter_m = {2 * self.radius!r}", cuts, held, end, mass), taper, hub, area - hub)
+        text = CASE.format(end=end, step=end / 100, cloth=self.cloth(C, columns, mass))
+        return Piece(text, self.radius / self.hub, hub, area - hub)
 
     def sector(self, C, across, end, mass=1, angle=0):
         """A flap in a cloth that is held: one sector as the model has it, a trapeze of the length R - R_i, at `angle` to the rows of the lattice, with as many particles across it at its clamp.
@@ -108,8 +123,9 @@ class Disc:
         ends = [(corners[0], corners[2]), (corners[1], corners[3]), (corners[2], corners[3])]
         cuts = [[[x - m for x, m in zip(end, middle)] for end in cut] for cut in ends]
         sector = (columns * rows - len(held)) * spacing**2 + 2 * inner * before  # with what belongs to particles of the clamp
-        cloth = f"length_m = {columns * spacing!r}\nwidth_m = {rows * spacing!r}"
-        return Piece(self.text("rag", C, outer / inner, spacing / 2, cloth, cuts, held, end, mass), outer / inner, columns * rows * spacing**2 - sector, sector)
+        shape = f"length_m = {columns * spacing!r}\nwidth_m = {rows * spacing!r}"
+        cloth = self.text("rag", C, outer / inner, spacing / 2, shape, cuts, held, mass)
+        return Piece(CASE.format(end=end, step=end / 100, cloth=cloth), outer / inner, columns * rows * spacing**2 - sector, sector)
 
 
 if __name__ == "__main__":

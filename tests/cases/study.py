@@ -145,6 +145,12 @@ class Study(harness.CaseTest):
         self.assertEqual(last["case_sha256"], alone.summary["case_sha256"])
         self.assertEqual(float(rows[-1]["rags.0.elongation_ratio"]), alone.summary["rags"][0]["elongation_ratio"])
 
+    def test_what_goes_with_a_value(self):
+        text = STUDY.replace("values = [1, 1.25]", 'values = [1, 1.25]\nwith = ["rag.1.radius_mm=2", "rag.1.radius_mm=1.25"]').replace("rags.7.outcome", "rags.1.particles")
+        self.study(text.format(zip="zip = true"), ranks=1)
+        particles = [int(row["rags.1.particles"]) for row in self.table()]
+        self.assertEqual(particles[0] * 2**2, particles[1] * 1.25**2)
+
     @harness.parallel
     def test_nothing_is_run_twice(self):
         done = self.study(STUDY.format(zip="zip = true"))
@@ -235,6 +241,7 @@ class Study(harness.CaseTest):
         for change, words in (
             (("values = [1, 1.25]", ""), "give either values (numbers) or texts"),
             (("values = [1, 1.25]", "values = [1, 1]"), "two runs would be named"),
+            (("values = [1, 1.25]", 'values = [1, 1.25]\nwith = ["rag.1.radius_mm=2"]'), "has 2 values, with has 1"),
         ):
             self.assertIn(words, self.study(STUDY.replace(*change).format(zip=""), code=2, ranks=1).stderr)
         lost = self.study(STUDY.replace('case = "case.toml"', 'case = "-inf"').format(zip=""), code=6, ranks=1)
