@@ -28,8 +28,8 @@ double largest_radius(const Mesh& mesh) {
 
 /// Cells of the graph about the one that comes first.
 struct DiffusionWeights::Patch {
-  std::vector<int> cell;                                  // of the graph
-  std::vector<Eigen::Triplet<double>> minus_conductance;  // of the faces between them, m; place, larger place
+  std::vector<int> cell;                        // of the graph
+  std::vector<Eigen::Triplet<double>> entries;  // of V + a K, m3, above the diagonal and on it; those of one place are summed
 };
 
 DiffusionWeights::DiffusionWeights(const Mesh& mesh, double area, int n_steps, double cut)
@@ -118,10 +118,16 @@ void DiffusionWeights::find_patch(int holder, Patch& patch) {
         patch.cell.push_back(to);
       }
       if (place < 0 || place <= static_cast<int>(i)) continue;  // beyond the cut, or a face that is known from the other side
-      patch.minus_conductance.emplace_back(static_cast<int>(i), place, -graph_.conductance[l]);
+      const int near = static_cast<int>(i);
+      const double k = area_ * graph_.conductance[l];
+      patch.entries.emplace_back(near, place, -k), patch.entries.emplace_back(near, near, k), patch.entries.emplace_back(place, place, k);
     }
   }
-  for (const int cell : patch.cell) place_in_patch_[cell] = -1;
+  for (std::size_t i = 0; i < patch.cell.size(); ++i) {
+    const int cell = patch.cell[i], at = static_cast<int>(i);
+    patch.entries.emplace_back(at, at, graph_.volume[cell]);
+    place_in_patch_[cell] = -1;
+  }
 }
 
 /// Share of one at the first cell that is in each cell after m steps, 1.
@@ -130,10 +136,8 @@ Eigen::VectorXd DiffusionWeights::diffused(const Patch& patch) const {
   Eigen::VectorXd volume(n), amount = Eigen::VectorXd::Unit(n, 0), concentration = Eigen::VectorXd::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) volume[i] = graph_.volume[patch.cell[static_cast<std::size_t>(i)]];
   SymmetricMatrix upper(n, n), matrix(n, n);
-  upper.setFromTriplets(patch.minus_conductance.begin(), patch.minus_conductance.end());
-  matrix = area_ * SymmetricMatrix(upper.selfadjointView<Eigen::Upper>());
-  const Eigen::VectorXd diagonal = volume - matrix * Eigen::VectorXd::Ones(n);
-  for (Eigen::Index i = 0; i < n; ++i) matrix.coeffRef(i, i) = diagonal[i];
+  upper.setFromTriplets(patch.entries.begin(), patch.entries.end());
+  matrix = upper.selfadjointView<Eigen::Upper>();
   Eigen::ConjugateGradient<SymmetricMatrix, Eigen::Lower | Eigen::Upper> solver(matrix);
   solver.setTolerance(tolerance);
   for (int step = 0; step < n_steps_; ++step) {
