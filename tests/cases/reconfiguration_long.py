@@ -16,7 +16,7 @@ import numpy
 FOLDER = harness.SOURCE_DIR / "cases" / "held-cloth"
 LIMIT = 0.15
 SIZE, KERNEL, SPACING = 0.0025, 0.00125, 0.00097  # of the cells at the plate, m; m; about that of the particles, m
-DENSITY, FILM = 1.2, 0.15  # of the air, kg/m3; of the film, kg/m2
+DENSITY = 1.2  # of the air, kg/m3
 PLACE = "centre_m = [0.18, 0, 0]\nlengthwise = [0, 1, 0]\ncrosswise = [0, 0, 1]\n"
 # Name: bending stiffness per width, N m; length and width, m; speeds, m/s.
 PLATES = {"R16": (4.04e-4, 0.1, 0.035, (5, 9, 13)), "R3": (1.824e-3, 0.06, 0.038, (10, 18)), "R7": (1.824e-3, 0.099, 0.038, (10, 18))}
@@ -77,25 +77,23 @@ class PlateInATunnel(harness.CaseTest):
 
 
 class DiscInATunnel(harness.CaseTest):
-    """Discs D1 and D4 cut along 18 radii round a rigid hub, in the whole tunnel. C_D is that of rigid discs in it, as measured."""
+    """Disc D1 cut along 18 radii round a rigid hub, in the whole tunnel; C_D is that of rigid discs in it, as measured. It is heavier than its film: longer sub-steps, the same rest."""
 
     def test_drag(self):
-        measured = tomllib.loads((FOLDER / "measured.toml").read_text())
-        speed = 10
-        for name, radius, rigid, columns, Cauchy in (("D1", 0.037, 2.24, 99, (4, 15)), ("D4", 0.05, 3.96, 135, (40,))):
-            table = measured[f"disc_{name}"]
-            mesh = self.shared / f"tunnel-{name}.msh"
-            across = graded_box.axis(-0.09, 0.09, (-1.15 * radius, 1.15 * radius), SIZE, 1.2)
-            graded_box.write(mesh, (graded_box.axis(0, 0.54, (0.165, 0.24), SIZE, 1.2), across, across))
-            disc = cut_disc.Disc(radius, pressure=rigid * 0.5 * DENSITY * speed**2)
-            for C in Cauchy:
-                case = self.case(in_mesh(mesh, disc.cloth(C, columns, FILM, PLACE)), f"{name}-{C}")
-                run = self.run_case(case, 1, *(word for s in in_stream(speed) for word in ("--set", s)), out=f"{name}-{C}", timeout=5400)
-                reconfiguration = late_drag(run) / (disc.pressure * math.pi * radius**2)
-                exact = numpy.exp(numpy.interp(numpy.log(C), numpy.log(table["C"]), numpy.log(table["R"])))
-                print(f"  {name}, C = {C}: R {reconfiguration:.4f}, measured {exact:.4f}, deviation {100 * (reconfiguration / exact - 1):+.0f} %", flush=True)
-                with self.subTest(f"{name}, C = {C}"):
-                    self.assertLess(abs(reconfiguration / exact - 1), LIMIT)
+        table = tomllib.loads((FOLDER / "measured.toml").read_text())["disc_D1"]
+        radius, rigid, speed = 0.037, 2.24, 10  # m, C_D, m/s
+        mesh = self.shared / "tunnel.msh"
+        across = graded_box.axis(-0.09, 0.09, (-0.0425, 0.0425), SIZE, 1.2)
+        graded_box.write(mesh, (graded_box.axis(0, 0.54, (0.165, 0.24), SIZE, 1.2), across, across))
+        disc = cut_disc.Disc(radius, pressure=rigid * 0.5 * DENSITY * speed**2)
+        for C, heavy in ((15, 1), (4, 3)):  # kg/m2
+            case = self.case(in_mesh(mesh, disc.cloth(C, 99, heavy, PLACE)), f"D1-{C}")
+            run = self.run_case(case, 1, *(word for s in in_stream(speed) for word in ("--set", s)), out=f"D1-{C}", timeout=5400)
+            reconfiguration = late_drag(run) / (disc.pressure * math.pi * radius**2)
+            exact = numpy.exp(numpy.interp(numpy.log(C), numpy.log(table["C"]), numpy.log(table["R"])))
+            print(f"  D1, C = {C}: R {reconfiguration:.4f}, measured {exact:.4f}, deviation {100 * (reconfiguration / exact - 1):+.0f} %", flush=True)
+            with self.subTest(C=C):
+                self.assertLess(abs(reconfiguration / exact - 1), LIMIT)
 
 
 class DiscsCutInSectors(harness.CaseTest):
