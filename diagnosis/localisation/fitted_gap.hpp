@@ -35,12 +35,14 @@ class FittedGap {
   double mean(const std::vector<int>& rows) const { return e_(rows).mean(); }
   /// e, and its covariance.
   Eigen::VectorXd left(const std::vector<int>& rows) const { return e_(rows); }
-  Eigen::MatrixXd covariance(const std::vector<int>& rows) const { return covariance_(rows, rows); }
+  Eigen::MatrixXd covariance(const std::vector<int>& rows) const;
 
  private:
   std::vector<int> first_row_;
   Eigen::VectorXd e_, shape_;
-  Eigen::MatrixXd covariance_;
+  Eigen::MatrixXd by_parameter_;           // B = L J R^-1 with R^T R = J^T J + 1: cov(e) = C - B B^T
+  std::vector<Eigen::MatrixXd> of_point_;  // C
+  std::vector<std::size_t> point_of_row_;
 };
 
 }  // namespace snag

@@ -242,8 +242,8 @@ TEST(Attribution, OutsideIsNoEffectWithALargeRemainder) {
   for (const double gust : {1.0, 5.0}) EXPECT_EQ(formula::said(judged({.gust = gust}, 9001)), "outside") << gust;
 }
 
-// Two effects that move a particle in the same way are one cause of two names, as sure as the one alone; before any data it is told that
-// they are a tie.
+// Two effects that move a particle in the same way are one cause of two names, as sure as the one alone; before any data the verdict
+// is a tie.
 TEST(Attribution, TwoNamesOfOneCause) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 4, 0, 3, noise, 11);
   formula::Sphere sphere(experiment, false, true);
