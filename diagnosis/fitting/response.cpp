@@ -70,7 +70,8 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
     : experiment_(experiment),
       simulator_(simulator),
       effects_(simulator.effects()),
-      points_(summarize(experiment, simulator, random_effects_may_show(simulator))) {
+      has_spread_(random_effects_may_show(simulator)),
+      points_(summarize(experiment, simulator, has_spread_)) {
   for (int p = 0; p < static_cast<int>(experiment.points.size()); ++p) (experiment.points[p].withheld ? withheld_ : training_).push_back(p);
   std::set<std::string> told, calibrations;
   for (const Observable& observable : experiment.observables)
@@ -92,106 +93,6 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
   const std::vector<Response> answers = run(base(), all);
   find_mistakes(answers);
   leave_out_rows_without_answer(answers);
-}
-
-void Responses::find_mistakes(const std::vector<Response>& answers) {
-  const auto add = [&](std::vector<Mistake> found) {
-    for (Mistake& mistake : found) effects_.push_back(mistake.effect), mistakes_.push_back(std::move(mistake));
-  };
-  add(mistakes_of_inputs(experiment_, simulator_.nuisances()));
-  add(mistakes_of_measurement(experiment_));
-  add(mistakes_of_groups(experiment_));
-  std::map<std::string, std::pair<double, double>> products;  // by unit: of data and simulation, of simulation with itself
-  for (const int p : training_)
-    for (int i = 0; i < points_[p].n_gaussian; ++i) {
-      const Row& row = points_[p].rows[i];
-      const Observable& observable = experiment_.observables[static_cast<std::size_t>(row.observable)];
-      const double simulated = answers[p].value[i];
-      if (observable.kind != Observable::Kind::gaussian || !std::isfinite(simulated)) continue;
-      auto& [both, own] = products[observable.unit];
-      both += row.value * simulated, own += simulated * simulated;
-    }
-  for (const auto& [unit, product] : products)
-    if (product.second > 0) add(mistakes_of_unit(experiment_, unit, product.first / product.second));
-  find_noise_in_right_units();
-}
-
-// Who writes numbers down in another unit F times smaller still states noise and bias in the unit that is named: y ~ N(F f, F^2 C'), with
-// C' of the numbers y/F, whose repeats tell the noise as those of any data do.
-void Responses::find_noise_in_right_units() {
-  for (int k = 0; k < static_cast<int>(effects_.size()); ++k) {
-    if (mistake(k) == nullptr || mistake(k)->kind != Mistake::Kind::unit) continue;
-    const Mistake& made = *mistake(k);
-    Experiment right = experiment_;
-    for (Datum& d : right.data)
-      if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor;
-    for (PointSummary& point : summarize(right, simulator_, random_effects_may_show(simulator_))) {
-      Eigen::VectorXd factor = Eigen::VectorXd::Ones(point.n_gaussian);
-      for (int i = 0; i < point.n_gaussian; ++i) {
-        const int o = point.rows[static_cast<std::size_t>(i)].observable;
-        const bool logarithm = experiment_.observables[static_cast<std::size_t>(o)].kind == Observable::Kind::lognormal;
-        if (!logarithm && std::count(made.observables.begin(), made.observables.end(), o) > 0) factor[i] = made.factor;
-      }
-      in_right_units_[k].push_back(factor.asDiagonal() * point.covariance * factor.asDiagonal());
-    }
-  }
-}
-
-double Responses::factor_of_unit(const State& state, int observable) const {
-  double factor = 1;
-  for (const auto& [k, theta] : state.effects) {
-    const Mistake* made = mistake(k);
-    if (made == nullptr || made->kind != Mistake::Kind::unit || theta == 0) continue;
-    if (std::count(made->observables.begin(), made->observables.end(), observable) > 0) factor *= made->factor;
-  }
-  return factor;
-}
-
-// Rows of different observables have nothing in common, and an observable has one unit.
-Eigen::MatrixXd Responses::covariance_in_right_units(const State& state, int point) const {
-  const PointSummary& summary = points_[static_cast<std::size_t>(point)];
-  Eigen::MatrixXd covariance;
-  for (const auto& [k, theta] : state.effects) {
-    const Mistake* made = mistake(k);
-    if (made == nullptr || made->kind != Mistake::Kind::unit || theta == 0) continue;
-    if (covariance.size() == 0) covariance = summary.covariance;
-    const Eigen::MatrixXd& own = in_right_units_.at(k)[static_cast<std::size_t>(point)];
-    const auto changes = [&](int row) {
-      const int o = summary.rows[static_cast<std::size_t>(row)].observable;
-      return std::count(made->observables.begin(), made->observables.end(), o) > 0;
-    };
-    for (int i = 0; i < summary.n_gaussian; ++i)
-      for (int j = 0; j < summary.n_gaussian; ++j)
-        if (changes(i) && changes(j)) covariance(i, j) = own(i, j);
-  }
-  return covariance;
-}
-
-const Mistake* Responses::mistake(int effect) const {
-  const auto first = static_cast<int>(effects_.size() - mistakes_.size());
-  return effect < first ? nullptr : &mistakes_[static_cast<std::size_t>(effect - first)];
-}
-
-bool Responses::changes_runs(int effect) const {
-  const Mistake* made = mistake(effect);
-  return made == nullptr || made->kind == Mistake::Kind::input;
-}
-
-// What the data would say of these runs if the mistakes of the state were made.
-std::vector<double> Responses::mismeasure(const State& state, int point, std::span<RunResult> results) const {
-  std::vector<double> largest;
-  for (const auto& [k, theta] : state.effects) {
-    const Mistake* made = mistake(k);
-    if (made == nullptr || made->kind == Mistake::Kind::input || theta == 0) continue;
-    if (!made->points.empty() && std::count(made->points.begin(), made->points.end(), point) == 0) continue;
-    for (RunResult& result : results) {
-      if (!result.failure.empty()) continue;
-      const std::vector<double> u = snag::mismeasure(*made, theta, simulator_.slots(point), result.values);
-      largest.resize(u.size(), 0);
-      for (std::size_t s = 0; s < u.size(); ++s) largest[s] = std::max(largest[s], u[s]);
-    }
-  }
-  return largest;
 }
 
 bool Responses::acts_at(int nuisance, int point) const {

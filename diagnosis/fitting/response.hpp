@@ -137,6 +137,7 @@ class Responses {
   std::vector<Mistake> mistakes_;                               // the last of the effects
   std::map<int, std::vector<Eigen::MatrixXd>> in_right_units_;  // by effect, of wrong units: covariance of the data, by point
   std::vector<FreeNuisance> nuisances_;
+  bool has_spread_;  // rows of the spread between replicates, for random effects
   std::vector<PointSummary> points_;
   std::vector<int> training_, withheld_;
   std::vector<std::string> notes_;
