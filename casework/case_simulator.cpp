@@ -201,7 +201,11 @@ bool CaseSimulator::is_of_case(const std::string& nuisance) const {
 CaseChange CaseSimulator::change_of(const RunRequest& request) const {
   std::map<std::string, double> of_case = request.nuisances;
   std::erase_if(of_case, [this](const auto& input) { return !is_of_case(input.first); });
-  return points_.at(static_cast<std::size_t>(request.point)).base.change(request.effects, of_case, request.seed, request.forms);
+  const PointCase& base = points_.at(static_cast<std::size_t>(request.point)).base;
+  // The points are compared as if what is chance at one had no part in another. Whole runs of a pump forget how they began.
+  constexpr std::uint64_t seeds_of_a_point = 1000;
+  const std::uint64_t own = base.is_whole_run() ? 0 : seeds_of_a_point * static_cast<std::uint64_t>(request.point);
+  return base.change(request.effects, of_case, request.seed + own, request.forms);
 }
 
 std::string CaseSimulator::resolved_case(const RunRequest& request) {

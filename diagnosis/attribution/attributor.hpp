@@ -66,6 +66,8 @@ class Attributor {
   /// What the paths keep, and what their accelerations speak for most: an offset or a drift may hide it from the paths.
   std::vector<Screened> kept(const std::vector<Screened>& singles) const;
   void fit_singles(const std::vector<Screened>& screened);
+  /// Of effects whose fit brings less than half of what the screening promised, where runs are random.
+  void note_screening(const std::vector<Screened>& screened);
   /// A strength at the edge of its range says little of where to begin: a tenth of the probe strength inside.
   Eigen::VectorXd start(const Screened& screened) const;
   /// The hypothesis that holds effect k too.

@@ -154,9 +154,11 @@ std::vector<double> shares_of_probe(const Effect& effect, const std::vector<doub
 }  // namespace
 
 std::vector<double> emulated_strengths(const Effect& effect) {
-  const bool both_signs = effect.minimum < 0 && effect.maximum > 0;
-  return shares_of_probe(
-      effect, both_signs ? std::vector<double>{-2.2, -1.1, -0.4, 0.4, 1.1, 2.2} : std::vector<double>{0.1, 0.3, 0.6, 1.0, 1.5, 2.2});
+  if (effect.minimum < 0 && effect.maximum > 0) return shares_of_probe(effect, {-2.2, -1.1, -0.4, 0.4, 1.1, 2.2});
+  // As far as the prior goes: where no run is, the integral over the strength has nothing.
+  constexpr double far = 2.5;  // standard deviations
+  const double probe = probe_strength(effect), end = (effect.mean + std::copysign(far * effect.sd, probe)) / probe;
+  return shares_of_probe(effect, {0.1, 0.3, 0.6, 1.0, 1.5, std::max(2.2, end)});
 }
 
 std::vector<double> first_strengths(const Effect& effect) {

@@ -162,10 +162,35 @@ std::vector<Screened> Attributor::kept(const std::vector<Screened>& singles) con
 void Attributor::fit_singles(const std::vector<Screened>& screened) {
   const std::vector<Screened> singles = kept(screened);
   for (std::size_t i = 0; i < singles.size(); ++i) {
-    if (!affordable(runs_of(singles[i]))) break;
+    if (!affordable(runs_of(singles[i]))) return;
     report("fit of " + name_of(singles[i].hypothesis, model_.effects()),
            0.15 + 0.4 * static_cast<double>(i) / static_cast<double>(singles.size()));
     add(fit_of(singles[i]));
+  }
+  // What a screening left out because of others that then did not reach what it had promised.
+  for (const Screened& one : screened) {
+    const double best = result_.fits[static_cast<std::size_t>(result_.first_by_effects())].log_evidence;
+    if (is_fitted(one.hypothesis) || one.log_evidence < best + gain_wanted) continue;
+    if (!affordable(runs_of(one))) return;
+    report("fit of " + name_of(one.hypothesis, model_.effects()), 0.55);
+    add(fit_of(one));
+  }
+  note_screening(screened);
+}
+
+// The linear model of a screening reaches as far as the runs it was made of.
+void Attributor::note_screening(const std::vector<Screened>& screened) {
+  const double none = result_.fits.front().log_evidence;
+  for (const Screened& one : screened) {
+    const std::string name = name_of(one.hypothesis, model_.effects());
+    const auto fitted = std::find(result_.names.begin(), result_.names.end(), name);
+    if (fitted == result_.names.end() || !by_emulator(one.hypothesis)) continue;
+    const Fit& fit = result_.fits[static_cast<std::size_t>(fitted - result_.names.begin())];
+    const double promised = one.log_evidence - none_screened_, found = fit.log_evidence - none;
+    if (promised - found < nats_of_rule || found > 0.5 * promised) continue;
+    result_.notes.push_back("The screening promised " + rounded(promised) + " nats of " + name + " at " + rounded(one.theta[0]) +
+                            ", the fit brings " + rounded(found) + " at " + rounded(fit.theta[0]) +
+                            ": the two disagree. Give more runs a state ([budget] max_runs), and look at which rows differ.");
   }
 }
 

@@ -59,7 +59,8 @@ void add_form_error(const PointSummary& point, const std::vector<const Eigen::Ve
 }
 
 // Scatter of the runs over their number, and over the number of replicates where these are too few to show it themselves. Few seeds give
-// the size of the scatter but not its shape: it is taken as sd_i sd_j exp(-|t_i - t_j|/tau), tau from neighbouring rows.
+// the size of the scatter (Response::scatter) but not its shape: it is taken as sd_i sd_j exp(-|t_i - t_j|/tau), tau from neighbouring
+// rows.
 void add_scatter(const PointSummary& point, const Response& response, Eigen::MatrixXd& C) {
   const double n = static_cast<double>(response.paths.cols());
   const Eigen::MatrixXd S = response.paths * response.paths.transpose() / (n - 1);
@@ -78,7 +79,7 @@ void add_scatter(const PointSummary& point, const Response& response, Eigen::Mat
         const int replicates = std::min(point.rows[i].n_replicates, point.rows[j].n_replicates);
         const double share = 1 / n + (replicates < few_replicates ? 1.0 / replicates : 0);
         const double apart = i == j ? 0 : std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / tau;
-        C(i, j) += share * std::sqrt(S(i, i) * S(j, j)) * std::exp(-apart);
+        C(i, j) += share * std::sqrt(response.scatter[i] * response.scatter[j]) * std::exp(-apart);
       }
     }
   }

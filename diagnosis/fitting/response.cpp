@@ -17,7 +17,7 @@ namespace {
 /// Standard deviation of the law that holds from the form next to it, over the difference to another form.
 constexpr double between_forms = 1.0 / 3;
 
-constexpr int most_seeds = 8;
+constexpr int most_seeds = 8, enough_for_scatter = 5;
 
 bool random_effects_may_show(const Simulator& simulator) {
   const auto& effects = simulator.effects();
@@ -90,6 +90,7 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
   for (const BetweenSeries& term : between_series(experiment, points_))
     nuisances_.push_back({term.name, 1, term.points, term.observable, true, term.u});
   find_randomness();
+  if (base_is_random_ && seeds_of_random_ < enough_for_scatter) find_scatter();
   const std::vector<Response> answers = run(base(), all);
   find_mistakes(answers);
   leave_out_rows_without_answer(answers);
@@ -108,12 +109,14 @@ std::string Responses::name_of_nuisance(int nuisance) const {
   return own.name + "@" + joined(points);
 }
 
+bool Responses::acts_at_random(const State& state) const {
+  return std::any_of(state.effects.begin(), state.effects.end(), [&](const auto& e) { return e.second != 0 && effects()[e.first].random; });
+}
+
 int Responses::n_seeds(const State& state) const {
   if (base_is_random_) return seeds_of_random_;
-  const bool random =
-      std::any_of(state.effects.begin(), state.effects.end(), [&](const auto& e) { return e.second != 0 && effects()[e.first].random; });
   // Where chance comes with one effect alone, few states need their seeds.
-  return random ? std::min(most_seeds, 2 * seeds_of_random_) : 1;
+  return acts_at_random(state) ? std::min(most_seeds, 2 * seeds_of_random_) : 1;
 }
 
 int Responses::n_seeds_of_distribution(const State& state) const {
@@ -201,6 +204,8 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
     }
     response.value[i] = row.kind == Row::Kind::spread ? variance_between(row, observable, results) : mean;
     response.scatter[i] = counted > 1 ? square / (counted - 1) : 0;
+    if (!scatter_of_base_.empty() && !acts_at_random(request.state))
+      response.scatter[i] = scatter_of_base_[static_cast<std::size_t>(request.point)][i];
     for (std::size_t k = 0; k < row.slots.size() && !u.empty(); ++k) {
       const auto slot = static_cast<std::size_t>(row.slots[k]);
       if (u[slot] == 0) continue;
@@ -297,6 +302,14 @@ void Responses::find_randomness() {
   seeds_of_random_ = std::clamp(experiment_.max_runs / (60 * static_cast<int>(points_.size())), 2, most_seeds);
 }
 
+void Responses::find_scatter() {
+  std::vector<Request> requests;
+  for (int p = 0; p < static_cast<int>(points_.size()); ++p) requests.push_back({base(), p, 1, most_seeds});
+  std::vector<Eigen::VectorXd> found;
+  for (const Response& response : run(requests)) found.push_back(response.scatter);
+  scatter_of_base_ = std::move(found);
+}
+
 void Responses::note_rows_left_out(std::size_t point, const Response& answer) {
   struct Left {
     int n = 0, of = 0;
@@ -326,12 +339,13 @@ void Responses::leave_out_rows_without_answer(const std::vector<Response>& answe
     note_rows_left_out(p, answers[p]);
     PointSummary& point = points_[p];
     std::vector<Row> rows;
-    std::vector<int> kept;
+    std::vector<int> kept, kept_of_all;
     for (int i = 0; i < static_cast<int>(point.rows.size()); ++i) {
       if (!std::isfinite(answers[p].value[i])) continue;
       if (i < point.n_gaussian) kept.push_back(i);
-      rows.push_back(std::move(point.rows[i]));
+      kept_of_all.push_back(i), rows.push_back(std::move(point.rows[i]));
     }
+    if (!scatter_of_base_.empty()) scatter_of_base_[p] = Eigen::VectorXd(scatter_of_base_[p](kept_of_all));
     for (auto& [unit, by_point] : in_right_units_) by_point[p] = Eigen::MatrixXd(by_point[p](kept, kept));
     point.covariance = Eigen::MatrixXd(point.covariance(kept, kept));
     point.rows = std::move(rows), point.n_gaussian = static_cast<int>(kept.size());

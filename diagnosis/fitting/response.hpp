@@ -35,7 +35,7 @@ std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>
 /// What the runs of a state say at one point.
 struct Response {
   Eigen::VectorXd value;    // by row: on the scale of Row::value (spread: variance over the seeds)
-  Eigen::VectorXd scatter;  // by row: variance of one run
+  Eigen::VectorXd scatter;  // by row: variance of one run, of few seeds that of the base model
   Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
   int n_runs = 1;
   std::string failure;     // why none of its runs came through; empty: one did
@@ -110,6 +110,7 @@ class Responses {
   void add_share(Response& sum, const Response& lead, const Response& other, double share, int point) const;
 
  private:
+  bool acts_at_random(const State& state) const;
   int seeds_of(const Request& request) const { return request.n_seeds > 0 ? request.n_seeds : n_seeds(request.state); }
   std::vector<RunRequest> requests_of(const Request& request) const;
   struct Part {
@@ -119,6 +120,9 @@ class Responses {
   std::vector<Part> parts_of(const Request& request) const;
   Response response(const Request& request, std::span<const RunResult> results, const std::vector<double>& u) const;
   void find_randomness();
+  /// Scatter of the base model from more seeds, where a state has too few to know its own: two runs may be alike by chance, and a row that
+  /// no hypothesis explains would decide between them by how alike they are. All states without a random effect then have it.
+  void find_scatter();
   void note_rows_left_out(std::size_t point, const Response& answer);
   void leave_out_rows_without_answer(const std::vector<Response>& answers);
   void find_mistakes(const std::vector<Response>& answers);
@@ -141,6 +145,7 @@ class Responses {
   std::vector<PointSummary> points_;
   std::vector<int> training_, withheld_;
   std::vector<std::string> notes_;
+  std::vector<Eigen::VectorXd> scatter_of_base_;  // by point and row: variance of one run; empty: each state has its own
   bool base_is_random_ = false;
   int seeds_of_random_ = 8;
 };

@@ -140,6 +140,53 @@ TEST(RandomBase, SeriesDiffer) {
   EXPECT_LE(none_without, none_with_pair - 3);
 }
 
+/// A crumple behind a bend: a kernel of this width brings the height down, and lets the shapes of the crumples differ less. No width brings
+/// the shape of the measured ones.
+class Bend final : public RandomSimulator {
+ public:
+  explicit Bend(const Experiment& experiment) {
+    effects_ = {{.name = "width", .parameter = "", .mean = 20, .sd = 15, .minimum = 0, .maximum = 60},
+                {.name = "weight", .parameter = "", .mean = 0.1, .sd = 0.1, .minimum = -0.5, .maximum = 0.5}};
+    for (int o = 0; o < static_cast<int>(experiment.observables.size()); ++o) slots_.push_back({o});
+  }
+
+ private:
+  std::vector<double> values(const RunRequest& r, NormalNumbers& random) const override {
+    const double width = get(r.effects, "width"), alike = std::exp(-width / 10);
+    const double shape = 5.2 + alike * random();
+    return {shape, 30 - 0.7 * width - 3 * get(r.effects, "weight") + 0.5 * random()};
+  }
+};
+
+/// With two runs a state: how alike they happen to be must not decide about a cause by rows that it does not explain. The fit says of the
+/// strength what the screening says, and what the heights are made with.
+TEST(RandomBase, ScatterOfTwoRunsDecidesNothing) {
+  constexpr double width = 40;
+  double least_gain = 1e9, furthest = 0;
+  for (int i = 0; i < 8; ++i) {
+    Experiment e;
+    e.observables = {{.id = "elongation_ratio", .unit = "1", .noise_u = 0.01, .calibration_group = ""},
+                     {.id = "y", .unit = "mm", .noise_u = 0.1, .calibration_group = ""}};
+    NormalNumbers random(9800 + i);
+    for (int p = 0; p < 8; ++p) {
+      e.points.push_back({.id = std::string(1, static_cast<char>('A' + p)), .case_file = "bend", .withheld = p > 5});
+      for (int o = 0; o < 2; ++o)
+        for (int r = 0; r < 40; ++r)
+          e.data.push_back(
+              {p, o, r, std::numeric_limits<double>::quiet_NaN(), o == 0 ? 2.6 + 0.6 * random() : 30 - 0.7 * width + 40 * random()});
+    }
+    e.seed = static_cast<std::uint64_t>(3 + 10 * i), e.max_runs = 1000, e.pairs = false;
+    Bend bend(e);
+    const Verdict verdict = diagnose(e, bend);
+    const EffectEstimate& found = verdict.parameters.at("width");
+    const double gain = verdict.log_evidence.at("width"), screened = verdict.screening.at("width");
+    std::printf("width %.1f +- %.1f, %.1f nats, screened %.1f\n", found.mean, found.sd, gain, screened);
+    least_gain = std::min(least_gain, gain / screened), furthest = std::max(furthest, std::abs(found.mean - width) / found.sd);
+  }
+  EXPECT_GT(least_gain, 0.5);
+  EXPECT_LT(furthest, 4);
+}
+
 /// Conditions that would tell what the data do not decide are proposed here, too; what the draws of chance differ by counts for none.
 TEST(RandomBase, ProposesConditions) {
   int ties = 0, proposed = 0;
