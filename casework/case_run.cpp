@@ -141,6 +141,8 @@ class Observer {
     if (whole_run_) exit_.add(time, now.get<Motion>());
     before_time_ = time;
   }
+  /// Of the pieces, m.
+  Vec3 centre() const { return RunReader({run_, view_, exit_}).get<Motion>().position; }
   std::vector<double> values() {
     RunReader end({run_, view_, exit_});
     for (const Question& slot : slots_)
@@ -204,10 +206,33 @@ void move(RagSystem& rags, const Restart& restart, double time) {
   }
 }
 
+/// The couplings without and with what is behind a gate, by turns in the run.
+class GatedCoupling {
+ public:
+  GatedCoupling(Simulation& run, const BehindGate& behind) : run_(run), gate_(behind.gate), other_(run.coupling_of(behind.file)) {}
+
+  void look(const Vec3& centre) {
+    const auto within = [&](int axis) { return centre[axis] >= gate_.lower.at(axis) && centre[axis] <= gate_.upper.at(axis); };
+    const double rounding = 1e-9 * run_.time_settings.step;
+    const bool open = run_.time() >= gate_.from - rounding && within(0) && within(1) && within(2);
+    if (open == open_) return;
+    open_ = open;
+    std::swap(run_.coupled, other_);
+    for (Tile& tile : run_.rags->tiles()) tile.particle_state.clear();
+  }
+
+ private:
+  Simulation& run_;
+  Gate gate_;
+  std::unique_ptr<CoupledSolver> other_;
+  bool open_ = false;
+};
+
 }  // namespace
 
 std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled,
-                                  FlowCache* store, const std::optional<Restart>& restart, Prepared* prepared) {
+                                  FlowCache* store, const std::optional<Restart>& restart, Prepared* prepared,
+                                  const BehindGate* behind_gate) {
   const log::Silence silence;
   Simulation run(file, MPI_COMM_SELF, {}, store, prepared);
   std::vector<Question> slots = slots_of(asked, run.observe_settings.has_window());
@@ -217,10 +242,13 @@ std::vector<double> run_in_memory(const CaseFile& file, const std::vector<Observ
   run.start();
   const double dt = run.time_settings.step, last = last_time(slots, run.time_settings.end);
   Observer observer(run, std::move(slots));
+  std::optional<GatedCoupling> gated;
+  if (behind_gate) gated.emplace(run, *behind_gate);
   const std::int64_t restart_step = restart ? static_cast<std::int64_t>(restart->time / dt + 1e-9) : -1;
   const auto restart_and_look = [&] {
     if (run.time_step() == restart_step) move(*run.rags, *restart, run.time());
     observer.look();
+    if (gated) gated->look(observer.centre());
     return run.time() < last * (1 - 1e-9);
   };
   if (!restart_and_look()) return observer.values();

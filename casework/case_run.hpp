@@ -31,11 +31,19 @@ struct LatticePosition {
 /// Acceleration of a particle in addition to all forces of the case, m/s2: what no candidate expresses, for sealed sets of a benchmark.
 using UnmodelledForce = std::function<Vec3(double time, const LatticePosition& place)>;
 
+/// Another case of the same pieces and the same water, which is the case while the gate is open.
+struct BehindGate {
+  Gate gate;
+  CaseFile file;
+};
+
 /// Runs a case in a prescribed flow or in frozen water of a mesh, up to the last time that is asked for (its end, if a number of the whole
 /// run is asked for; earlier, if every rag has left the mesh). NaN where there is no answer: a time beyond the end of the case, a retention
 /// time of a piece that stays, a window that was never reached. `store`: holds meshes and water between runs. `restart`: at the last step
-/// before its time; in a prescribed flow only. Throws Error.
+/// before its time; in a prescribed flow only. `behind_gate`: of its keys those of [coupling] may differ; forces that remember begin anew
+/// where the gate opens or closes, at the begin of a step. Throws Error.
 std::vector<double> run_in_memory(const CaseFile& file, const std::vector<ObservableRequest>& asked, const UnmodelledForce& unmodelled = {},
-                                  FlowCache* store = nullptr, const std::optional<Restart>& restart = {}, Prepared* prepared = nullptr);
+                                  FlowCache* store = nullptr, const std::optional<Restart>& restart = {}, Prepared* prepared = nullptr,
+                                  const BehindGate* behind_gate = nullptr);
 
 }  // namespace snag

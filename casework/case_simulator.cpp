@@ -113,6 +113,16 @@ std::string text_of(const std::map<std::string, double>& values) {
   return text;
 }
 
+std::string text_of_gate(const Gate& gate) {
+  std::string text = gate.from > -Gate::far ? text_of("from", gate.from) : "";
+  for (std::size_t axis = 0; axis < gate.lower.size(); ++axis) {
+    const std::string name(1, "xyz"[axis]);
+    if (gate.lower.at(axis) > -Gate::far) text += text_of("above_" + name, gate.lower.at(axis));
+    if (gate.upper.at(axis) < Gate::far) text += text_of("below_" + name, gate.upper.at(axis));
+  }
+  return text;
+}
+
 std::string text_of(const Restart& restart) {
   std::string text = text_of("restart", restart.time);
   for (const double value : restart.position) text += text_of("x", value);
@@ -225,16 +235,29 @@ CaseSimulator::Job CaseSimulator::job_of(const RunRequest& request) const {
   std::sort(names.begin(), names.end());
   for (const std::string& value : names) settings += value + ";";
   if (request.restart) settings += text_of(*request.restart);
-  return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change)};
+  std::optional<CaseChange> outside;
+  if (request.gate) {
+    RunRequest without = request;
+    without.effects.erase(request.gate->effect);
+    outside = change_of(without);
+    settings += "gate of " + request.gate->effect + ";" + text_of_gate(*request.gate);
+  }
+  return {point.fingerprint.substr(0, 16) + "|" + settings, settings, &request, std::move(change), std::move(outside)};
 }
 
 RunResult CaseSimulator::run_serial(const Job& job) const {
   const Point& point = points_[static_cast<std::size_t>(job.request->point)];
   RunResult result;
   try {
-    std::vector<std::string> overrides = job.change.overrides;
-    overrides.push_back(point.base.with_step_factor(job.request->step_factor));
-    result.values = run_in_memory(point.base.with(overrides), point.asked, {}, &store_, job.request->restart, &prepared_);
+    const auto case_of = [&](const CaseChange& change) {
+      std::vector<std::string> overrides = change.overrides;
+      overrides.push_back(point.base.with_step_factor(job.request->step_factor));
+      return point.base.with(overrides);
+    };
+    std::optional<BehindGate> behind;
+    if (job.outside) behind = BehindGate{*job.request->gate, case_of(job.change)};
+    result.values = run_in_memory(case_of(job.outside ? *job.outside : job.change), point.asked, {}, &store_, job.request->restart,
+                                  &prepared_, behind ? &*behind : nullptr);
   } catch (const std::exception& failure) {
     result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
     result.failure = failure.what();

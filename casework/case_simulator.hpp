@@ -54,6 +54,7 @@ class CaseSimulator final : public Simulator {
     std::string settings;  // what of the base case is changed
     const RunRequest* request;
     CaseChange change;
+    std::optional<CaseChange> outside{};  // of its gate; absent: it has none
   };
   void find_nuisances(const Experiment& experiment);
   Job job_of(const RunRequest& request) const;

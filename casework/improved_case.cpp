@@ -78,6 +78,10 @@ std::vector<ImprovedCase> improved_cases(CaseSimulator& simulator, const Experim
     improved.why_none = why_none(verdict);
     return {};
   }
+  if (std::any_of(improved.runs.begin(), improved.runs.end(), [](const RunRequest& run) { return run.gate.has_value(); })) {
+    improved.why_none = "The cause acts in a part only, which a case cannot say.";
+    return {};
+  }
   const bool names_input =
       std::any_of(verdict.effects.begin(), verdict.effects.end(), [](const std::string& name) { return name.starts_with("input:"); });
   std::vector<ImprovedCase> cases;

@@ -141,7 +141,8 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
                             : !of_force.empty() && !holds(of_force) ? "the base case has no " + of_force
                                                                     : reason_against(p, facts),
                    // The mean of random runs is no mixture of their forms.
-                   .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size()))});
+                   .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size())),
+                   .may_be_local = effect.is_force && facts.prescribed && !p.random});
   }
   for (const std::string& name : effect_models().names()) all.push_back(effect_models().make(name, "diagnosis")->effect(facts));
   std::sort(all.begin(), all.end(), [](const Effect& a, const Effect& b) { return a.name < b.name; });

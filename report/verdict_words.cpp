@@ -18,6 +18,16 @@ std::string strength_in_words(const Verdict& v, const std::string& name) {
   return " = " + rounded(e.mean) + " ± " + rounded(e.sd) + (e.unit == "1" ? "" : " " + e.unit);
 }
 
+/// "lift", or "lift from 0.21 ± 0.01 s on".
+std::string cause_in_words(const Verdict& v, const std::string& name) {
+  const auto found = v.local.find(name);
+  if (found == v.local.end()) return name;
+  const LocalCause& local = found->second;
+  const std::string place = rounded(local.mean) + " ± " + rounded(local.sd) + " " + local.unit;
+  if (local.coordinate == "t") return local.effect + " from " + place + " on";
+  return local.effect + " where " + local.coordinate + " is " + (local.is_upwards ? "above " : "below ") + place;
+}
+
 /// What to correct of data or inputs where the named cause is a mistake of theirs; empty: it is an effect of the model.
 std::string correction(const Verdict& v, const std::string& name) {
   const std::string kind = name.substr(0, name.find(':')), of = name.find(':') == std::string::npos ? "" : name.substr(kind.size() + 1);
@@ -66,7 +76,7 @@ std::string verdict_sentence(const Verdict& v) {
   std::string causes;
   const bool has_shares = v.causes.size() > 1 || v.unexplained > 0;
   for (std::size_t i = 0; i < v.effects.size(); ++i) {
-    causes += (i > 0 ? ", " : "") + v.effects[i];
+    causes += (i > 0 ? ", " : "") + cause_in_words(v, v.effects[i]);
     if (const auto other = v.same_as.find(v.effects[i]); other != v.same_as.end())
       causes += " (or " + joined(other->second) + ", which does the same here)";
     constexpr double least_share = 0.005;

@@ -39,6 +39,7 @@ Attribution Attributor::attribute() {
   fit_random_effects();
   if (model_.experiment().pairs) fit_pairs(screening);
   fit_rivals_of_leader();
+  fit_local_causes();
   if (model_.experiment().pairs) fit_in_rounds(), fit_without_weak_members();
   refine_random_leader();
   if (model_.experiment().pairs) credit_other_pairs(live);

@@ -27,6 +27,9 @@ inline constexpr double screening_width = 10, share_not_linear = 0.05, share_of_
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
 inline constexpr double blind_detectability = 3;
+/// Of the prior of an effect, for that it acts from a time on only, or beyond a plane only, each; and hypotheses of these that are fitted.
+inline constexpr double share_local = 0.05;
+inline constexpr int most_local = 3;
 /// A member of a set that is z clear of nothing (clear_of_nothing) brings z^2/2 nats at most, less what its strength costs. Below this z it
 /// cannot bring those of the rule, and the set is fitted without it.
 inline const double weak = std::sqrt(2 * nats_of_rule);
@@ -93,6 +96,8 @@ class Attributor {
   /// screened around the fit without it; what comes nearest to the leader, within the nats of the rule, is fitted. Its index; -1: none.
   int fit_exchange(int leader);
   bool is_fitted(const Hypothesis& hypothesis) const;
+  /// Whether effect k acts in a part only in this hypothesis.
+  bool is_in_part(const Hypothesis& hypothesis, int k) const;
   /// A fit without effect e of a fit, from where its other effects stand, where there is none yet; false where the budget ends.
   bool fit_without(const Fit& all, std::size_t e);
   /// Drop test: whatever the rounds came by, each member of the leading set that is less than `weak` clear of nothing is left out in its
@@ -111,6 +116,9 @@ class Attributor {
   /// The runs of an emulator do not fill in a distribution; the likeliest hypothesis must not be refused for what they lack.
   void refine_random_leader();
   bool look_alike(int a, int b) const;
+  /// Effects that act in a part of the time or of the domain only, where one promises more than any that acts everywhere; with a round
+  /// around it where it leads.
+  void fit_local_causes();
   /// A hypothesis with effect k at place e, as strong by its own measure as what was there.
   Screened with_instead(const Hypothesis& hypothesis, const Eigen::VectorXd& theta, std::size_t e, int k) const;
   /// What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model

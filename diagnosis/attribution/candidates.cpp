@@ -19,6 +19,7 @@ std::vector<int> live_candidates(const Responses& model, std::map<std::string, s
   }
   std::vector<int> live;
   for (int k = 0; k < static_cast<int>(effects.size()); ++k) {
+    if (effects[k].is_local) continue;  // found on the way
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), effects[k].name) == wanted.end()) continue;
     if (effects[k].blind.empty())
       live.push_back(k);

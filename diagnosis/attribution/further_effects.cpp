@@ -97,14 +97,15 @@ void Attributor::fit_round(int found_so_far, int without) {
   const Fit around = result_.fits[static_cast<std::size_t>(found_so_far)];
   const Hypothesis& found = around.hypothesis;
   const auto n = static_cast<int>(found.effects.size());
-  if (n < 2 || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
+  const bool is_local = n == 1 && model_.effects()[found.effects.front()].is_local;
+  if ((n < 2 && !is_local) || n >= most_effects || !affordable(static_cast<int>(candidates_.size()) + fitter_.runs_of_fit(n + 1))) return;
   report("a further effect beside " + result_.names[static_cast<std::size_t>(found_so_far)], 0.86);
   const int leader = result_.first_by_effects(without);
   const Screening further(model_, fitter_, candidates_, around.at);
   const double screened_alone = further.screen(found).log_evidence;
   std::map<std::string, Screened> larger;
   for (const int k : candidates_) {
-    if (k == without || std::count(found.effects.begin(), found.effects.end(), k) > 0) continue;
+    if (k == without || std::count(found.effects.begin(), found.effects.end(), k) > 0 || is_in_part(found, k)) continue;
     if (further.detectability(k) < least_of_further) {
       result_.one_more.push_back({found_so_far, name_of(with(found, k), model_.effects()), 0, log_prior(with(found, k))});
       continue;
@@ -137,7 +138,8 @@ int Attributor::fit_exchange(int leader) {
     const Screening others(model_, fitter_, candidates_, rest->at);
     const double price = price_of_inputs(*rest);
     for (const int k : candidates_) {
-      if (std::count(all.hypothesis.effects.begin(), all.hypothesis.effects.end(), k) > 0 || others.detectability(k) < least_of_further)
+      if (std::count(all.hypothesis.effects.begin(), all.hypothesis.effects.end(), k) > 0 || is_in_part(all.hypothesis, k) ||
+          others.detectability(k) < least_of_further)
         continue;
       Screened screened = others.screen(with(rest->hypothesis, k));
       if (const double reached = by_rule(screened.hypothesis, screened.log_evidence + price);
@@ -149,6 +151,13 @@ int Attributor::fit_exchange(int leader) {
   report("another effect in the place of one of " + result_.names[static_cast<std::size_t>(leader)], 0.86);
   add(fit_of(*exchanged));
   return static_cast<int>(result_.fits.size()) - 1;
+}
+
+bool Attributor::is_in_part(const Hypothesis& hypothesis, int k) const {
+  return std::any_of(hypothesis.effects.begin(), hypothesis.effects.end(), [&](int e) {
+    const Gate* gate = model_.gate_of(e);
+    return gate != nullptr && gate->effect == model_.effects()[k].name;
+  });
 }
 
 bool Attributor::is_fitted(const Hypothesis& hypothesis) const {
@@ -215,7 +224,8 @@ void Attributor::credit_other_pairs(const std::vector<int>& live) {
     if (other != result_.not_fitted.end()) alone[k] = other->second.log_evidence;
   }
   for (const Fit& fit : result_.fits)
-    if (fit.hypothesis.effects.size() == 1) alone[fit.hypothesis.effects[0]] = fit.log_evidence;
+    if (fit.hypothesis.effects.size() == 1 && !model_.effects()[fit.hypothesis.effects[0]].is_local)
+      alone[fit.hypothesis.effects[0]] = fit.log_evidence;
   for (auto a = alone.begin(); a != alone.end(); ++a) {
     for (auto b = std::next(a); b != alone.end(); ++b) {
       const Hypothesis pair = pair_of(a->first, b->first);

@@ -4,6 +4,7 @@
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/attributor.hpp"
+#include "diagnosis/attribution/local_causes.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -57,6 +58,7 @@ void Attributor::fit_random_effects() {
 }
 
 double Attributor::prior_of(int k) const {
+  if (model_.effects()[k].is_local) return share_local * prior_effects / n_singles_;
   return model_.effects()[k].is_mistake ? prior_mistakes / n_mistakes_ : prior_effects / n_singles_;
 }
 
@@ -70,7 +72,8 @@ double Attributor::log_prior_of_verdict(const Hypothesis& hypothesis) const {
   if (hypothesis.effects.empty()) return std::log(prior_none);
   double best = 0;
   int n_priced = static_cast<int>(hypothesis.effects.size()) - 1;
-  for (const int k : hypothesis.effects) best = std::max(best, prior_of(k)), n_priced += model_.effects()[k].is_mistake;
+  for (const int k : hypothesis.effects)
+    best = std::max(best, prior_of(k)), n_priced += model_.effects()[k].is_mistake || model_.effects()[k].is_local;
   return std::log(best) - n_priced * nats_of_rule;
 }
 
@@ -191,6 +194,31 @@ void Attributor::note_screening(const std::vector<Screened>& screened) {
     result_.notes.push_back("The screening promised " + rounded(promised) + " nats of " + name + " at " + rounded(one.theta[0]) +
                             ", the fit brings " + rounded(found) + " at " + rounded(fit.theta[0]) +
                             ": the two disagree. Give more runs a state ([budget] max_runs), and look at which rows differ.");
+  }
+}
+
+void Attributor::fit_local_causes() {
+  if (model_.base_is_random()) return;
+  const std::vector<GateFamily> families = gate_families(model_, fitter_.base().responses);
+  std::vector<int> seen;  // what cannot be seen where it acts everywhere cannot be seen in a part
+  for (const int k : candidates_)
+    if (!result_.identifiability.blind.contains(model_.effects()[k].name)) seen.push_back(k);
+  const int scan_runs = runs_of_scan(model_, seen, families);
+  if (scan_runs == 0 || !affordable(scan_runs + fitter_.runs_of_fit(1))) return;
+  report("effects that act in a part only", 0.84);
+  const LocalScan scan = scan_local_causes(model_, fitter_, seen, families);
+  const double best = scan.found.front().log_evidence, width = std::max(screening_width, share_not_linear * (best - none_screened_));
+  for (int i = 0; i < std::min(most_local, static_cast<int>(scan.found.size())); ++i) {
+    const ScannedLocal& one = scan.found[static_cast<std::size_t>(i)];
+    // At the best of its places it has to promise what it would have to bring over all of them.
+    if (one.log_evidence < scan.best_everywhere + nats_of_rule || one.log_evidence < best - width) return;
+    if (!affordable(2 * fitter_.runs_of_fit(1))) return;
+    const int local = model_.add_local(one.effect, one.family.at(one.place));
+    report("fit of " + model_.effects()[local].name, 0.84);
+    LocalFit found = fit_local_cause(model_, fitter_, local, one, [&](int runs) { return affordable(runs); });
+    result_.local[model_.effects()[local].name] = found.cause;
+    result_.other_name_of[local] = one.effect;
+    add(std::move(found.fit));
   }
 }
 

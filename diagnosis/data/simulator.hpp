@@ -27,6 +27,24 @@ struct Effect {
   int n_deviations = 0;               // indices after them: one standard deviation of something else that its law leaves open
   double least = 0;                   // strengths below this size are not named
   bool is_mistake = false;            // of inputs or data (mistakes.hpp), no effect that the model lacks
+  bool may_be_local = false;          // runs can have it behind a gate
+  bool is_local = false;              // has a gate (Responses::add_local)
+};
+
+/// Where and when an effect acts that does not act everywhere: from a time on, while the centre of what moves is in a box.
+struct Gate {
+  static constexpr double far = 1e9;
+  std::string effect;                                                   // its name
+  double from = -far;                                                   // s
+  std::array<double, 3> lower{-far, -far, -far}, upper{far, far, far};  // m
+
+  /// Along which it opens: t, or x, y, z.
+  std::string coordinate() const {
+    if (from > -far) return "t";
+    std::size_t axis = 0;
+    while (axis < 2 && lower.at(axis) == -far && upper.at(axis) == far) ++axis;
+    return {"xyz"[axis]};
+  }
 };
 
 /// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.
@@ -57,6 +75,7 @@ struct RunRequest {
   double step_factor = 1;                   // time step over that of the case, for u_num
   std::map<std::string, int> forms{};       // of the effects, by name; absent: the first
   std::optional<Restart> restart{};         // absent: the run goes its own way
+  std::optional<Gate> gate{};               // of one of the effects; absent: all act everywhere
 };
 
 struct RunResult {

@@ -103,6 +103,11 @@ std::string verdict_json(const Verdict& v) {
   for (const Cause& cause : v.causes)
     json["causes"].push_back({{"effect", cause.effect}, {"share", number(cause.share)}, {"nats", number(cause.nats)}});
   json["unexplained"] = number(v.unexplained);
+  json["local"] = Json::object();
+  for (const auto& [name, l] : v.local)
+    json["local"][name] = {{"effect", l.effect},     {"coordinate", l.coordinate},
+                           {"unit", l.unit},         {"acts", l.is_upwards ? "above" : "below"},
+                           {"mean", number(l.mean)}, {"sd", number(l.sd)}};
   json["parameters"] = Json::object();
   for (const auto& [name, e] : v.parameters) json["parameters"][name] = parameter(e);
   json["where"] = Json::array();

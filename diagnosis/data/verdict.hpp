@@ -110,6 +110,15 @@ struct Cause {
   double nats = std::numeric_limits<double>::quiet_NaN();   // of evidence that are lost without it; NaN: the rest was not fitted
 };
 
+/// Where an effect begins to act: from a time on, or beyond a plane.
+struct LocalCause {
+  std::string effect;       // of the library
+  std::string coordinate;   // t, x, y or z
+  std::string unit;         // s or m
+  bool is_upwards = true;   // it acts above the place
+  double mean = 0, sd = 0;  // of the place
+};
+
 /// Noise of an observable that its repeats show, where it is not as stated (noise.hpp).
 struct NoiseFound {
   double factor = 1, correlation_time = 0;  // over noise_u; s
@@ -153,6 +162,7 @@ struct Verdict {
   std::map<std::string, double> weak_form{};      // of single effects by the accelerations of the paths only, relative to none
   std::map<std::string, double> leave_one_out{};  // log predictive density, one operating point left out at a time, relative to none
   std::vector<Cause> causes{};                    // of a verdict that names effects, in their order
+  std::map<std::string, LocalCause> local{};      // of the effects of the hypotheses that act in a part only, by name: "lift@t"
   double unexplained = std::numeric_limits<double>::quiet_NaN();  // share of the gap that stays beside them; NaN: no effect is named
   std::map<std::string, EffectEstimate> parameters{};
   std::map<std::string, double> nuisances{};      // fitted deviations under the first hypothesis, in standard uncertainties; name@points

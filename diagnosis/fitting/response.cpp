@@ -96,6 +96,26 @@ Responses::Responses(const Experiment& experiment, Simulator& simulator)
   leave_out_rows_without_answer(answers);
 }
 
+int Responses::add_local(int of, Gate gate) {
+  Effect local = effects_[static_cast<std::size_t>(of)];
+  gate.effect = local.name;
+  local.name += "@" + gate.coordinate();
+  local.is_local = true;
+  effects_.push_back(std::move(local)), gates_.push_back(std::move(gate));
+  return static_cast<int>(effects_.size()) - 1;
+}
+
+const Gate* Responses::gate_of(int effect) const {
+  const auto first = static_cast<int>(effects_.size() - gates_.size());
+  return effect < first ? nullptr : &gates_[static_cast<std::size_t>(effect - first)];
+}
+
+void Responses::set_gate(int local_effect, Gate gate) {
+  Gate& own = gates_.at(static_cast<std::size_t>(local_effect) - (effects_.size() - gates_.size()));
+  gate.effect = own.effect;
+  own = std::move(gate);
+}
+
 bool Responses::acts_at(int nuisance, int point) const {
   const auto& points = nuisances_[nuisance].points;
   return std::find(points.begin(), points.end(), point) != points.end();
@@ -162,8 +182,12 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
       if (made->kind == Mistake::Kind::input && there) run.nuisances[made->input] += theta;
       continue;
     }
-    run.effects[effects()[k].name] = theta;
-    if (request.state.form(e) != 0) run.forms[effects()[k].name] = request.state.form(e);
+    const Gate* local = gate_of(k);
+    const std::string& name = local ? local->effect : effects()[k].name;
+    run.effects[name] = theta;
+    if (request.state.form(e) != 0) run.forms[name] = request.state.form(e);
+    if (local) run.gate = *local;
+    if (request.state.gate && request.state.gate->effect == name) run.gate = request.state.gate;
   }
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     const double deviation = request.state.nuisances[static_cast<Eigen::Index>(j)];

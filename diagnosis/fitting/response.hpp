@@ -18,6 +18,7 @@ struct State {
   std::vector<int> forms{};                       // that leads, by effect; what is not there: the first
   Eigen::VectorXd shares{};                       // of the other forms, in standard deviations, see other_forms(); what is not there: 0
   std::optional<Restart> restart{};               // of where the pieces are, on the way
+  std::optional<Gate> gate{};                     // of an effect, in place of its own; absent: a local effect has its own, another none
   int form(std::size_t effect) const { return effect < forms.size() ? forms[effect] : 0; }
 };
 
@@ -67,7 +68,7 @@ class Responses {
   Responses(const Experiment& experiment, Simulator& simulator);
 
   const Experiment& experiment() const { return experiment_; }
-  /// Those of the simulator, then the mistakes that inputs and data may hold.
+  /// Those of the simulator, the mistakes that inputs and data may hold, the local ones.
   const std::vector<Effect>& effects() const { return effects_; }
   const std::vector<FreeNuisance>& nuisances() const { return nuisances_; }
   const std::vector<PointSummary>& points() const { return points_; }
@@ -75,6 +76,12 @@ class Responses {
   const std::vector<int>& withheld() const { return withheld_; }
   /// The base model answers with another result for another seed.
   bool base_is_random() const { return base_is_random_; }
+  /// Adds an effect, which is that of index `of` behind a gate: "lift@t" from a time on, "lift@z" beyond a plane across z. References
+  /// to effects() end. Returns its index.
+  int add_local(int of, Gate gate);
+  /// Gate of a local effect, with the name of the effect that it is of; null: acts everywhere.
+  const Gate* gate_of(int effect) const;
+  void set_gate(int local_effect, Gate gate);
   /// False of mistakes of the measurement: they change what a run answers with, so that their derivatives are exact whatever chance does.
   bool changes_runs(int effect) const;
   /// Seeds a state is run with, and as many as fill in the distribution that a random effect makes (where the base model is random, every
@@ -138,7 +145,8 @@ class Responses {
   const Experiment& experiment_;
   Simulator& simulator_;
   std::vector<Effect> effects_;
-  std::vector<Mistake> mistakes_;                               // the last of the effects
+  std::vector<Mistake> mistakes_;                               // after the effects of the simulator
+  std::vector<Gate> gates_;                                     // of the last of the effects
   std::map<int, std::vector<Eigen::MatrixXd>> in_right_units_;  // by effect, of wrong units: covariance of the data, by point
   std::vector<FreeNuisance> nuisances_;
   bool has_spread_;  // rows of the spread between replicates, for random effects

@@ -80,8 +80,8 @@ Eigen::MatrixXd Responses::covariance_in_right_units(const State& state, int poi
 }
 
 const Mistake* Responses::mistake(int effect) const {
-  const auto first = static_cast<int>(effects_.size() - mistakes_.size());
-  return effect < first ? nullptr : &mistakes_[static_cast<std::size_t>(effect - first)];
+  const auto first = static_cast<int>(simulator_.effects().size()), end = first + static_cast<int>(mistakes_.size());
+  return effect < first || effect >= end ? nullptr : &mistakes_[static_cast<std::size_t>(effect - first)];
 }
 
 bool Responses::changes_runs(int effect) const {

@@ -104,7 +104,7 @@ class Judge {
   int judge() {
     drop_surplus_effects(model_, a_);
     set_probabilities(a_);
-    v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.weak_form = a_.weak_form,
+    v_.local = a_.local, v_.probability = a_.probability, v_.notes = a_.notes, v_.screening = a_.screening, v_.weak_form = a_.weak_form,
     v_.placebo_rate = a_.placebo_rate;
     for (std::size_t i = 0; i < a_.fits.size(); ++i) {
       v_.log_evidence[a_.names[i]] = a_.fits[i].log_evidence + a_.remainder[i].gain - a_.fits[0].log_evidence;
@@ -188,10 +188,23 @@ class Judge {
   void find_other_names(int first) {
     for (const int k : a_.fits[static_cast<std::size_t>(first)].hypothesis.effects) {
       for (const int other : same_causes(model_, a_, first, k)) {
-        a_.other_name_of[other] = k;
+        const auto of_all = a_.other_name_of.find(k);
+        a_.other_name_of[other] = of_all == a_.other_name_of.end() ? k : of_all->second;
         v_.same_as[model_.effects()[k].name].push_back(model_.effects()[other].name);
       }
+      find_other_places(k);
     }
+  }
+
+  // The data may show that an effect acts in a part only, and not whether from a time on or beyond a plane: one cause at any rate.
+  void find_other_places(int k) {
+    const Gate* own = model_.gate_of(k);
+    if (own == nullptr) return;
+    std::vector<std::string>& same = v_.same_as[model_.effects()[k].name];
+    for (const auto& [name, local] : a_.local)
+      if (local.effect == own->effect && name != model_.effects()[k].name && std::count(same.begin(), same.end(), name) == 0)
+        same.push_back(name);
+    if (same.empty()) v_.same_as.erase(model_.effects()[k].name);
   }
 
   void effects(int first) {

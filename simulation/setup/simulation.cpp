@@ -162,9 +162,8 @@ void Simulation::build_rags(const CaseFile& file) {
                                       rags->rags().size());
 }
 
-void Simulation::couple(const CaseFile& file) {
-  if (!rags) return;
-  const Vec3 gravity = read_gravity(file.root());
+std::unique_ptr<CoupledSolver> Simulation::coupling_of(const CaseFile& file) {
+  std::unique_ptr<CoupledSolver> solver;
   if (water) {
     const bool frozen = start_settings_.frozen;
     Coupling coupling = read_coupling(file.root());
@@ -172,13 +171,19 @@ void Simulation::couple(const CaseFile& file) {
       throw Error(
           ExitCode::usage,
           "[initial_flow] frozen = true with [coupling] mode = \"two_way\": frozen flow allows one-way coupling only; use \"one_way\"");
-    coupled = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
+    solver = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
   } else if (prescribed_) {
-    coupled = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
-  } else {
-    rags->set_gravity(gravity);
+    solver = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
   }
-  if (coupled) coupled->set_walls(walls);
+  if (solver) solver->set_walls(walls);
+  return solver;
+}
+
+void Simulation::couple(const CaseFile& file) {
+  if (!rags) return;
+  const Vec3 gravity = read_gravity(file.root());
+  coupled = coupling_of(file);
+  if (!coupled) rags->set_gravity(gravity);
   if (file.root().has("hold")) holds = std::make_unique<Holds>(file.root(), *rags, coupled ? Vec3{} : gravity);
   if (holds) rags->set_motion(holds.get());
   speed_bounds_ = std::make_unique<SpeedBounds>(norm(gravity), mesh.get(), walls, rags->pieces(), contacts.impact_speed);

@@ -56,6 +56,8 @@ class Simulation {
   /// The state before the first step: the water of another run, if [initial_flow] names one, and the rags whose time has come, checked.
   /// Returns a line for the log, empty without such water. Collective; throws Error.
   std::string start();
+  /// The coupling of these pieces and this water as another case has it; null where there is no water. Collective; throws Error.
+  std::unique_ptr<CoupledSolver> coupling_of(const CaseFile& file);
   /// The water stays as [initial_flow] gives it.
   bool frozen() const { return start_settings_.frozen; }
   /// The case says that the water is laminar; it is not only for want of a model.

@@ -188,6 +188,15 @@ class OtherProgram(harness.CaseTest):
                     found = verdict["parameters"][effect]
                     self.assertLess(abs(found["mean"] - strength), 4 * found["sd"], effect)
 
+    def test_local_cause(self):
+        """A pressure gradient that acts from a time on is named with that time."""
+        row, truth, verdict = card.run_set(sphere, "local", 0, 3, self.work)
+        self.assertTrue(row["right"], verdict["probability"])
+        (name,) = verdict["effects"]
+        found = verdict["local"][name]
+        self.assertEqual((found["effect"], found["coordinate"], found["acts"]), ("pressure_gradient", "t", "above"))
+        self.assertLess(abs(found["mean"] - truth["other"]["gate_time"]), 4 * found["sd"])
+
 
 if __name__ == "__main__":
     harness.main()

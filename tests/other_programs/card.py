@@ -32,7 +32,9 @@ LIBRARY = ("single", "pair", "several")
 
 
 def normalised(name, same):
-    return "+".join(sorted({same.get(one, one) for one in name.split("+")}))
+    """Names of causes, each once. An effect that acts in a part only, lift@t, is that effect."""
+    causes = {one[:-2] if one[-2:] in ("@t", "@x", "@y", "@z") else one for one in name.split("+")}
+    return "+".join(sorted({same.get(one, one) for one in causes}))
 
 
 def said_of(verdict, same):

@@ -21,6 +21,7 @@ struct Truth {
   double body = 0;                            // m/s2, periodic force that no candidate is like
   double stratification = 0;                  // drag that grows along the path
   double gust = 0;                            // m/s2, along x and z from 0.30 s to 0.38 s
+  std::optional<Gate> gate{};                 // of one of the effects
 };
 
 struct Flow {
@@ -40,7 +41,7 @@ using Theta = std::map<std::string, double>;
 // Positions x, z at the times; `form` and `body` only of truths.
 inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, const Theta& nuisances, const std::vector<double>& times,
                                                double step, std::uint64_t seed, const Truth* truth = nullptr,
-                                               const std::optional<Restart>& restart = {}) {
+                                               const std::optional<Restart>& restart = {}, const std::optional<Gate>& gate = {}) {
   const auto get = [](const Theta& map, const std::string& name) {
     const auto found = map.find(name);
     return found == map.end() ? 0.0 : found->second;
@@ -51,8 +52,9 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
   const double r = 1000 / f.density, tau = f.density * f.diameter * f.diameter / (18 * 1000 * nu), g = 9.81;
   const double drag = (1 + get(nuisances, "drag_law_uncertainty")) * (1 + get(effects, "drag_magnitude")),
                scale = 1 + get(effects, "measurement");
-  const double added = get(effects, "added_mass") + get(effects, "entrained_water"), pressure = get(effects, "pressure_gradient"),
-               lift = get(effects, "lift"), dispersion = get(effects, "turbulent_dispersion");
+  const double dispersion = get(effects, "turbulent_dispersion");
+  Theta outside = effects;
+  if (gate) outside.erase(gate->effect);
   NormalNumbers random(seed * 7919 + static_cast<std::uint64_t>(point));
   std::vector<std::array<double, 2>> result;
   double x = 0, z = 0, vx = f.mean, vz = 0, t = 0, eddy_x = 0, eddy_z = 0;
@@ -70,6 +72,11 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
       result.push_back({scale * (old_x + w * (x - old_x)), scale * (old_z + w * (z - old_z))});
       ++next;
     }
+    const bool open =
+        !gate || (t >= gate->from && x >= gate->lower[0] && x <= gate->upper[0] && z >= gate->lower[2] && z <= gate->upper[2]);
+    const Theta& acting = open ? effects : outside;
+    const double added = get(acting, "added_mass") + get(acting, "entrained_water"), pressure = get(acting, "pressure_gradient"),
+                 lift = get(acting, "lift");
     const double wave = truth ? 1 + truth->form * std::sin(9 * t + point) : 1;
     const double ux = flow * (f.mean + f.amplitude * std::sin(f.omega * t) + f.shear * z) + eddy_x,
                  uz = flow * 0.3 * f.amplitude * std::cos(f.omega * t) + eddy_z;
@@ -94,7 +101,8 @@ inline std::vector<std::array<double, 2>> path(int point, const Theta& effects, 
 
 class Sphere final : public Simulator {
  public:
-  explicit Sphere(const Experiment& experiment, bool with_random = false, bool with_twin = false) : experiment_(experiment) {
+  explicit Sphere(const Experiment& experiment, bool with_random = false, bool with_twin = false, bool with_gates = false)
+      : experiment_(experiment) {
     effects_ = {{.name = "added_mass", .parameter = "", .mean = 0.5, .sd = 0.25, .minimum = 0, .maximum = 2},
                 {.name = "drag_magnitude", .parameter = "", .mean = 0.3, .sd = 0.2, .minimum = -0.6, .maximum = 2},
                 {.name = "lift", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4},
@@ -102,6 +110,8 @@ class Sphere final : public Simulator {
                 {.name = "operating_point", .parameter = "", .mean = 0, .sd = 0.15, .minimum = -0.5, .maximum = 1},
                 {.name = "pressure_gradient", .parameter = "", .mean = 1, .sd = 0.4, .minimum = 0, .maximum = 2}};
     if (with_twin) effects_.push_back({.name = "entrained_water", .parameter = "", .mean = 0.5, .sd = 0.25, .minimum = 0, .maximum = 2});
+    for (Effect& effect : effects_)
+      effect.may_be_local = with_gates && (effect.name == "added_mass" || effect.name == "lift" || effect.name == "pressure_gradient");
     effects_.push_back({.name = "wall", .parameter = "", .blind = "the case has no wall"});
     if (with_random)
       effects_.push_back({.name = "turbulent_dispersion",
@@ -137,7 +147,7 @@ class Sphere final : public Simulator {
       const auto key =
           std::tuple(request.point, request.effects, request.nuisances, request.effects.contains("turbulent_dispersion") ? request.seed : 0,
                      request.step_factor, request.restart ? request.restart->time : 0, request.restart ? request.restart->position : none,
-                     request.restart ? request.restart->velocity : none);
+                     request.restart ? request.restart->velocity : none, key_of(request.gate));
       const auto found = kept_.find(key);
       if (found != kept_.end()) {
         results.push_back(found->second);
@@ -149,7 +159,7 @@ class Sphere final : public Simulator {
       for (const Slot& s : slots)
         if (s.observable == slots.front().observable) times.push_back(s.time);
       const auto at = path(request.point, request.effects, request.nuisances, times, 1e-3 * request.step_factor, request.seed, nullptr,
-                           request.restart);
+                           request.restart, request.gate);
       RunResult result;
       for (std::size_t i = 0; i < slots.size(); ++i)
         result.values.push_back(at[i % times.size()][experiment_.observables[slots[i].observable].id == "z"]);
@@ -162,11 +172,17 @@ class Sphere final : public Simulator {
   int n_runs() const override { return n_runs_; }
 
  private:
+  static std::vector<double> key_of(const std::optional<Gate>& gate) {
+    return gate ? std::vector{gate->from, gate->lower[0], gate->upper[0], gate->lower[2], gate->upper[2]} : std::vector<double>{};
+  }
+
   const Experiment& experiment_;
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;
   std::vector<std::vector<Slot>> slots_;
-  std::map<std::tuple<int, Theta, Theta, std::uint64_t, double, double, std::array<double, 3>, std::array<double, 3>>, RunResult> kept_;
+  std::map<std::tuple<int, Theta, Theta, std::uint64_t, double, double, std::array<double, 3>, std::array<double, 3>, std::vector<double>>,
+           RunResult>
+      kept_;
   int n_runs_ = 0;
 };
 
@@ -189,7 +205,8 @@ inline Experiment experiment(const Truth& truth, int n_train, int n_withheld, in
     for (const auto& [name, value] : truth.nuisances) nuisances[name] = value;
     std::vector<std::vector<std::array<double, 2>>> paths;
     for (int r = 0; r < n_replicates; ++r)
-      paths.push_back(path(p, truth.effects, nuisances, times, 0.7e-3, seed * 1000 + static_cast<std::uint64_t>(r) + 1, &truth));
+      paths.push_back(
+          path(p, truth.effects, nuisances, times, 0.7e-3, seed * 1000 + static_cast<std::uint64_t>(r) + 1, &truth, {}, truth.gate));
     for (int o = 0; o < 2; ++o)
       for (int r = 0; r < n_replicates; ++r)
         for (std::size_t k = 0; k < times.size(); ++k) e.data.push_back({p, o, r, times[k], paths[r][k][o] + noise * random()});
