@@ -168,6 +168,9 @@ Mesh build_mesh(MeshParts parts) {
   list_cell_faces(mesh);
   number_nodes(parts, mesh);
   fill_geometry(mesh, shift);
+  for (auto* list : {&mesh.owner, &mesh.neighbour, &mesh.cell_node_start, &mesh.cell_node, &mesh.face_node_start, &mesh.face_node})
+    list->shrink_to_fit();
+  mesh.node.shrink_to_fit(), mesh.node_id.shrink_to_fit(), mesh.cell_shape.shrink_to_fit(), mesh.skew_share.shrink_to_fit();
 
   const auto n_counted =
       std::count_if(mesh.owner.begin(), mesh.owner.begin() + mesh.n_interior, [&](int cell) { return cell < mesh.n_cells; });

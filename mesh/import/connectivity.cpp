@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/room.hpp"
 #include "base/words.hpp"
 #include "mesh/geometry.hpp"
 #include "mesh/shapes.hpp"
@@ -201,7 +202,7 @@ void list_cell_faces(Mesh& mesh) {
   };
   for_each_side([&](int cell, int) { ++mesh.cell_face_start[cell + 1]; });
   for (int c = 0; c < mesh.n_cells; ++c) mesh.cell_face_start[c + 1] += mesh.cell_face_start[c];
-  mesh.cell_face.resize(static_cast<std::size_t>(mesh.cell_face_start[mesh.n_cells]));
+  resize_with_room(mesh.cell_face, static_cast<std::size_t>(mesh.cell_face_start[mesh.n_cells]));
   std::vector<int> next(mesh.cell_face_start.begin(), mesh.cell_face_start.end() - 1);
   for_each_side([&](int cell, int face) { mesh.cell_face[next[cell]++] = face; });
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/words.hpp"
 #include "mesh/import/connectivity.hpp"
 #include "mesh/import/mesh_reader.hpp"
@@ -290,7 +291,9 @@ Mesh import_mesh(const std::filesystem::path& file, MPI_Comm comm, const ImportO
     take_boundary(plex, parts);
   }
   require_zones(parts);
-  return build_mesh(std::move(parts));
+  Mesh mesh = build_mesh(std::move(parts));
+  return_free_memory();
+  return mesh;
 }
 
 std::vector<int> partition_of(const Mesh& mesh) {

@@ -93,10 +93,10 @@ void erase_rows(std::vector<int>& start, std::vector<int>& entries, int first, i
 }
 
 template <class T>
-std::vector<T> taken(const std::vector<T>& all, const std::vector<int>& which, int shift = 0) {
+std::vector<T> taken(const std::vector<T>& all, const std::vector<int>& which) {
   std::vector<T> some;
   some.reserve(which.size());
-  for (const int i : which) some.push_back(all[static_cast<std::size_t>(i + shift)]);
+  for (const int i : which) some.push_back(all[static_cast<std::size_t>(i)]);
   return some;
 }
 
@@ -205,10 +205,11 @@ void TurningMesh::keep_reference() {
   r.cell_centre = taken(mesh_.cell_centre, r.cell), r.node_position = taken(mesh_.node, r.node);
   for (const auto& [kept, all] :
        {std::pair{&r.face_vector, &mesh_.face_vector}, std::pair{&r.face_centre, &mesh_.face_centre}, std::pair{&r.delta, &mesh_.delta}}) {
-    *kept = taken(*all, r.face);
-    const std::vector<Vec3> of_boundary = taken(*all, r.boundary_face, mesh_.n_interior);
-    kept->insert(kept->end(), of_boundary.begin(), of_boundary.end());
+    kept->reserve(r.face.size() + r.boundary_face.size());
+    for (const int f : r.face) kept->push_back((*all)[f]);
+    for (const int b : r.boundary_face) kept->push_back((*all)[mesh_.n_interior + b]);
   }
+  for (auto* list : {&r.cell, &r.face, &r.boundary_face, &r.node}) list->shrink_to_fit();
 }
 
 void TurningMesh::turn(double angle) {

@@ -66,6 +66,7 @@ template <class T>
 void resize_facets(const Mesh& mesh, std::vector<T>& field, const T& value = {}) {
   const auto n_boundary = static_cast<std::size_t>(mesh.n_faces - mesh.n_interior);
   const std::size_t n_old = field.size() - n_boundary, n_new = static_cast<std::size_t>(mesh.n_interior);
+  if (n_new + n_boundary > field.capacity()) field.reserve((n_new + n_boundary) / 64 * 65);
   if (n_new > n_old)
     field.insert(field.begin() + static_cast<std::ptrdiff_t>(n_old), n_new - n_old, value);
   else
