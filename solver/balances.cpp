@@ -109,7 +109,7 @@ void Balances::add_cells(const Step& step) {
 /// `lost` of both cells of a face with flux M, N: - s (r_f - r_c) x M.
 void Balances::add_inner_faces(const Step& step) {
   const Flow& flow = step.flow;
-  const std::vector<Mat3>& G = step.momentum.gradient_guess();
+  const std::vector<Mat3>& G = flow.velocity_gradient;
   std::array<MomentumFlux, block> flux;
   for (int first = 0; first < mesh_.n_interior; first += block) {
     const int n = std::min(block, mesh_.n_interior - first);
@@ -145,7 +145,7 @@ void Balances::add_inner_faces(const Step& step) {
 
 void Balances::add_boundary(const Step& step) {
   const Flow& flow = step.flow;
-  const std::vector<Mat3>& G = step.momentum.gradient_guess();
+  const std::vector<Mat3>& G = flow.velocity_gradient;
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const int patch = static_cast<int>(p);
     const bool is_open = step.boundary.is_open(patch), is_wall = step.boundary.is_wall(patch);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/room.hpp"
 #include "parallel/sum.hpp"
 #include "solver/fields/face.hpp"
 #include "solver/fields/rotating_zone.hpp"
@@ -21,21 +22,21 @@ constexpr double rounding = 1e-15;
 
 }  // namespace
 
-Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings)
-    : history(mesh),
+Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings, Workspace& workspace)
+    : history(mesh, workspace),
       wall_slope(mesh.n_faces - mesh.n_interior),
       mesh_(mesh),
       settings_(settings),
-      squares_(mesh, boundary.pressure_sides()),
-      poisson_(mesh, settings.multigrid, !boundary.fixes_pressure()),
+      squares_(mesh, workspace.moments, boundary.pressure_sides()),
+      poisson_(mesh, settings.multigrid, !boundary.fixes_pressure(), {workspace.scalar[3], workspace.scalar[4], workspace.scalar[5]}),
       coefficient_(mesh.n_faces),
-      correction_(mesh.n_all_cells()),
+      correction_(workspace.scalar[0]),
+      imbalance_(workspace.scalar[1]),
+      right_side_(workspace.scalar[2]),
+      slope_(workspace.vector[0]),
+      gradient_(workspace.vector[1]),
       given_(mesh.n_faces - mesh.n_interior),
-      boundary_correction_(mesh.n_faces - mesh.n_interior),
-      slope_(mesh.n_all_cells()),
-      gradient_(mesh.n_all_cells()),
-      imbalance_(mesh.n_all_cells()),
-      right_side_(mesh.n_all_cells()) {
+      boundary_correction_(mesh.n_faces - mesh.n_interior) {
   set_coefficients(boundary);
 }
 
@@ -205,7 +206,7 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
 }
 
 void Continuity::set_coefficients(const BoundarySet& boundary) {
-  coefficient_.resize(static_cast<std::size_t>(mesh_.n_faces));
+  resize_with_room(coefficient_, static_cast<std::size_t>(mesh_.n_faces));
   for (int f = 0; f < mesh_.n_interior; ++f) coefficient_[f] = conductance(mesh_.face_vector[f], mesh_.delta[f]);
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value;
@@ -218,8 +219,6 @@ void Continuity::set_coefficients(const BoundarySet& boundary) {
 /// Fills imbalance_; p' begins at zero.
 Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& flux) {
   std::fill(correction_.begin(), correction_.end(), 0.0);
-  std::fill(gradient_.begin(), gradient_.end(), Vec3{});
-
   std::fill(imbalance_.begin(), imbalance_.end(), 0.0);
   double squares[2] = {0, 0};
   for (int f = 0; f < mesh_.n_interior; ++f) {
@@ -237,12 +236,13 @@ ContinuityReport Continuity::solve(Flow& flow) {
   const Imbalance imbalance = begin_correction(flow.flux);
   ContinuityReport report{.initial = imbalance.norm};
   for (int k = 0; k <= settings_.n_non_orthogonal_correctors; ++k) {
+    set_right_side();
     if (k > 0) {
       squares_.gradient(mesh_.weight, correction_, given_, slope_);
       fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
       gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_);
+      add_cross_flux();
     }
-    add_cross_flux();
     const double tolerance = k == settings_.n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
     const PoissonReport last =
         poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, imbalance.rounding) / mobility_);
@@ -251,7 +251,7 @@ ContinuityReport Continuity::solve(Flow& flow) {
     report.final = last.final * mobility_;
   }
   if (report.rebuilt) note_preconditioner(flow);
-  correct_flux(flow.flux);
+  correct_flux(flow.flux, settings_.n_non_orthogonal_correctors > 0);
   return report;
 }
 
@@ -263,46 +263,45 @@ void Continuity::close(std::vector<double>& flux, const Flow& flow, const TimeSc
   mobility_ = time.dt / (time.now * flow.density);
   const Imbalance imbalance = begin_correction(flux);
   std::fill(given_.begin(), given_.end(), 0.0);
-  add_cross_flux();
+  set_right_side();
   const PoissonReport report =
       poisson_.solve(right_side_, correction_, std::max(settings_.tolerance_intermediate * imbalance.norm, imbalance.rounding) / mobility_);
   if (report.rebuilt) note_preconditioner(flow);
-  correct_flux(flux);
+  correct_flux(flux, false);
 }
 
-/// Right side of the pressure equation: - imbalance/m + what the last gradient of p' carries across non-orthogonal faces.
-void Continuity::add_cross_flux() {
+/// Right side of the pressure equation, - imbalance/m, with what is given at the boundary.
+void Continuity::set_right_side() {
   for (int c = 0; c < mesh_.n_cells; ++c) right_side_[c] = -imbalance_[c] / mobility_;
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) right_side_[mesh_.owner[f]] += coefficient_[f] * given_[f - mesh_.n_interior];
+}
+
+/// What the last gradient of p' carries across non-orthogonal faces, to the right side.
+void Continuity::add_cross_flux() {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = coefficient_[f];
-    const double cross = dot(S - c * d, blend(w, gradient_[P], gradient_[N]));
+    const double cross = dot(cross_vector(f), blend(mesh_.weight[f], gradient_[P], gradient_[N]));
     right_side_[P] += cross;
     right_side_[N] -= cross;
   }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
-    if (coefficient_[f] == 0) continue;
-    const int P = mesh_.owner[f];
-    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    right_side_[P] += coefficient_[f] * given_[f - mesh_.n_interior] + dot(S - coefficient_[f] * d, gradient_[P]);
-  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f)
+    if (coefficient_[f] != 0) right_side_[mesh_.owner[f]] += dot(cross_vector(f), gradient_[mesh_.owner[f]]);
 }
 
-/// flux -= m (c (p'_N - p'_P) + T.grad p'), with the grad p' of the last right side.
-void Continuity::correct_flux(std::vector<double>& flux) {
+/// flux -= m (c (p'_N - p'_P) + T.grad p'), with the grad p' of the last right side; without one it had none.
+void Continuity::correct_flux(std::vector<double>& flux, bool with_gradient) {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double w = mesh_.weight[f], c = coefficient_[f];
-    flux[f] -= mobility_ * (c * (correction_[N] - correction_[P]) + dot(S - c * d, blend(w, gradient_[P], gradient_[N])));
+    double across = coefficient_[f] * (correction_[N] - correction_[P]);
+    if (with_gradient) across += dot(cross_vector(f), blend(mesh_.weight[f], gradient_[P], gradient_[N]));
+    flux[f] -= mobility_ * across;
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];
-    const Vec3 &S = mesh_.face_vector[f], &d = mesh_.delta[f];
-    const double c = coefficient_[f];
-    flux[f] -= mobility_ * (c * (given_[f - mesh_.n_interior] - correction_[P]) + dot(S - c * d, gradient_[P]));
+    double across = coefficient_[f] * (given_[f - mesh_.n_interior] - correction_[P]);
+    if (with_gradient) across += dot(cross_vector(f), gradient_[P]);
+    flux[f] -= mobility_ * across;
   }
 }
 

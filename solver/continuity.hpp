@@ -46,7 +46,8 @@ struct ContinuityReport {
 
 class Continuity {
  public:
-  Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings);
+  /// Of the workspace it uses the vectors and the scalars 0 to 5.
+  Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings, Workspace& workspace);
 
   /// Pressure gradient and boundary pressure of flow.pressure as it is given (a start). Collective.
   void start_pressure(Flow& flow, const BoundarySet& boundary);
@@ -93,8 +94,11 @@ class Continuity {
   Imbalance begin_correction(const std::vector<double>& flux);
   ContinuityReport solve(Flow& flow);
   void note_preconditioner(const Flow& flow);
+  void set_right_side();
   void add_cross_flux();
-  void correct_flux(std::vector<double>& flux);
+  void correct_flux(std::vector<double>& flux, bool with_gradient);
+  /// T of a face, m2.
+  Vec3 cross_vector(int f) const { return mesh_.face_vector[f] - coefficient_[f] * mesh_.delta[f]; }
   void correct_cells(Flow& flow, bool with_pressure);
 
   const Mesh& mesh_;
@@ -106,12 +110,11 @@ class Continuity {
   // f, N/m3, [n_all_cells], and [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty without a reaction
   std::vector<Vec3> reaction_;
   std::vector<double> reaction_excess_;
-  double preconditioner_angle_ = 0;                  // rad
-  std::vector<double> correction_;                   // p'
-  std::vector<double> given_, boundary_correction_;  // p' or its slope at the boundary as given; p' there
-  std::vector<Vec3> slope_, gradient_;               // of p': least squares, Gauss
-  std::vector<double> imbalance_, right_side_;
-  std::vector<double> facet_pressure_, facet_correction_;  // [n_interior - first_facet], p and p'
+  double preconditioner_angle_ = 0;                            // rad
+  std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]
+  std::vector<Vec3>&slope_, &gradient_;                        // of p': least squares, Gauss
+  std::vector<double> given_, boundary_correction_;            // p' or its slope at the boundary as given; p' there
+  std::vector<double> facet_pressure_, facet_correction_;      // [n_interior - first_facet], p and p'
 };
 
 }  // namespace snag

@@ -38,7 +38,7 @@ struct DivergenceBounds {
 
 /// Volume through the faces of a cell, [n_all_cells], m3/s: net out of it, and the sum of the magnitudes relative to the mesh.
 struct CellFluxes {
-  std::vector<double> net, through;
+  std::span<double> net, through;
 };
 
 class DivergenceWatch {

@@ -48,9 +48,10 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
     : flow(mesh),
       settings_(settings),
       boundary_(mesh, std::move(boundary)),
-      squares_(mesh, boundary_.velocity_sides()),
-      momentum_(mesh, momentum_settings(settings)),
-      continuity_(mesh, boundary_, continuity_settings(settings)),
+      workspace_(mesh),
+      squares_(mesh, workspace_.moments, boundary_.velocity_sides()),
+      momentum_(mesh, momentum_settings(settings), workspace_),
+      continuity_(mesh, boundary_, continuity_settings(settings), workspace_),
       turbulence_(turbulence ? std::move(turbulence) : turbulence_models().make("laminar", "[turbulence]")),
       rotating_zone_(std::move(rotating_zone)),
       watch_(mesh, settings_) {
@@ -61,7 +62,7 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
   flow.body_force = settings.body_force;
   std::fill(flow.velocity.begin(), flow.velocity.end(), settings.initial_velocity);
   std::fill(flow.face_viscosity.begin(), flow.face_viscosity.end(), flow.dynamic_viscosity);
-  turbulence_->prepare(flow, boundary_);
+  turbulence_->prepare(flow, boundary_, workspace_);
 }
 
 StepReport FlowSolver::advance(double dt) {
@@ -73,7 +74,6 @@ StepReport FlowSolver::advance(double dt) {
   const int n_outer =
       flow.time_step_size > 0 ? settings_.n_outer_correctors : std::max(settings_.n_outer_correctors, first_step_correctors);
   for (int outer = 0; outer < n_outer; ++outer) correct_once(outer, outer + 1 == n_outer, time_, report);
-  continuity_.history.end_step(flow, momentum_.gradient_guess());
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
   measure(dt, report);
   report.seconds_rest = seconds() - begun - report.seconds_momentum - report.seconds_pressure - report.seconds_turbulence;
@@ -136,6 +136,7 @@ void FlowSolver::fields_follow_facets() {
   const Mesh& mesh = flow.mesh;
   resize_facets(mesh, flow.flux), resize_facets(mesh, flow.flux_old);
   resize_facets(mesh, flow.face_viscosity, flow.dynamic_viscosity);
+  workspace_.mesh_turned(mesh);
   continuity_.history.mesh_turned();
   squares_.update();
   momentum_.mesh_turned();
@@ -159,6 +160,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   continuity_.balance_reaction(flow);
   // Where the mesh slides its turn has found them.
   if (balances_ && !(rotating_zone_ && rotating_zone_->slides())) continuity_.find_facet_pressure(flow, boundary_);
+  turbulence_->begin_step(flow, time);
   const double share = momentum_.guess_from_history(flow, continuity_.history, time);
   momentum_.take_given_flux(flow, boundary_);
   // At small steps the divergence of the guess is small against 1/dt, and with extrapolated fluxes a closed guess feeds noise back: it
@@ -168,9 +170,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     continuity_.close(momentum_.guessed_flux(), flow, time);
     report.seconds_pressure += seconds() - guessed;
   }
-  continuity_.history.begin_step(momentum_.rates(), flow.mesh_flux, time);
-  std::swap(flow.velocity_gradient_old, flow.velocity_gradient);
-  turbulence_->begin_step(flow, time);
+  continuity_.history.begin_step(momentum_.convection_rate(), momentum_.diffusion_rate(), flow.mesh_flux, time);
 }
 
 void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, StepReport& report) {
@@ -187,13 +187,15 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
                  " sweeps, wanted " + scientific(settings_.momentum_tolerance) + "; take smaller steps");
   const double predicted = seconds();
   try {
-    did.continuity = continuity_.correct(flow, boundary_, time, momentum_.gradient_guess());
+    did.continuity = continuity_.correct(flow, boundary_, time, flow.velocity_gradient);
   } catch (const Error& error) {
     if (error.code == ExitCode::diverged) watch_.fail(flow, boundary_, time.dt, error.what());
     throw;
   }
   const double corrected = seconds();
+  // With the gradient that the equations had.
   if (is_last && balances_) balances_->close(momentum_, flow, boundary_, time, continuity_.facet_pressure());
+  if (is_last) continuity_.history.end_step(flow, flow.velocity_gradient);
   update_gradient();
   report.seconds_momentum += predicted - begun, report.seconds_pressure += corrected - predicted;
   correct_turbulence(outer, time, report);
@@ -222,8 +224,8 @@ void FlowSolver::update_gradient() {
 
 void FlowSolver::measure(double dt, StepReport& report) {
   const Mesh& mesh = flow.mesh;
-  const auto n = static_cast<std::size_t>(mesh.n_all_cells());
-  CellFluxes fluxes{std::vector<double>(n), std::vector<double>(n)};
+  const CellFluxes fluxes{workspace_.scalar[0], workspace_.scalar[1]};
+  for (const std::span<double> field : {fluxes.net, fluxes.through}) std::fill(field.begin(), field.end(), 0.0);
   double out = 0;
   for (int f = 0; f < mesh.n_faces; ++f) {
     const double relative = std::abs(flow.flux[f] - flow.mesh_flux[f]);

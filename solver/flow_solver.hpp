@@ -89,6 +89,7 @@ class FlowSolver {
 
   FlowSettings settings_;
   BoundarySet boundary_;
+  Workspace workspace_;
   LeastSquares squares_;
   Momentum momentum_;
   Continuity continuity_;

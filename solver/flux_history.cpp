@@ -5,19 +5,22 @@
 
 #include <algorithm>
 
+#include "base/room.hpp"
 #include "mesh/sliding/turning_mesh.hpp"
 #include "solver/fields/face.hpp"
 
 namespace snag {
 
-FluxHistory::FluxHistory(const Mesh& mesh) : deviation(mesh.n_faces), deviation_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces) {}
+FluxHistory::FluxHistory(const Mesh& mesh, Workspace& workspace)
+    : deviation(mesh.n_faces), deviation_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces), swept_(workspace.scalar[5]) {}
 
 void FluxHistory::mesh_turned() {
-  resize_facets(mesh_, deviation), resize_facets(mesh_, deviation_old), inherited_.resize(deviation.size());
+  resize_facets(mesh_, deviation), resize_facets(mesh_, deviation_old), resize_with_room(inherited_, deviation.size());
 }
 
-void FluxHistory::begin_step(const std::vector<double>& rate, const std::vector<double>& mesh_flux, const TimeScheme& time) {
-  swept_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), 0.0);
+void FluxHistory::begin_step(const std::vector<double>& convection, const std::vector<double>& diffusion,
+                             const std::vector<double>& mesh_flux, const TimeScheme& time) {
+  std::fill(swept_.begin(), swept_.end(), 0.0);
   if (mesh_.turning.zone >= 0) {
     for (int f = 0; f < mesh_.n_faces; ++f) {
       swept_[mesh_.owner[f]] += std::max(mesh_flux[f], 0.0);
@@ -25,7 +28,7 @@ void FluxHistory::begin_step(const std::vector<double>& rate, const std::vector<
     }
     mesh_.halo.exchange(swept_);
   }
-  const auto rate_of = [&](int c) { return (rate[2 * c] + rate[2 * c + 1] + swept_[c]) / mesh_.cell_volume[c]; };
+  const auto rate_of = [&](int c) { return (convection[c] + diffusion[c] + swept_[c]) / mesh_.cell_volume[c]; };
   for (int f = 0; f < mesh_.n_faces; ++f) {
     if (f == mesh_.first_facet) {  // facets inherit nothing
       std::fill(inherited_.begin() + f, inherited_.begin() + mesh_.n_interior, 0.0);

@@ -14,18 +14,21 @@
 
 #include "solver/fields/flow.hpp"
 #include "solver/fields/time_scheme.hpp"
+#include "solver/operators/workspace.hpp"
 
 namespace snag {
 
 class FluxHistory {
  public:
-  explicit FluxHistory(const Mesh& mesh);
+  /// Of the workspace it uses the scalar 5 at the begin of a step.
+  FluxHistory(const Mesh& mesh, Workspace& workspace);
 
   /// Again after the facets of the mesh have changed. Local.
   void mesh_turned();
-  /// What a step inherits, a0 times psi at its end without pressure; `rate` of convection and of diffusion times the volume, [2
-  /// n_all_cells], m3/s; `mesh_flux` of the faces, m3/s. Collective.
-  void begin_step(const std::vector<double>& rate, const std::vector<double>& mesh_flux, const TimeScheme& time);
+  /// What a step inherits, a0 times psi at its end without pressure; `convection`, `diffusion`: their rates times the volume,
+  /// [n_all_cells], m3/s; `mesh_flux` of the faces, m3/s. Collective.
+  void begin_step(const std::vector<double>& convection, const std::vector<double>& diffusion, const std::vector<double>& mesh_flux,
+                  const TimeScheme& time);
   /// Keep psi of the step just done. `gradient` of velocity: that which its flux was formed with, else psi would gather the difference step
   /// by step.
   void end_step(const Flow& flow, const std::vector<Mat3>& gradient);
@@ -36,7 +39,8 @@ class FluxHistory {
 
  private:
   const Mesh& mesh_;
-  std::vector<double> inherited_, swept_;  // swept_: by the faces of a cell, m3/s, [n_all_cells]
+  std::vector<double> inherited_;
+  std::vector<double>& swept_;  // by the faces of a cell, m3/s, [n_all_cells]
 };
 
 }  // namespace snag

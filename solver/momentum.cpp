@@ -25,6 +25,7 @@
 
 #include <algorithm>
 
+#include "base/room.hpp"
 #include "mesh/skewness.hpp"
 #include "parallel/sum.hpp"
 #include "solver/convection/convection.hpp"
@@ -53,28 +54,25 @@ TimeScheme bdf(double dt, double dt_old) {
   return {.dt = dt, .now = (1 + 2 * r) / (1 + r), .old = -(1 + r), .older = r * r / (1 + r), .ratio = r};
 }
 
-Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings)
+Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace& workspace)
     : mesh_(mesh),
       settings_(settings),
       scheme_(convection_schemes().make(settings.convection, "[flow] convection")),
       limiter_(limiters().make(settings.limiter, "[flow] limiter")),
-      matrix_(mesh),
-      diagonal_(mesh.n_all_cells()),
-      right_side_(mesh.n_all_cells()),
+      matrix_(workspace.matrix),
+      diagonal_(workspace.vector[0]),
+      right_side_(workspace.vector[1]),
+      convection_rate_(workspace.scalar[6]),
+      diffusion_rate_(workspace.scalar[7]),
       flux_(mesh.n_faces),
-      gradient_(mesh.n_all_cells()),
-      psi_(mesh.n_all_cells(), Vec3{1, 1, 1}),
-      rate_(2 * static_cast<std::size_t>(mesh.n_all_cells())) {
+      psi_(mesh.n_all_cells(), Vec3{1, 1, 1}) {
   std::vector<double> corner(static_cast<std::size_t>(mesh.n_all_cells()));
   for (const int c : corner_cells(mesh)) corner[c] = 1;
   mesh.halo.exchange(corner);
   in_corner_.assign(corner.begin(), corner.end());
 }
 
-void Momentum::mesh_turned() {
-  matrix_.update(mesh_);
-  flux_.resize(static_cast<std::size_t>(mesh_.n_faces));
-}
+void Momentum::mesh_turned() { resize_with_room(flux_, static_cast<std::size_t>(mesh_.n_faces)); }
 
 /// Fluxes with a share of their extrapolation. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are,
 /// so that the flux is that of the face as it lies now; facets have no psi.
@@ -107,30 +105,33 @@ double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, cons
     guess_flux(flow, history, r * share);
     set_rates(flow);
   }
-  mesh_.halo.exchange(rate_, 2);
+  mesh_.halo.exchange(convection_rate_), mesh_.halo.exchange(diffusion_rate_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) {
-    const double e =
-        r * extrapolation_share(time.dt * rate_[2 * c] / mesh_.cell_volume[c], time.dt * rate_[2 * c + 1] / mesh_.cell_volume[c]);
-    const Mat3 &G = flow.velocity_gradient[c], &G_old = flow.velocity_gradient_old[c];
-    for (int i = 0; i < 3; ++i) gradient_[c][i] = (1 + e) * G[i] - e * G_old[i];
+    const double dt_over_V = time.dt / mesh_.cell_volume[c];
+    const double e = r * extrapolation_share(dt_over_V * convection_rate_[c], dt_over_V * diffusion_rate_[c]);
+    const Mat3& G = flow.velocity_gradient[c];
+    Mat3& guess = flow.velocity_gradient_old[c];
+    for (int i = 0; i < 3; ++i) guess[i] = (1 + e) * G[i] - e * guess[i];
     flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
+  std::swap(flow.velocity_gradient, flow.velocity_gradient_old);
   limit(flow);
   return share;
 }
 
 /// Rates of the owned cells from flux_ and the viscosity.
 void Momentum::set_rates(const Flow& flow) {
-  std::fill(rate_.begin(), rate_.end(), 0.0);
+  auto &convection = convection_rate_, &diffusion = diffusion_rate_;
+  std::fill(convection.begin(), convection.end(), 0.0), std::fill(diffusion.begin(), diffusion.end(), 0.0);
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const double c = conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
-    rate_[2 * P] += std::max(flux_[f], 0.0), rate_[2 * P + 1] += c;
-    rate_[2 * N] += std::max(-flux_[f], 0.0), rate_[2 * N + 1] += c;
+    convection[P] += std::max(flux_[f], 0.0), diffusion[P] += c;
+    convection[N] += std::max(-flux_[f], 0.0), diffusion[N] += c;
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
-    rate_[2 * mesh_.owner[f]] += std::max(flux_[f], 0.0);
-    rate_[2 * mesh_.owner[f] + 1] += conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
+    convection[mesh_.owner[f]] += std::max(flux_[f], 0.0);
+    diffusion[mesh_.owner[f]] += conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
   }
 }
 
@@ -139,7 +140,7 @@ double Momentum::flux_share(const Flow& flow, const TimeScheme& time) const {
   double shear = 0;
   for (int c = 0; c < mesh_.n_cells; ++c) {
     const Mat3& G = flow.velocity_gradient[c];
-    const double rate = time.now / time.dt + (rate_[2 * c] + rate_[2 * c + 1]) / mesh_.cell_volume[c];
+    const double rate = time.now / time.dt + (convection_rate_[c] + diffusion_rate_[c]) / mesh_.cell_volume[c];
     shear = std::max(shear, std::sqrt(norm_squared(G[0]) + norm_squared(G[1]) + norm_squared(G[2])) / rate);
   }
   return std::clamp((shear_none - maximum(mesh_.comm, shear)) / (shear_none - shear_full), 0.0, 1.0);
@@ -147,7 +148,6 @@ double Momentum::flux_share(const Flow& flow, const TimeScheme& time) const {
 
 void Momentum::guess_from_last(const Flow& flow) {
   for (int f = 0; f < mesh_.n_faces; ++f) flux_[f] = flow.flux[f] - flow.mesh_flux[f];
-  gradient_ = flow.velocity_gradient;
   limit(flow);
 }
 
@@ -155,7 +155,7 @@ void Momentum::limit(const Flow& flow) {
   if (!scheme_->is_limited()) return;
   double speed2 = 0;
   for (int c = 0; c < mesh_.n_cells; ++c) speed2 = std::max(speed2, norm_squared(flow.velocity[c]));
-  limiter_->limit(mesh_, flow.velocity, gradient_, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
+  limiter_->limit(mesh_, flow.velocity, flow.velocity_gradient, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
@@ -168,7 +168,7 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
 }
 
 FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess) const {
-  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = gradient_, .psi = psi_, .in_corner = in_corner_};
+  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi_, .in_corner = in_corner_};
 }
 
 void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
@@ -213,7 +213,7 @@ struct Momentum::BoundaryFace {
     const Mesh& mesh = equation.mesh_;
     const int P = mesh.owner[f], b = f - mesh.n_interior;
     const Vec3 &S = mesh.face_vector[f], &d = mesh.delta[f];
-    const Mat3& G = equation.gradient_[P];
+    const Mat3& G = flow.velocity_gradient[P];
     const double F = flow.density * equation.flux_[f], mu = flow.face_viscosity[f];
     switch (boundary.velocity_side(patch)) {
       case Side::value: {

@@ -12,8 +12,8 @@
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
 #include "solver/flux_history.hpp"
-#include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
+#include "solver/operators/workspace.hpp"
 
 namespace snag {
 
@@ -31,14 +31,15 @@ struct MomentumSettings {
 
 class Momentum {
  public:
-  /// Throws Error(usage) for an unknown scheme or limiter.
-  Momentum(const Mesh& mesh, const MomentumSettings& settings);
+  /// Throws Error(usage) for an unknown scheme or limiter. Of the workspace it uses the matrix and the vectors in predict(), and from a
+  /// guess from the history to the begin of that step the scalars 6 and 7.
+  Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace& workspace);
 
   /// Again after the facets of the mesh have changed. Local.
   void mesh_turned();
-  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, gradients for the explicit terms.
-  /// `history`: how far fluxes were from their cells' velocities; used where faces turn. Returns the share of the flux's extrapolation, 0
-  /// at large steps. Collective.
+  /// First guesses of a step from its history: u and the convecting flux extrapolated in time, and in flow.velocity_gradient the gradients
+  /// for the explicit terms; that of the begin becomes the old one. `history`: how far fluxes were from their cells' velocities; used where
+  /// faces turn. Returns the share of the flux's extrapolation, 0 at large steps. Collective.
   double guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time);
   /// The convecting flux as it was guessed, relative to the mesh, [n_faces], m3/s.
   std::vector<double>& guessed_flux() { return flux_; }
@@ -46,20 +47,19 @@ class Momentum {
   void take_given_flux(const Flow& flow, const BoundarySet& boundary);
   /// First guesses from the last corrector (flow.velocity, flow.velocity_gradient, flow.flux).
   void guess_from_last(const Flow& flow);
-  /// Solve for u*, from flow.velocity as first guess into flow.velocity, ghosts too; fills flow.boundary_friction, boundary_convection.
-  /// Collective.
+  /// Solve for u*, from flow.velocity as first guess into flow.velocity, ghosts too, with the explicit terms of flow.velocity_gradient;
+  /// fills flow.boundary_friction, boundary_convection. Collective.
   SweepReport predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
 
   /// Momentum through the interior faces first, first + 1 ... as it stood in the equation: `guess` is the velocity before predict(),
-  /// `predicted` that behind it. Local.
+  /// `predicted` that behind it; flow.velocity_gradient still is what it was then. Local.
   void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
               std::span<MomentumFlux> flux) const;
   /// The convecting flux in force, relative to the mesh, [n_faces], m3/s.
   const std::vector<double>& convecting_flux() const { return flux_; }
-  /// Gradient of velocity for the explicit terms, [n_all_cells], 1/s.
-  const std::vector<Mat3>& gradient_guess() const { return gradient_; }
-  /// Rates of convection and of diffusion times the volume, [2 n_all_cells], m3/s.
-  const std::vector<double>& rates() const { return rate_; }
+  /// Rates of convection and of diffusion times the volume, [n_all_cells], m3/s, of the last guess from the history.
+  const std::vector<double>& convection_rate() const { return convection_rate_; }
+  const std::vector<double>& diffusion_rate() const { return diffusion_rate_; }
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
@@ -76,12 +76,11 @@ class Momentum {
   MomentumSettings settings_;
   std::shared_ptr<const ConvectionScheme> scheme_;
   std::shared_ptr<const Limiter> limiter_;
-  CellMatrix matrix_;
-  std::vector<Vec3> diagonal_, right_side_;  // [n_all_cells], the ghosts' parts are not used
-  std::vector<double> flux_;                 // F, relative to the mesh, [n_faces], m3/s
-  std::vector<Mat3> gradient_;
+  CellMatrix& matrix_;
+  std::vector<Vec3>&diagonal_, &right_side_;  // [n_all_cells], the ghosts' parts are not used
+  std::vector<double>&convection_rate_, &diffusion_rate_;
+  std::vector<double> flux_;             // F, relative to the mesh, [n_faces], m3/s
   std::vector<Vec3> psi_;                // limiter
-  std::vector<double> rate_;             // of convection and of diffusion, [2 n_all_cells], m3/s
   std::vector<std::uint8_t> in_corner_;  // [n_all_cells] 1 for cells in a corner
 };
 

@@ -24,7 +24,8 @@ double column_conductance(const Mesh& mesh, const std::vector<PatchBoundary>& co
   for (int f = patch.first; f < patch.end(); ++f) right_side[mesh.owner[f]] += coefficient[f];
   for (int c = 0; c < mesh.n_cells; ++c) square += right_side[c] * right_side[c];
 
-  Poisson poisson(mesh, Multigrid::boomeramg, false);
+  std::vector<double> residual(phi.size()), direction(phi.size()), product(phi.size());
+  Poisson poisson(mesh, Multigrid::boomeramg, false, {residual, direction, product});
   poisson.set_coefficients(coefficient);
   poisson.solve(right_side, phi, solved * std::sqrt(sum(mesh.comm, square)));
   std::vector<double> through;

@@ -46,7 +46,7 @@ class FaceScheme : public ConvectionScheme {
 
  private:
   /// Part of the flux that is known from the guess.
-  static MomentumFlux explicit_flux(const FaceInputs& faces, int f, double F, double c) {
+  [[gnu::always_inline]] static MomentumFlux explicit_flux(const FaceInputs& faces, int f, double F, double c) {
     const Flow& flow = faces.flow;
     const Mesh& mesh = flow.mesh;
     const int P = mesh.owner[f], N = mesh.neighbour[f];

@@ -36,7 +36,8 @@ struct Flow {
   // [n_all_cells], ghosts up to date after every step
   std::vector<Vec3> velocity, velocity_old, velocity_older;    // u at t, t - dt, t - 2 dt; m/s
   std::vector<double> pressure;                                // p, Pa (relative)
-  std::vector<Mat3> velocity_gradient, velocity_gradient_old;  // G_ij = du_i/dx_j, 1/s
+  std::vector<Mat3> velocity_gradient, velocity_gradient_old;  // G_ij = du_i/dx_j at t, t - dt; 1/s. Within a step, until the pressure is
+                                                               // corrected: that of the explicit terms, and that at the begin
   std::vector<Vec3> pressure_gradient;                         // Pa/m
   // [n_faces]
   std::vector<double> flux, flux_old;  // volume flux along S, m3/s

@@ -8,6 +8,7 @@
 // residual by the same measure, and take values that it left at zero or below back to positive ones, from those of the last sweep.
 #include "solver/operators/cell_matrix.hpp"
 #include "base/flat.hpp"
+#include "base/room.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,26 +17,73 @@
 
 namespace snag {
 
+namespace {
+constexpr int spare_facets = 6;  // of a row at a sliding interface
+}
+
+CellMatrix::CellMatrix(const Mesh& mesh) { build(mesh); }
+
 void CellMatrix::update(const Mesh& mesh) {
-  row_start.assign(static_cast<std::size_t>(mesh.n_cells) + 1, 0);
-  place_of_owner.resize(mesh.n_interior), place_of_neighbour.resize(mesh.n_interior);
-  for (int f = 0; f < mesh.n_interior; ++f)
-    for (const int c : {mesh.owner[f], mesh.neighbour[f]})
-      if (c < mesh.n_cells) ++row_start[c + 1];
-  for (int c = 0; c < mesh.n_cells; ++c) row_start[c + 1] += row_start[c];
-  const int n_entries = row_start[mesh.n_cells];
-  column.resize(n_entries);
-  value.resize(static_cast<std::size_t>(n_entries) + 1);
-  std::vector<int> next(row_start.begin(), row_start.end() - 1);
+  if (!place_facets(mesh)) build(mesh);
+}
+
+/// All rows, with room for the facets of now and some more.
+void CellMatrix::build(const Mesh& mesh) {
+  const auto count = [&](int first, int end, std::vector<int>& n) {
+    for (int f = first; f < end; ++f)
+      for (const int c : {mesh.owner[f], mesh.neighbour[f]})
+        if (c < mesh.n_cells) ++n[static_cast<std::size_t>(c)];
+  };
+  std::vector<int> next(static_cast<std::size_t>(mesh.n_cells)), n_facets(next.size());
+  count(0, mesh.first_facet, next), count(mesh.first_facet, mesh.n_interior, n_facets);
+  row_start.assign(1, 0), facet_rows_.clear();
+  row_start.reserve(next.size() + 1);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const int begin = row_start.back(), facets = begin + next[c];
+    if (n_facets[c] > 0) facet_rows_.push_back({c, facets});
+    const int length = next[c] + (n_facets[c] > 0 ? n_facets[c] + spare_facets : 0);
+    row_start.push_back(begin + (length + 1) / 2 * 2);
+    next[c] = begin;
+  }
+  column.assign(static_cast<std::size_t>(row_start.back()), 0);
+  for (int c = 0; c < mesh.n_cells; ++c) std::fill(&column[row_start[c]], &column[row_start[c + 1]], c);
+  value.assign(column.size() + 1, 0);
+  place_of_owner.resize(static_cast<std::size_t>(mesh.n_interior)), place_of_neighbour.resize(place_of_owner.size());
   const auto place = [&](int row, int col) {
-    if (row >= mesh.n_cells) return n_entries;
+    if (row >= mesh.n_cells) return row_start.back();
     column[next[row]] = col;
     return next[row]++;
   };
-  for (int f = 0; f < mesh.n_interior; ++f) {
+  for (int f = 0; f < mesh.first_facet; ++f) {
     place_of_owner[f] = place(mesh.owner[f], mesh.neighbour[f]);
     place_of_neighbour[f] = place(mesh.neighbour[f], mesh.owner[f]);
   }
+  place_facets(mesh);
+}
+
+/// Returns false where a row has no room for its facets.
+bool CellMatrix::place_facets(const Mesh& mesh) {
+  for (auto* place : {&place_of_owner, &place_of_neighbour}) resize_with_room(*place, static_cast<std::size_t>(mesh.n_interior));
+  std::vector<int> next(row_start.begin() + 1, row_start.end());  // rows that had no facets are full
+  for (const auto& [row, first] : facet_rows_) {
+    next[row] = first;
+    for (int e = first; e < row_start[row + 1]; ++e) column[e] = row, value[e] = 0;
+  }
+  bool fits = true;
+  const auto place_in = [&](int row, int col) {
+    if (row >= mesh.n_cells) return row_start.back();
+    if (next[row] == row_start[row + 1]) {
+      fits = false;
+      return row_start.back();
+    }
+    column[next[row]] = col;
+    return next[row]++;
+  };
+  for (int f = mesh.first_facet; f < mesh.n_interior; ++f) {
+    place_of_owner[f] = place_in(mesh.owner[f], mesh.neighbour[f]);
+    place_of_neighbour[f] = place_in(mesh.neighbour[f], mesh.owner[f]);
+  }
+  return fits;
 }
 
 namespace {
@@ -56,8 +104,7 @@ double sweep(int n_cells, const CellMatrix& matrix, const Value* diagonal, const
   double squares = 0;
   for (int row = 0; row < n_cells; ++row) {
     const int i = forward ? row : n_cells - 1 - row;
-    Value rest = b[i];
-    for (int k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k) rest -= matrix.value[k] * x[matrix.column[k]];
+    const Value rest = b[i] - matrix.product(i, x);
     squares += square(rest - times(diagonal[i], x[i]));
     x[i] = ratio(rest, diagonal[i]);
   }
@@ -117,20 +164,12 @@ class BiCgStab {
  private:
   void multiply(std::vector<Value>& x, std::vector<Value>& y) const {
     exchange(mesh_, x);
-    for (int i = 0; i < mesh_.n_cells; ++i) {
-      Value row = times(diagonal_[i], x[i]);
-      for (int k = matrix_.row_start[i]; k < matrix_.row_start[i + 1]; ++k) row += matrix_.value[k] * x[matrix_.column[k]];
-      y[i] = row;
-    }
+    for (int i = 0; i < mesh_.n_cells; ++i) y[i] = times(diagonal_[i], x[i]) + matrix_.product(i, x.data());
   }
   /// z of (D + L) D^-1 (D + U) z = r among the cells of this rank.
   void precondition(const std::vector<Value>& r, std::vector<Value>& z) const {
     std::fill(z.begin(), z.end(), Value{});
-    const auto relax = [&](int i) {
-      Value rest = r[i];
-      for (int k = matrix_.row_start[i]; k < matrix_.row_start[i + 1]; ++k) rest -= matrix_.value[k] * z[matrix_.column[k]];
-      z[i] = ratio(rest, diagonal_[i]);
-    };
+    const auto relax = [&](int i) { z[i] = ratio(r[i] - matrix_.product(i, z.data()), diagonal_[i]); };
     for (int i = 0; i < mesh_.n_cells; ++i) relax(i);
     for (int i = mesh_.n_cells - 1; i >= 0; --i) relax(i);
   }

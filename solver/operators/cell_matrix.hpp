@@ -8,14 +8,36 @@
 namespace snag {
 
 /// Off-diagonal entries in compressed rows. The diagonal is kept by each equation: one number a cell, or three where components differ.
-struct CellMatrix {
-  explicit CellMatrix(const Mesh& mesh) { update(mesh); }
+/// Rows have an even number of entries, so that those of tetrahedra inside and at walls are alike long, and those of cells at a sliding
+/// interface end with room for facets that come and go: what is not in use is zero, on the diagonal.
+class CellMatrix {
+ public:
+  explicit CellMatrix(const Mesh& mesh);
   /// Again after the facets of the mesh have changed; the values are lost. Local.
   void update(const Mesh& mesh);
+
+  /// sum_j a_ij x_j. Value: double or Vec3.
+  template <class Value>
+  [[gnu::always_inline]] Value product(int i, const Value* x) const {
+    Value even{}, odd{};
+    for (int k = row_start[i], end = row_start[i + 1]; k < end; k += 2) {
+      even += value[k] * x[column[k]];
+      odd += value[k + 1] * x[column[k + 1]];
+    }
+    return even + odd;
+  }
 
   std::vector<int> row_start, column;                   // [n_cells + 1], [n_entries]; columns are local cells, ghosts too
   std::vector<double> value;                            // [n_entries + 1]: the last takes what faces would add to rows of other ranks
   std::vector<int> place_of_owner, place_of_neighbour;  // [n_interior] entry (owner, neighbour) and (neighbour, owner)
+
+ private:
+  struct FacetRow {
+    int row, first_facet;  // cell, and where the entries of its facets begin
+  };
+  void build(const Mesh& mesh);
+  bool place_facets(const Mesh& mesh);
+  std::vector<FacetRow> facet_rows_;
 };
 
 struct SweepReport {

@@ -2,8 +2,10 @@
 #include "solver/operators/gradient.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "base/flat.hpp"
+#include "mesh/geometry.hpp"
 #include "parallel/sum.hpp"
 #include "solver/fields/face.hpp"
 
@@ -30,6 +32,15 @@ void exchange(const Mesh& mesh, std::vector<Gradient>& g) {
 
 inline Vec3 product(const Mat3& m, const Vec3& g) { return m * g; }
 inline Mat3 product(const Mat3& m, const Mat3& g) { return {m * g[0], m * g[1], m * g[2]}; }
+template <class Gradient>
+Gradient product(const SymmetricTensor& m, const Gradient& g) {
+  return product(Mat3{Vec3{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, g);
+}
+/// m += a v v
+inline void add_square(SymmetricTensor& m, const Vec3& v, double a) {
+  const Vec3 av = a * v;
+  m.xx += av.x * v.x, m.xy += av.x * v.y, m.xz += av.x * v.z, m.yy += av.y * v.y, m.yz += av.y * v.z, m.zz += av.z * v.z;
+}
 inline Vec3 scaled(double s, const Vec3& a) { return s * a; }
 inline Mat3 scaled(double s, const Mat3& a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline void add(Vec3& a, const Vec3& b) { a += b; }
@@ -37,21 +48,90 @@ inline void add(Mat3& a, const Mat3& b) { a[0] += b[0], a[1] += b[1], a[2] += b[
 
 }  // namespace
 
-LeastSquares::LeastSquares(const Mesh& mesh, std::vector<Side> sides)
-    : mesh_(mesh), sides_(std::move(sides)), skew_faces_(snag::skew_faces(mesh)) {
+CellMoments::CellMoments(const Mesh& mesh) : mesh_(mesh), inverse_(static_cast<std::size_t>(mesh.n_cells)) {
+  place_of_boundary_face_.reserve(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior));
+  for (int c = 0; c < mesh_.n_cells; ++c) {
+    const auto faces = row(mesh_.cell_face_start, mesh_.cell_face, c);
+    const auto on_boundary = [&](int f) { return f >= mesh_.n_interior; };
+    const auto is_facet = [&](int f) { return f >= mesh_.first_facet && f < mesh_.n_interior; };
+    int place = -1;
+    if (std::any_of(faces.begin(), faces.end(), on_boundary)) {
+      place = static_cast<int>(boundary_cells_.size());
+      boundary_cells_.push_back(c), boundary_moments_.emplace_back();
+    }
+    if (mesh_.cell_zone[c] == mesh_.turning.zone || std::any_of(faces.begin(), faces.end(), is_facet)) turning_.push_back({c, place});
+    set(c, place);
+  }
+  turning_.shrink_to_fit(), boundary_cells_.shrink_to_fit(), boundary_moments_.shrink_to_fit();
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f)
+    place_of_boundary_face_.push_back(
+        static_cast<int>(std::lower_bound(boundary_cells_.begin(), boundary_cells_.end(), mesh_.owner[f]) - boundary_cells_.begin()));
+}
+
+void CellMoments::update() {
+  std::erase_if(open_, [&](const OpenCell& open) {
+    const auto at = std::lower_bound(turning_.begin(), turning_.end(), open.cell,
+                                     [](const TurningCell& turning, int cell) { return turning.cell < cell; });
+    return at != turning_.end() && at->cell == open.cell;
+  });
+  for (const auto& [cell, place] : turning_) set(cell, place);
+}
+
+void CellMoments::set(int cell, int place) {
+  SymmetricTensor M;
+  for (const int f : row(mesh_.cell_face_start, mesh_.cell_face, cell)) {
+    if (f >= mesh_.n_interior) continue;
+    const Vec3& d = mesh_.delta[f];
+    add_square(M, d, share_of_face(mesh_, f, mesh_.owner[f] == cell) / norm_squared(d));
+  }
+  if (place < 0)
+    inverse_[cell] = inverse(M, cell, open_);
+  else
+    boundary_moments_[place] = M, inverse_[cell] = {.xx = 1, .xy = 0, .xz = 0, .yy = 1, .yz = 0, .zz = 1};
+}
+
+SymmetricTensor CellMoments::inverse(const SymmetricTensor& m, int cell, std::vector<OpenCell>& open) {
+  const double cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz, cxz = m.xy * m.yz - m.xz * m.yy;
+  const double det = m.xx * cxx + m.xy * cxy + m.xz * cxz, trace = m.xx + m.yy + m.zz;
+  if (4 * det > open_eigenvalue * trace * trace) {  // smallest eigenvalue >= det / (trace/2)^2
+    const double r = 1 / det;
+    return {r * cxx, r * cxy, r * cxz, r * (m.xx * m.zz - m.xz * m.xz), r * (m.xy * m.xz - m.xx * m.yz), r * (m.xx * m.yy - m.xy * m.xy)};
+  }
+  Eigen::Matrix3d M;
+  M << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(M);
+  Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), along_open = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d v = eigen.eigenvectors().col(k);
+    if (eigen.eigenvalues()(k) < open_eigenvalue)
+      along_open += v * v.transpose();
+    else
+      inverse += v * v.transpose() / eigen.eigenvalues()(k);
+  }
+  const auto line = [&](int i) { return Vec3{along_open(i, 0), along_open(i, 1), along_open(i, 2)}; };
+  if (along_open.trace() > 0.5) open.push_back({cell, {line(0), line(1), line(2)}});
+  return {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)};
+}
+
+LeastSquares::LeastSquares(const Mesh& mesh, const CellMoments& moments, std::vector<Side> sides)
+    : mesh_(mesh), sides_(std::move(sides)), moments_(moments), skew_faces_(snag::skew_faces(mesh)) {
   skew_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(skew_faces_.size())) > 0;
   update();
 }
 
 void LeastSquares::update() {
   aslant_faces_.clear();  // numbered behind the facets of a sliding interface, which change
-  for (std::size_t p = 0; p < sides_.size(); ++p) {
-    if (sides_[p] == Side::value) continue;
-    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
-      if (is_aslant(mesh_, f)) aslant_faces_.push_back(f);
-  }
-  sum_moments();
-  invert_moments();
+  boundary_inverse_ = moments_.boundary_moments();
+  for (std::size_t p = 0; p < sides_.size(); ++p)
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      if (sides_[p] != Side::value && is_aslant(mesh_, f)) aslant_faces_.push_back(f);
+      if (sides_[p] == Side::none) continue;
+      const Vec3& way = sides_[p] == Side::value ? mesh_.delta[f] : mesh_.face_vector[f];
+      add_square(boundary_inverse_[moments_.place_of_boundary_face()[f - mesh_.n_interior]], way, 1 / norm_squared(way));
+    }
+  open_ = moments_.open();
+  for (std::size_t i = 0; i < boundary_inverse_.size(); ++i)
+    boundary_inverse_[i] = CellMoments::inverse(boundary_inverse_[i], moments_.boundary_cells()[i], open_);
   open_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(open_.size())) > 0;
 }
 
@@ -60,55 +140,6 @@ template <class Act>
 void LeastSquares::for_each_difference(const Act& act) const {
   for (int f = 0; f < mesh_.first_facet; ++f) act(f, 1.0, 1.0);
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) act(f, share_of_face(mesh_, f, true), share_of_face(mesh_, f, false));
-}
-
-void LeastSquares::sum_moments() {
-  inverse_.assign(static_cast<std::size_t>(mesh_.n_all_cells()), {});
-  const auto add_direction = [&](int c, const Vec3& e, double share = 1) {
-    Symmetric& m = inverse_[c];
-    const Vec3 se = share * e;
-    m.xx += se.x * e.x, m.xy += se.x * e.y, m.xz += se.x * e.z, m.yy += se.y * e.y, m.yz += se.y * e.z, m.zz += se.z * e.z;
-  };
-  for_each_difference([&](int f, double owner_share, double neighbour_share) {
-    const Vec3 e = unit(mesh_.delta[f]);
-    add_direction(mesh_.owner[f], e, owner_share);
-    add_direction(mesh_.neighbour[f], e, neighbour_share);
-  });
-  for (std::size_t p = 0; p < sides_.size(); ++p) {
-    if (sides_[p] == Side::none) continue;
-    const Patch& patch = mesh_.patches[p];
-    for (int f = patch.first; f < patch.end(); ++f)
-      add_direction(mesh_.owner[f], unit(sides_[p] == Side::value ? mesh_.delta[f] : mesh_.face_vector[f]));
-  }
-}
-
-void LeastSquares::invert_moments() {
-  open_.clear();
-  for (int c = 0; c < mesh_.n_cells; ++c) {
-    Symmetric& m = inverse_[c];
-    const double cxx = m.yy * m.zz - m.yz * m.yz, cxy = m.xz * m.yz - m.xy * m.zz, cxz = m.xy * m.yz - m.xz * m.yy;
-    const double det = m.xx * cxx + m.xy * cxy + m.xz * cxz, trace = m.xx + m.yy + m.zz;
-    if (4 * det > open_eigenvalue * trace * trace) {  // smallest eigenvalue >= det / (trace/2)^2
-      const double r = 1 / det;
-      m = {r * cxx, r * cxy, r * cxz, r * (m.xx * m.zz - m.xz * m.xz), r * (m.xy * m.xz - m.xx * m.yz), r * (m.xx * m.yy - m.xy * m.xy)};
-      continue;
-    }
-    Eigen::Matrix3d M;
-    M << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(M);
-    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero(), open = Eigen::Matrix3d::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d v = eigen.eigenvectors().col(k);
-      if (eigen.eigenvalues()(k) < open_eigenvalue)
-        open += v * v.transpose();
-      else
-        inverse += v * v.transpose() / eigen.eigenvalues()(k);
-    }
-    m = {inverse(0, 0), inverse(0, 1), inverse(0, 2), inverse(1, 1), inverse(1, 2), inverse(2, 2)};
-    if (open.trace() > 0.5)
-      open_.push_back(
-          {c, {Vec3{open(0, 0), open(0, 1), open(0, 2)}, {open(1, 0), open(1, 1), open(1, 2)}, {open(2, 0), open(2, 1), open(2, 2)}}});
-  }
 }
 
 template <class Value, class Gradient>
@@ -143,9 +174,10 @@ void LeastSquares::finish(std::span<const Value> phi, std::span<const Value> bou
       }
     }
   }
-  for (int c = 0; c < mesh_.n_cells; ++c) {
-    const Symmetric& m = inverse_[c];
-    g[c] = product(Mat3{Vec3{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}, g[c]);
+  for (int c = 0; c < mesh_.n_cells; ++c) g[c] = product(moments_.inverse()[c], g[c]);
+  for (std::size_t i = 0; i < boundary_inverse_.size(); ++i) {
+    const int c = moments_.boundary_cells()[i];
+    g[c] = product(boundary_inverse_[i], g[c]);
   }
   exchange(mesh_, g);
   if (open_anywhere_) fill_open(g);
@@ -154,7 +186,7 @@ void LeastSquares::finish(std::span<const Value> phi, std::span<const Value> bou
 template <class Gradient>
 void LeastSquares::fill_open(std::vector<Gradient>& g) const {
   std::vector<Gradient> filled;
-  for (const OpenCell& cell : open_) {
+  for (const CellMoments::OpenCell& cell : open_) {
     Gradient mean{};
     double weight = 0;
     for (int k = mesh_.cell_face_start[cell.cell]; k < mesh_.cell_face_start[cell.cell + 1]; ++k) {

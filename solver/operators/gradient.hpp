@@ -28,11 +28,52 @@ enum class Side {
   none     // nothing: the face does not enter
 };
 
+/// xx, xy, ... of a symmetric tensor.
+struct SymmetricTensor {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+};
+
+/// What least squares on a mesh have in common whatever is known at its boundary: M of the interior faces.
+class CellMoments {
+ public:
+  explicit CellMoments(const Mesh& mesh);
+  /// Again after the mesh has turned. Local.
+  void update();
+
+  struct OpenCell {
+    int cell;
+    Mat3 open;  // projection onto the directions that the faces leave open
+  };
+  /// M^-1, or its pseudo-inverse if a direction is open, which then is appended to `open`.
+  static SymmetricTensor inverse(const SymmetricTensor& M, int cell, std::vector<OpenCell>& open);
+
+  /// M^-1 of cells inside, the unit tensor of those with a boundary face; [n_cells].
+  const std::vector<SymmetricTensor>& inverse() const { return inverse_; }
+  const std::vector<OpenCell>& open() const { return open_; }
+  /// Owned cells with a boundary face, ascending; M of the interior faces of each; and the place in this list of the cell of each boundary
+  /// face, [n_faces - n_interior].
+  const std::vector<int>& boundary_cells() const { return boundary_cells_; }
+  const std::vector<SymmetricTensor>& boundary_moments() const { return boundary_moments_; }
+  const std::vector<int>& place_of_boundary_face() const { return place_of_boundary_face_; }
+
+ private:
+  struct TurningCell {
+    int cell, place;  // place in boundary_cells_, -1 for a cell inside
+  };
+  void set(int cell, int place);
+
+  const Mesh& mesh_;
+  std::vector<TurningCell> turning_;  // owned cells whose M changes with the angle, ascending
+  std::vector<int> boundary_cells_, place_of_boundary_face_;
+  std::vector<SymmetricTensor> inverse_, boundary_moments_;
+  std::vector<OpenCell> open_;
+};
+
 class LeastSquares {
  public:
-  /// `sides`: one for each patch. Collective.
-  LeastSquares(const Mesh& mesh, std::vector<Side> sides);
-  /// Again after the mesh has moved. Collective.
+  /// `sides`: one for each patch. The moments stay with the caller. Collective.
+  LeastSquares(const Mesh& mesh, const CellMoments& moments, std::vector<Side> sides);
+  /// Again after the mesh has moved, and the moments. Collective.
   void update();
 
   /// Gradient of a scalar by its values at the faces, w phi_P + (1 - w) phi_N with the weights of a piecewise linear phi that is steep in
@@ -54,17 +95,8 @@ class LeastSquares {
   const std::vector<int>& aslant_faces() const { return aslant_faces_; }
 
  private:
-  struct Symmetric {
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  };
-  struct OpenCell {
-    int cell;
-    Mat3 open;  // projection onto the directions that the faces leave open
-  };
   template <class Act>
   void for_each_difference(const Act& act) const;
-  void sum_moments();
-  void invert_moments();
   template <class Value, class Gradient>
   void add_interior(std::span<const Value> phi, std::vector<Gradient>& g) const;
   template <class Value, class Gradient>
@@ -74,8 +106,9 @@ class LeastSquares {
 
   const Mesh& mesh_;
   std::vector<Side> sides_;
-  std::vector<Symmetric> inverse_;  // [n_cells] M^-1, pseudo-inverse for open cells
-  std::vector<OpenCell> open_;
+  const CellMoments& moments_;
+  std::vector<SymmetricTensor> boundary_inverse_;  // M^-1 of the boundary cells, pseudo-inverse for open cells
+  std::vector<CellMoments::OpenCell> open_;
   std::vector<int> skew_faces_, aslant_faces_;
   bool open_anywhere_ = false, skew_anywhere_ = false;
 };

@@ -2,12 +2,14 @@
 // Iterations are measured per decade of the residual, so that solves with different tolerances can be compared.
 #include "solver/operators/poisson.hpp"
 
-#include <petscksp.h>
+#include <petscpc.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -21,6 +23,7 @@ namespace {
 constexpr double rebuild_ratio = 1.8;  // of iterations a decade: a set-up costs as much as some twenty iterations
 constexpr double few_iterations = 3;   // by which short solves differ anyway
 constexpr int max_iterations = 500;
+constexpr double round_off = 1e-15;  // of the first residual: the recursion goes on below it, the residual of x does not
 
 // Measured on tetrahedra: the hierarchy with which conjugate gradients are three to five times faster than with BoomerAMG's defaults.
 const char* const boomeramg_options =
@@ -32,33 +35,82 @@ const char* const gamg_options =
 
 }  // namespace
 
-struct Poisson::Petsc {
-  Mat matrix = nullptr, preconditioner = nullptr;  // applied face by face; assembled
-  Vec b = nullptr, x = nullptr;
-  KSP solver = nullptr;
-  std::unique_ptr<VCycle> cycle;
-  Petsc() = default;
-  Petsc(const Petsc&) = delete;
-  Petsc& operator=(const Petsc&) = delete;
-  ~Petsc() {
-    PetscBool finalized = PETSC_FALSE;
-    PetscFinalized(&finalized);
-    if (finalized) return;
-    KSPDestroy(&solver), VecDestroy(&x), VecDestroy(&b), MatDestroy(&preconditioner), MatDestroy(&matrix);
+/// z = M^-1 r.
+class Poisson::Preconditioner {
+ public:
+  virtual ~Preconditioner() = default;
+  /// Finds z for r [n_cells] of this mean and rms value over all ranks; returns sums over this rank: of z, and of r z. Collective.
+  virtual std::array<double, 2> apply(std::span<const double> r, double mean, double rms) = 0;
+  /// p = z - mean + beta p. Local.
+  virtual void turn(double mean, double beta, std::span<double> p) const = 0;
+};
+
+class Poisson::OwnCycle final : public Preconditioner {
+ public:
+  OwnCycle(Mat matrix, PC hierarchy, bool singular) : cycle_(matrix, hierarchy, singular) {}
+  std::array<double, 2> apply(std::span<const double> r, double mean, double rms) override {
+    cycle_.apply(r, mean, rms), rms_ = rms;
+    const std::span<const float> z = cycle_.solution();
+    std::array<double, 2> sums{};
+    for (std::size_t c = 0; c < z.size(); ++c) sums[0] += z[c], sums[1] += r[c] * z[c];
+    return {rms * sums[0], rms * sums[1]};
+  }
+  void turn(double mean, double beta, std::span<double> p) const override {
+    const std::span<const float> z = cycle_.solution();
+    for (std::size_t c = 0; c < z.size(); ++c) p[c] = rms_ * z[c] - mean + beta * p[c];
   }
 
-  static PetscErrorCode precondition(PC pc, Vec r, Vec z) {
-    void* self = nullptr;
-    const PetscScalar* from = nullptr;
-    PetscScalar* to = nullptr;
-    PetscCall(PCShellGetContext(pc, &self));
-    PetscCall(VecGetArrayRead(r, &from));
-    PetscCall(VecGetArrayWrite(z, &to));
-    static_cast<Petsc*>(self)->cycle->apply(from, to);
-    PetscCall(VecRestoreArrayWrite(z, &to));
-    PetscCall(VecRestoreArrayRead(r, &from));
-    return 0;
+ private:
+  VCycle cycle_;
+  double rms_ = 1;
+};
+
+class Poisson::Gamg final : public Preconditioner {
+ public:
+  Gamg(MPI_Comm comm, Mat matrix) {
+    check_petsc(PCCreate(comm, &cycle_), "PCCreate");
+    check_petsc(PCSetOptionsPrefix(cycle_, "snag_pressure_"), "PCSetOptionsPrefix");
+    check_petsc(PCSetFromOptions(cycle_), "PCSetFromOptions");
+    check_petsc(PCSetOperators(cycle_, matrix, matrix), "PCSetOperators");
+    check_petsc(PCSetUp(cycle_), "PCSetUp");
+    check_petsc(MatCreateVecs(matrix, &z_, &r_), "MatCreateVecs");
   }
+  Gamg(const Gamg&) = delete;
+  Gamg& operator=(const Gamg&) = delete;
+  ~Gamg() override {
+    PetscBool finalized = PETSC_FALSE;
+    PetscFinalized(&finalized);
+    if (!finalized) PCDestroy(&cycle_), VecDestroy(&r_), VecDestroy(&z_);
+  }
+  std::array<double, 2> apply(std::span<const double> r, double, double) override {
+    check_petsc(VecPlaceArray(r_, r.data()), "VecPlaceArray");
+    const auto error = PCApply(cycle_, r_, z_);
+    check_petsc(VecResetArray(r_), "VecResetArray");
+    check_petsc(error, "PCApply");
+    std::array<double, 2> sums{};
+    read([&](const double* z) {
+      for (std::size_t c = 0; c < r.size(); ++c) sums[0] += z[c], sums[1] += r[c] * z[c];
+    });
+    return sums;
+  }
+  void turn(double mean, double beta, std::span<double> p) const override {
+    PetscInt n = 0;
+    check_petsc(VecGetLocalSize(z_, &n), "VecGetLocalSize");
+    read([&](const double* z) {
+      for (PetscInt c = 0; c < n; ++c) p[c] = z[c] - mean + beta * p[c];
+    });
+  }
+
+ private:
+  template <class Act>
+  void read(const Act& act) const {
+    const PetscScalar* z = nullptr;
+    check_petsc(VecGetArrayRead(z_, &z), "VecGetArrayRead");
+    act(z);
+    check_petsc(VecRestoreArrayRead(z_, &z), "VecRestoreArrayRead");
+  }
+  PC cycle_ = nullptr;
+  Vec r_ = nullptr, z_ = nullptr;
 };
 
 namespace {
@@ -86,81 +138,38 @@ void declare(Mat matrix, MPI_Comm comm, bool singular) {
 
 }  // namespace
 
-Poisson::Poisson(const Mesh& mesh, Multigrid multigrid, bool singular)
-    : mesh_(mesh),
-      multigrid_(multigrid),
-      singular_(singular),
-      coefficient_(mesh.n_faces),
-      x_all_(mesh.n_all_cells()),
-      y_all_(mesh.n_all_cells()),
-      petsc_(std::make_unique<Petsc>()) {
-  Petsc& p = *petsc_;
-  const PetscInt n = mesh.n_cells;
-  check_petsc(MatCreateShell(mesh.comm, n, n, PETSC_DETERMINE, PETSC_DETERMINE, this, &p.matrix), "MatCreateShell");
-  const auto multiply = [](Mat matrix, Vec x, Vec y) -> PetscErrorCode {
-    void* self = nullptr;
-    const PetscScalar* from = nullptr;
-    PetscScalar* to = nullptr;
-    PetscCall(MatShellGetContext(matrix, &self));
-    PetscCall(VecGetArrayRead(x, &from));
-    PetscCall(VecGetArrayWrite(y, &to));
-    static_cast<Poisson*>(self)->apply(from, to);
-    PetscCall(VecRestoreArrayWrite(y, &to));
-    PetscCall(VecRestoreArrayRead(x, &from));
-    return 0;
-  };
-  check_petsc(MatShellSetOperation(p.matrix, MATOP_MULT, reinterpret_cast<void (*)()>(+multiply)), "MatShellSetOperation");
-  declare(p.matrix, mesh.comm, singular);
-  check_petsc(VecCreateMPIWithArray(mesh.comm, 1, n, PETSC_DETERMINE, nullptr, &p.b), "VecCreateMPIWithArray");
-  check_petsc(VecCreateMPIWithArray(mesh.comm, 1, n, PETSC_DETERMINE, nullptr, &p.x), "VecCreateMPIWithArray");
+Poisson::Poisson(const Mesh& mesh, Multigrid multigrid, bool singular, const Arrays& arrays)
+    : mesh_(mesh), multigrid_(multigrid), singular_(singular), residual_(arrays.residual), p_(arrays.direction), Ap_(arrays.product) {
   check_petsc(PetscOptionsInsertString(nullptr, multigrid == Multigrid::gamg ? gamg_options : boomeramg_options),
               "PetscOptionsInsertString");
-  check_petsc(KSPCreate(mesh.comm, &p.solver), "KSPCreate");
-  check_petsc(KSPSetOptionsPrefix(p.solver, "snag_pressure_"), "KSPSetOptionsPrefix");
-  check_petsc(KSPSetType(p.solver, KSPCG), "KSPSetType");
-  check_petsc(KSPSetNormType(p.solver, KSP_NORM_UNPRECONDITIONED), "KSPSetNormType");
-  check_petsc(KSPSetInitialGuessNonzero(p.solver, PETSC_TRUE), "KSPSetInitialGuessNonzero");
-  check_petsc(KSPSetResidualHistory(p.solver, nullptr, max_iterations + 1, PETSC_TRUE), "KSPSetResidualHistory");
-  if (multigrid == Multigrid::boomeramg) {
-    PC cycle = nullptr;
-    check_petsc(KSPGetPC(p.solver, &cycle), "KSPGetPC");
-    check_petsc(PCSetType(cycle, PCSHELL), "PCSetType");
-    check_petsc(PCShellSetContext(cycle, &p), "PCShellSetContext");
-    check_petsc(PCShellSetApply(cycle, &Petsc::precondition), "PCShellSetApply");
-  }
-  check_petsc(KSPSetFromOptions(p.solver), "KSPSetFromOptions");
 }
 
 Poisson::~Poisson() = default;
 
-void Poisson::set_coefficients(std::span<const double> k) { coefficient_.assign(k.begin(), k.end()); }
-
-void Poisson::apply(const double* x, double* y) {
-  std::copy(x, x + mesh_.n_cells, x_all_.begin());
-  mesh_.halo.exchange(x_all_);
-  std::fill(y_all_.begin(), y_all_.end(), 0.0);
+/// A x into Ap_, of x [n_all_cells] whose ghosts are up to date.
+void Poisson::apply(std::span<const double> x) {
+  std::fill(Ap_.begin(), Ap_.end(), 0.0);
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double flux = coefficient_[f] * (x_all_[P] - x_all_[N]);
-    y_all_[P] += flux;
-    y_all_[N] -= flux;
+    const double flux = coefficient_[f] * (x[P] - x[N]);
+    Ap_[P] += flux;
+    Ap_[N] -= flux;
   }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) y_all_[mesh_.owner[f]] += coefficient_[f] * x_all_[mesh_.owner[f]];
-  std::copy(y_all_.begin(), y_all_.begin() + mesh_.n_cells, y);
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) Ap_[mesh_.owner[f]] += coefficient_[f] * x[mesh_.owner[f]];
 }
 
-/// A new matrix each time: its pattern follows the facets. Row by row: the sorting of coordinate lists took a twentieth of a pump's step.
-void Poisson::set_up_preconditioner() {
-  Petsc& p = *petsc_;
+/// The matrix as it stands, for the preconditioner; the caller destroys it. Row by row: the sorting of coordinate lists took a twentieth of
+/// a pump's step.
+Mat Poisson::assembled() const {
   const PetscInt n = mesh_.n_cells;
-  const auto& k = coefficient_;
   CellMatrix rows(mesh_);
   std::vector<double> diagonal(mesh_.n_all_cells());
   for (int f = 0; f < mesh_.n_interior; ++f) {
-    rows.value[rows.place_of_owner[f]] = rows.value[rows.place_of_neighbour[f]] = -k[f];
-    diagonal[mesh_.owner[f]] += k[f], diagonal[mesh_.neighbour[f]] += k[f];
+    const double k = coefficient_[f];
+    rows.value[rows.place_of_owner[f]] = rows.value[rows.place_of_neighbour[f]] = -k;
+    diagonal[mesh_.owner[f]] += k, diagonal[mesh_.neighbour[f]] += k;
   }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) diagonal[mesh_.owner[f]] += k[f];
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) diagonal[mesh_.owner[f]] += coefficient_[f];
 
   const auto number = global_numbers(mesh_);
   std::vector<PetscInt> column(rows.column.size()), n_own(n, 1), n_other(n, 0);
@@ -170,36 +179,41 @@ void Poisson::set_up_preconditioner() {
       ++(rows.column[e] < n ? n_own : n_other)[c];
     }
   }
-  check_petsc(MatDestroy(&p.preconditioner), "MatDestroy");
-  check_petsc(MatCreate(mesh_.comm, &p.preconditioner), "MatCreate");
-  check_petsc(MatSetSizes(p.preconditioner, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
-  check_petsc(MatSetType(p.preconditioner, MATAIJ), "MatSetType");
-  check_petsc(MatXAIJSetPreallocation(p.preconditioner, 1, n_own.data(), n_other.data(), nullptr, nullptr), "MatXAIJSetPreallocation");
+  Mat matrix = nullptr;
+  check_petsc(MatCreate(mesh_.comm, &matrix), "MatCreate");
+  check_petsc(MatSetSizes(matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  check_petsc(MatSetType(matrix, MATAIJ), "MatSetType");
+  check_petsc(MatXAIJSetPreallocation(matrix, 1, n_own.data(), n_other.data(), nullptr, nullptr), "MatXAIJSetPreallocation");
   for (PetscInt c = 0; c < n; ++c) {
     const int begin = rows.row_start[c];
     // Added: two cells may meet in several facets.
-    check_petsc(
-        MatSetValues(p.preconditioner, 1, &number[c], rows.row_start[c + 1] - begin, &column[begin], &rows.value[begin], ADD_VALUES),
-        "MatSetValues");
-    check_petsc(MatSetValue(p.preconditioner, number[c], number[c], diagonal[c], ADD_VALUES), "MatSetValue");
+    check_petsc(MatSetValues(matrix, 1, &number[c], rows.row_start[c + 1] - begin, &column[begin], &rows.value[begin], ADD_VALUES),
+                "MatSetValues");
+    check_petsc(MatSetValue(matrix, number[c], number[c], diagonal[c], ADD_VALUES), "MatSetValue");
   }
-  check_petsc(MatAssemblyBegin(p.preconditioner, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
-  check_petsc(MatAssemblyEnd(p.preconditioner, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
-  declare(p.preconditioner, mesh_.comm, singular_);
+  check_petsc(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  check_petsc(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  declare(matrix, mesh_.comm, singular_);
+  return matrix;
+}
+
+void Poisson::set_up_preconditioner() {
+  preconditioner_.reset();
+  Mat matrix = assembled();
   if (multigrid_ == Multigrid::boomeramg) {
     PC hierarchy = nullptr;
     check_petsc(PCCreate(mesh_.comm, &hierarchy), "PCCreate");
     check_petsc(PCSetOptionsPrefix(hierarchy, "snag_hierarchy_"), "PCSetOptionsPrefix");
     check_petsc(PCSetFromOptions(hierarchy), "PCSetFromOptions");
-    check_petsc(PCSetOperators(hierarchy, p.preconditioner, p.preconditioner), "PCSetOperators");
+    check_petsc(PCSetOperators(hierarchy, matrix, matrix), "PCSetOperators");
     check_petsc(PCSetUp(hierarchy), "PCSetUp");
-    p.cycle = std::make_unique<VCycle>(p.preconditioner, hierarchy, singular_);
+    preconditioner_ = std::make_unique<OwnCycle>(matrix, hierarchy, singular_);
     check_petsc(PCDestroy(&hierarchy), "PCDestroy");
+  } else {
+    preconditioner_ = std::make_unique<Gamg>(mesh_.comm, matrix);
   }
-  check_petsc(KSPSetReusePreconditioner(p.solver, PETSC_FALSE), "KSPSetReusePreconditioner");
-  check_petsc(KSPSetOperators(p.solver, p.matrix, p.preconditioner), "KSPSetOperators");
-  check_petsc(KSPSetUp(p.solver), "KSPSetUp");
-  check_petsc(KSPSetReusePreconditioner(p.solver, PETSC_TRUE), "KSPSetReusePreconditioner");
+  check_petsc(MatDestroy(&matrix), "MatDestroy");
+  return_free_memory();  // several times what the cycle keeps
 }
 
 void Poisson::restore(double fresh_cost, bool rebuild_due) {
@@ -207,62 +221,84 @@ void Poisson::restore(double fresh_cost, bool rebuild_due) {
   fresh_cost_ = fresh_cost, rebuild_ = rebuild_due;
 }
 
-/// Shifts x by the constant that makes the sum of all residuals zero. A common level of x is felt by the few fixed faces only: its residual
-/// is small however wrong it is.
-void Poisson::fix_level(std::span<const double> b, std::span<double> x) const {
-  std::array<double, 2> local{0, 0};
-  for (int c = 0; c < mesh_.n_cells; ++c) local[0] += b[c];
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
-    local[0] -= coefficient_[f] * x[mesh_.owner[f]];
-    local[1] += coefficient_[f];
-  }
-  std::array<double, 2> all{};
-  MPI_Allreduce(local.data(), all.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-  const double shift = all[0] / all[1];
+/// Shifts x by the constant that makes the sum of all residuals zero; the residual follows. A common level of x is felt by the few fixed
+/// faces only: its residual is small however wrong it is.
+void Poisson::fix_level(std::span<double> x) {
+  std::array<double, 2> sums{};
+  for (int c = 0; c < mesh_.n_cells; ++c) sums[0] += residual_[c];
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) sums[1] += coefficient_[f];
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+  const double shift = sums[0] / sums[1];
   for (double& value : x) value += shift;
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) residual_[mesh_.owner[f]] -= coefficient_[f] * shift;
 }
 
 void Poisson::remove_mean(std::span<double> x) const {
   double local = 0;
-  for (const double value : x) local += value;
+  for (int c = 0; c < mesh_.n_cells; ++c) local += x[c];
   const double mean = sum(mesh_.comm, local) / static_cast<double>(mesh_.n_cells_global);
   for (double& value : x) value -= mean;
 }
 
-/// Conjugate gradients from the given x; returns PETSc's word for what stopped them early, null if nothing did.
-const char* Poisson::iterate(std::span<const double> b, std::span<double> x, double target, PoissonReport& report) {
-  Petsc& p = *petsc_;
-  // An absolute target; the relative one is out of reach. The divergence test is left to the number of iterations.
-  check_petsc(KSPSetTolerances(p.solver, 1e-50, target, 1e30, max_iterations), "KSPSetTolerances");
-  if (!singular_) fix_level(b, x);
-  check_petsc(VecPlaceArray(p.b, b.data()), "VecPlaceArray");
-  check_petsc(VecPlaceArray(p.x, x.data()), "VecPlaceArray");
-  const auto error = KSPSolve(p.solver, p.b, p.x);
-  check_petsc(VecResetArray(p.b), "VecResetArray");
-  check_petsc(VecResetArray(p.x), "VecResetArray");
-  check_petsc(error, "KSPSolve");
+/// Conjugate gradients from the given x; returns what stopped them early, null if nothing did. Ghosts of x are up to date in front and
+/// behind.
+const char* Poisson::iterate(std::span<const double> b, std::vector<double>& x, double target, PoissonReport& report) {
+  const auto n = static_cast<double>(mesh_.n_cells_global);
+  const std::span<const double> owned{residual_.data(), static_cast<std::size_t>(mesh_.n_cells)};
+  apply(x);
+  for (int c = 0; c < mesh_.n_cells; ++c) residual_[c] = b[c] - Ap_[c];
+  if (!singular_) fix_level(x);
+  std::array<double, 2> of_residual{};  // sums of r and of r^2
+  for (int c = 0; c < mesh_.n_cells; ++c) of_residual[0] += residual_[c], of_residual[1] += residual_[c] * residual_[c];
+  std::fill(p_.begin(), p_.end(), 0.0);
+  double rho = 0;
+  for (int iteration = 0;; ++iteration) {
+    MPI_Allreduce(MPI_IN_PLACE, of_residual.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    report.final = std::sqrt(of_residual[1]);
+    if (report.iterations == 0) report.initial = report.final;
+    if (!std::isfinite(report.final)) return "the residual is not a number";
+    if (iteration == 0) target = std::max(target, round_off * report.final);
+    if (report.final <= target) break;
+    if (iteration == max_iterations) return "too slow";
 
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  PetscInt iterations = 0, n_history = 0;
-  const PetscReal* history = nullptr;
-  KSPGetConvergedReason(p.solver, &reason);
-  KSPGetIterationNumber(p.solver, &iterations);
-  KSPGetResidualNorm(p.solver, &report.final);
-  KSPGetResidualHistory(p.solver, &history, &n_history);
-  if (report.iterations == 0) report.initial = n_history > 0 ? history[0] : report.final;
-  report.iterations += static_cast<int>(iterations);
-  return reason < 0 ? KSPConvergedReasons[reason] : nullptr;
+    auto of_answer = preconditioner_->apply(owned, of_residual[0] / n, report.final / std::sqrt(n));  // sums of z and of r z
+    MPI_Allreduce(MPI_IN_PLACE, of_answer.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    if (!(of_answer[1] > 0)) return "the preconditioner is not positive";
+    preconditioner_->turn(singular_ ? of_answer[0] / n : 0, iteration > 0 ? of_answer[1] / rho : 0, p_);
+    rho = of_answer[1];
+
+    mesh_.halo.exchange(p_);
+    apply(p_);
+    double curvature = 0;  // p.A p
+    for (int c = 0; c < mesh_.n_cells; ++c) curvature += p_[c] * Ap_[c];
+    MPI_Allreduce(MPI_IN_PLACE, &curvature, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    if (!(curvature > 0)) return "the matrix is not positive";
+    const double alpha = rho / curvature;
+    of_residual = {};
+    for (int c = 0; c < mesh_.n_cells; ++c) {
+      x[c] += alpha * p_[c], residual_[c] -= alpha * Ap_[c];
+      of_residual[0] += residual_[c], of_residual[1] += residual_[c] * residual_[c];
+    }
+    ++report.iterations;
+  }
+  if (singular_)
+    remove_mean(x);
+  else if (rho > 0)
+    fix_level(x);
+  mesh_.halo.exchange(x);
+  return nullptr;
 }
 
 PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, double target) {
   PoissonReport report{.rebuilt = rebuild_};
   if (rebuild_) set_up_preconditioner();
-  const std::span<double> owned{x.data(), static_cast<std::size_t>(mesh_.n_cells)};
-  const char* stopped = iterate(b, owned, target, report);
+  mesh_.halo.exchange(x);
+  const char* stopped = iterate(b, x, target, report);
   if (stopped && !rebuild_) {  // that of another matrix may be indefinite for this one
     report.rebuilt = rebuild_ = true;
     set_up_preconditioner();
-    stopped = iterate(b, owned, target, report);
+    mesh_.halo.exchange(x);
+    stopped = iterate(b, x, target, report);
   }
   if (stopped)
     throw Error(ExitCode::diverged, "pressure equation: conjugate gradients stopped after " + std::to_string(report.iterations) +
@@ -276,11 +312,6 @@ PoissonReport Poisson::solve(std::span<const double> b, std::vector<double>& x, 
   } else if (rebuild_ && report.iterations > 0) {
     rebuild_ = false;
   }
-  if (singular_)
-    remove_mean(owned);
-  else
-    fix_level(b, owned);
-  mesh_.halo.exchange(x);
   return report;
 }
 

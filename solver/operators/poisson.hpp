@@ -4,8 +4,13 @@
 //
 //   sum_f k_f (x_P - x_N) + sum_b k_b x_P = b_P
 //
+//   p = M^-1 r + beta p,   x += alpha p,   r -= alpha A p
+//   alpha = r.M^-1 r / p.A p,   beta = r.M^-1 r / that of the iteration before
+//
 // The operator is applied face by face, so that it follows a turning mesh at no cost; a matrix is assembled for the set-up of the
 // preconditioner only, which is repeated when iterations grow beyond 1.8 times those of a fresh one.
+#include <petscmat.h>
+
 #include <memory>
 #include <span>
 #include <vector>
@@ -25,12 +30,17 @@ enum class Multigrid { boomeramg, gamg };
 
 class Poisson {
  public:
+  /// Arrays to work in while solving, [n_all_cells].
+  struct Arrays {
+    std::vector<double>&residual, &direction, &product;
+  };
   /// `singular`: no boundary value is fixed; x is then taken with zero mean. Collective.
-  Poisson(const Mesh& mesh, Multigrid multigrid, bool singular);
+  Poisson(const Mesh& mesh, Multigrid multigrid, bool singular, const Arrays& arrays);
   ~Poisson();
 
-  /// Coefficients k of all faces (boundary faces: 0 where nothing is fixed), [n_faces]; kept until they are given again. Local.
-  void set_coefficients(std::span<const double> k);
+  /// Coefficients k of all faces (boundary faces: 0 where nothing is fixed), [n_faces]; they stay with the caller until others are given.
+  /// Local.
+  void set_coefficients(std::span<const double> k) { coefficient_ = k; }
   /// Solve until the residual norm is below `target`, from x [n_all_cells] as first guess; ghosts filled. Throws Error(diverged).
   /// Collective.
   PoissonReport solve(std::span<const double> b, std::vector<double>& x, double target);
@@ -42,18 +52,21 @@ class Poisson {
   void restore(double fresh_cost, bool rebuild_due);
 
  private:
-  struct Petsc;
-  void apply(const double* x, double* y);
+  class Preconditioner;
+  class OwnCycle;
+  class Gamg;
+  void apply(std::span<const double> x);
+  Mat assembled() const;
   void set_up_preconditioner();
-  const char* iterate(std::span<const double> b, std::span<double> x, double target, PoissonReport& report);
-  void fix_level(std::span<const double> b, std::span<double> x) const;
+  const char* iterate(std::span<const double> b, std::vector<double>& x, double target, PoissonReport& report);
+  void fix_level(std::span<double> x);
   void remove_mean(std::span<double> x) const;
   const Mesh& mesh_;
   Multigrid multigrid_;
   bool singular_;
-  std::vector<double> coefficient_;    // [n_faces]
-  std::vector<double> x_all_, y_all_;  // [n_all_cells]
-  std::unique_ptr<Petsc> petsc_;
+  std::span<const double> coefficient_;      // [n_faces]
+  std::vector<double>&residual_, &p_, &Ap_;
+  std::unique_ptr<Preconditioner> preconditioner_;
   bool rebuild_ = true;
   double fresh_cost_ = 0;  // iterations a decade after a set-up
 };

@@ -4,9 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -89,6 +89,7 @@ class VCycle::Numbering {
       for (int e = from.start[i]; e < from.start[i + 1]; ++e) rows.add(place(from.column[e]), from.value[e]);
       rows.end_row();
     }
+    rows.fit();
   }
 
  private:
@@ -97,50 +98,46 @@ class VCycle::Numbering {
 };
 
 VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest)), singular_(singular) {
-  PetscInt n_rows = 0;
-  check_petsc(MatGetSize(finest, &n_rows, nullptr), "MatGetSize");
-  n_rows_ = static_cast<double>(n_rows);
   PetscInt n_levels = 0;
   Mat *interpolations = nullptr, *coarse = nullptr;  // the coarsest first
   check_petsc(PCGetInterpolations(hierarchy, &n_levels, &interpolations), "PCGetInterpolations");
   check_petsc(PCGetCoarseOperators(hierarchy, &n_levels, &coarse), "PCGetCoarseOperators");
-  const auto n = static_cast<std::size_t>(n_levels);
-  std::vector<GlobalRows> matrices, prolongations, restrictions;
-  for (std::size_t l = 0; l < n; ++l) {
-    matrices.emplace_back(l == 0 ? finest : coarse[n - 1 - l]);
-    if (l + 1 == n) break;
-    Mat interpolation = interpolations[n - 2 - l], transposed = nullptr;
-    prolongations.emplace_back(interpolation);
-    check_petsc(MatTranspose(interpolation, MAT_INITIAL_MATRIX, &transposed), "MatTranspose");
-    restrictions.emplace_back(transposed);
-    check_petsc(MatDestroy(&transposed), "MatDestroy");
-  }
-  for (std::size_t l = 0; l + 1 < n; ++l) {
-    check_petsc(MatDestroy(&interpolations[l]), "MatDestroy");
-    check_petsc(MatDestroy(&coarse[l]), "MatDestroy");
+  std::optional<GlobalRows> prolongation, of_last;
+  for (PetscInt l = 0; l < n_levels; ++l) {
+    const GlobalRows matrix(l == 0 ? finest : coarse[n_levels - 1 - l]);
+    if (l > 0) check_petsc(MatDestroy(&coarse[n_levels - 1 - l]), "MatDestroy");
+    of_last = std::move(prolongation);
+    prolongation.reset();
+    std::optional<GlobalRows> restriction;
+    if (l + 1 < n_levels) {
+      Mat &interpolation = interpolations[n_levels - 2 - l], transposed = nullptr;
+      prolongation.emplace(interpolation);
+      check_petsc(MatTranspose(interpolation, MAT_INITIAL_MATRIX, &transposed), "MatTranspose");
+      check_petsc(MatDestroy(&interpolation), "MatDestroy");
+      restriction.emplace(transposed);
+      check_petsc(MatDestroy(&transposed), "MatDestroy");
+    }
+    add_level(matrix, restriction ? &*restriction : nullptr, of_last ? &*of_last : nullptr);
+    if (l + 1 == n_levels && matrix.row_ranges.back() <= largest_inverse) invert_coarsest(matrix);
   }
   check_petsc(PetscFree(interpolations), "PetscFree");
   check_petsc(PetscFree(coarse), "PetscFree");
+}
 
-  std::vector<Numbering> numbers;
-  for (std::size_t l = 0; l < n; ++l) {
-    std::vector<PetscInt> ghosts;
-    matrices[l].add_ghosts(ghosts);
-    if (l + 1 < n) restrictions[l].add_ghosts(ghosts);
-    if (l > 0) prolongations[l - 1].add_ghosts(ghosts);
-    numbers.emplace_back(matrices[l], std::move(ghosts));
-  }
-  for (std::size_t l = 0; l < n; ++l) {
-    Level& level = levels_.emplace_back();
-    level.n = static_cast<int>(matrices[l].n_rows);
-    level.halo = numbers[l].halo(comm_);
-    for (auto* vector : {&level.b, &level.x, &level.residual}) vector->assign(numbers[l].n_all(), 0);
-    fill_matrix(level, numbers[l], matrices[l]);
-    if (l + 1 == n) break;
-    numbers[l].fill(level.restriction, restrictions[l]);
-    numbers[l + 1].fill(level.prolongation, prolongations[l]);
-  }
-  if (matrices.back().row_ranges.back() <= largest_inverse) invert_coarsest(matrices.back());
+/// Below the last one.
+void VCycle::add_level(const GlobalRows& matrix, const GlobalRows* restriction, const GlobalRows* prolongation_of_last) {
+  std::vector<PetscInt> ghosts;
+  for (const GlobalRows* rows : {&matrix, restriction, prolongation_of_last})
+    if (rows) rows->add_ghosts(ghosts);
+  const Numbering numbers(matrix, std::move(ghosts));
+  if (prolongation_of_last) numbers.fill(levels_.back().prolongation, *prolongation_of_last);
+  Level& level = levels_.emplace_back();
+  level.n = static_cast<int>(matrix.n_rows);
+  level.halo = numbers.halo(comm_);
+  level.b.assign(static_cast<std::size_t>(level.n), 0);
+  for (auto* vector : {&level.x, &level.residual}) vector->assign(numbers.n_all(), 0);
+  fill_matrix(level, numbers, matrix);
+  if (restriction) numbers.fill(level.restriction, *restriction);
 }
 
 void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from) {
@@ -156,11 +153,14 @@ void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRow
         row.emplace_back(j, from.value[e]);
     }
     std::sort(row.begin(), row.end());
-    for (const auto& [j, value] : row) level.matrix.add(j, value);
+    for (const auto& [j, value] : row) {
+      level.matrix.add(j, value);
+      if (j >= level.n) level.ghost_matrix.push_back({i, j, static_cast<Value>(value)});
+    }
     level.matrix.end_row();
-    level.diagonal.push_back(static_cast<Value>(diagonal));
     level.over_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
   }
+  level.matrix.fit();
 }
 
 template <int block>
@@ -189,19 +189,11 @@ void VCycle::invert_coarsest(const GlobalRows& from) {
   }
 }
 
-void VCycle::apply(const double* r, double* z) {
+void VCycle::apply(std::span<const double> r, double mean, double rms) {
   Level& finest = levels_.front();
-  std::array<double, 2> sums{};  // of r and of r^2
-  for (int i = 0; i < finest.n; ++i) sums[0] += r[i], sums[1] += r[i] * r[i];
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, comm_);
-  const double mean = singular_ ? sums[0] / n_rows_ : 0, scale = std::sqrt(sums[1] / n_rows_);
-  if (!(scale > 0)) {
-    std::fill_n(z, finest.n, 0.0);
-    return;
-  }
-  for (int i = 0; i < finest.n; ++i) finest.b[i] = static_cast<Value>((r[i] - mean) / scale);
+  const double taken_off = singular_ ? mean : 0, factor = 1 / rms;
+  for (int i = 0; i < finest.n; ++i) finest.b[i] = static_cast<Value>((r[i] - taken_off) * factor);
   descend(0);
-  for (int i = 0; i < finest.n; ++i) z[i] = scale * finest.x[i];
 }
 
 void VCycle::descend(std::size_t l) {
@@ -209,7 +201,7 @@ void VCycle::descend(std::size_t l) {
   Level &fine = levels_[l], &coarse = levels_[l + 1];
   sweep_forward(fine);
   fine.halo.exchange(std::span(fine.x));
-  for (int i = 0; i < fine.n; ++i) fine.residual[i] = fine.b[i] - fine.diagonal[i] * fine.x[i] - fine.matrix.product(i, fine.x.data());
+  complete_residual(fine);
   fine.halo.exchange(std::span(fine.residual));
   for (int i = 0; i < coarse.n; ++i) coarse.b[i] = fine.restriction.product(i, fine.residual.data());
   descend(l + 1);
@@ -219,10 +211,21 @@ void VCycle::descend(std::size_t l) {
   sweep_backward(fine);
 }
 
-/// From x = 0, of which ghosts keep the zero.
+/// From x = 0, ghosts too. The residual lacks - G x.
 void VCycle::sweep_forward(Level& level) {
-  std::fill(level.x.begin(), level.x.end(), Value{0});
-  for (int i = 0; i < level.n; ++i) level.x[i] = (level.b[i] - level.matrix.product(i, level.x.data())) * level.over_diagonal[i];
+  std::fill(level.residual.begin(), level.residual.end(), Value{0});
+  const auto& [start, column, value] = level.matrix;
+  Value* const residual = level.residual.data();
+  for (int i = 0; i < level.n; ++i) {
+    const Value rest = level.b[i] + residual[i], x = rest * level.over_diagonal[i];
+    level.x[i] = x;
+    residual[i] = level.over_diagonal[i] > 0 ? 0 : rest;
+    for (int e = start[i]; e < start[i + 1]; ++e) residual[column[e]] -= value[e] * x;
+  }
+}
+
+void VCycle::complete_residual(Level& level) {
+  for (const auto& [row, column, value] : level.ghost_matrix) level.residual[row] -= value * level.x[column];
 }
 
 void VCycle::sweep_backward(Level& level) {

@@ -3,9 +3,12 @@
 // precision:
 //
 //   (D + L) x = b                       forward Gauss-Seidel on the rows of the rank, b = r on the finest level
-//   r = b - A x                         with the columns of other ranks, G
+//   r = b - A x = - (U + G) x           G: columns of other ranks
 //   b_coarse = P^T r,   x += P x_coarse
 //   (D + U) x' = b - (L + G) x          backward
+//
+// The forward sweep and its residual are one pass over the matrix: row i, once x_i is known, adds - a_ij x_i to the residual of each j.
+// What row j has got before its turn is - L x, which it needs for x_j; what it gets afterwards is - U x.
 //
 // In front r is divided by its rms value, and z multiplied by it, for the range of single precision; where the constants are the null space
 // of A the mean of r is taken off, which the cycle would answer with its round-off, of either sign.
@@ -30,8 +33,10 @@ class VCycle {
   /// Takes the interpolations and coarse operators of `hierarchy`, which is set up for `finest` and cannot be applied afterwards.
   /// `singular`: the constants are the null space. Collective.
   VCycle(Mat finest, PC hierarchy, bool singular);
-  /// z = M^-1 r, both [rows of this rank]. Collective.
-  void apply(const double* r, double* z);
+  /// Solves for r [rows of this rank] with its mean (read where the constants are the null space) and its rms value over all ranks, above
+  /// 0: z_i = rms solution()[i]. Collective.
+  void apply(std::span<const double> r, double mean, double rms);
+  std::span<const float> solution() const { return {levels_.front().x.data(), static_cast<std::size_t>(levels_.front().n)}; }
   int n_levels() const { return static_cast<int>(levels_.size()); }
 
  private:
@@ -42,6 +47,7 @@ class VCycle {
     std::vector<Value> value;
     void add(int c, double v) { column.push_back(c), value.push_back(static_cast<Value>(v)); }
     void end_row();
+    void fit() { start.shrink_to_fit(), column.shrink_to_fit(), value.shrink_to_fit(); }
     [[gnu::always_inline]] Value product(int i, const Value* x) const {
       Value sum = 0;
       const int end = start[i + 1];
@@ -55,27 +61,33 @@ class VCycle {
       return sum;
     }
   };
+  struct GhostEntry {
+    int row, column;
+    Value value;
+  };
   struct Level {
-    int n = 0;                                   // rows of this rank
-    Rows<4> matrix;                              // without the diagonal
-    Rows<4> restriction;                         // from this level to the next coarser one
-    Rows<2> prolongation;                        // from that to this
-    std::vector<Value> diagonal, over_diagonal;  // [n] and its inverse, 0 where it is not positive
+    int n = 0;                             // rows of this rank
+    Rows<4> matrix;                        // without the diagonal
+    std::vector<GhostEntry> ghost_matrix;  // of it those of other ranks' columns once more
+    Rows<4> restriction;                   // from this level to the next coarser one
+    Rows<2> prolongation;                  // from that to this
+    std::vector<Value> over_diagonal;      // [n] 1/D, 0 where D is not positive
     Halo halo;
-    std::vector<Value> b, x, residual;  // [n and ghosts]
+    std::vector<Value> b, x, residual;  // [n], and ghosts of x and residual
   };
   struct GlobalRows;
   class Numbering;
+  void add_level(const GlobalRows& matrix, const GlobalRows* restriction, const GlobalRows* prolongation_of_last);
   static void fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from);
   void invert_coarsest(const GlobalRows& from);
   void descend(std::size_t level);
   void solve_coarsest();
   static void sweep_forward(Level& level);
+  static void complete_residual(Level& level);
   static void sweep_backward(Level& level);
 
   MPI_Comm comm_;
   bool singular_;
-  double n_rows_;                         // of all ranks
   std::vector<Level> levels_;             // the finest first
   std::vector<double> coarsest_inverse_;  // [rows of this rank][all rows], empty where sweeps take its place
   std::vector<int> coarsest_count_, coarsest_start_;

@@ -26,8 +26,8 @@ void Curvature::Strain::find(const std::vector<Mat3>& gradient) {
   }
 }
 
-void Curvature::prepare(const Mesh& mesh) {
-  slope_.emplace(mesh, std::vector<Side>(mesh.patches.size(), Side::none));
+void Curvature::prepare(const Mesh& mesh, const CellMoments& moments) {
+  slope_.emplace(mesh, moments, std::vector<Side>(mesh.patches.size(), Side::none));
   nothing_.assign(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior), {});
   slope_of_diagonal_.resize(static_cast<std::size_t>(mesh.n_all_cells())), slope_of_off_.resize(slope_of_diagonal_.size());
 }
@@ -41,7 +41,7 @@ void Curvature::find(const Flow& flow, double dt, std::span<const double> omega,
   slope_->gradient(std::span<const Vec3>(now_.off), nothing_, slope_of_off_);
   const RotatingZone* zone = flow.rotating_zone;
   const Vec3 turn = zone ? zone->rotation_speed(flow.time) : Vec3{};
-  factor.resize(static_cast<std::size_t>(mesh.n_cells));
+  factor.resize(std::max(factor.size(), static_cast<std::size_t>(mesh.n_cells)));
   for (int c = 0; c < mesh.n_cells; ++c) {
     const bool turns = zone && mesh.cell_zone[c] == zone->zone();
     const Vec3 way = flow.velocity[c] - (turns ? cross(turn, mesh.cell_centre[c] - zone->origin()) : Vec3{});

@@ -26,7 +26,7 @@ class Curvature {
   double c_r1 = 1, c_r2 = 2, c_r3 = 1;
 
   /// Collective, as are all functions below.
-  void prepare(const Mesh& mesh);
+  void prepare(const Mesh& mesh, const CellMoments& moments);
   void mesh_turned() { slope_->update(); }
   /// At the begin of a step, with the velocity gradient of its start.
   void begin_step(const Flow& flow);

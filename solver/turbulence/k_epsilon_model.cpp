@@ -13,25 +13,21 @@ void KEpsilonModel::prepare_walls(const Flow& flow, const BoundarySet& boundary)
   walls_ = WallFunctions(flow.mesh, boundary, law_);
 }
 
-void KEpsilonModel::set_diffusivity_over(const Flow& flow, double sigma) {
-  turbulent_ = flow.eddy_viscosity;
-  for (double& value : turbulent_) value /= sigma;
-  set_diffusivity(flow, turbulent_, 1 / sigma);
-}
-
 TurbulenceReport KEpsilonModel::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) {
   begin_correction(flow, boundary, time, outer);
   walls_.equilibrium(flow, boundary, k_.guess);
-  std::vector<double>& epsilon = *phi_.now;
+  const auto set_diffusivity_over = [&](double sigma) {
+    set_diffusivity(
+        flow, [sigma](int) { return 1 / sigma; }, 1 / sigma);
+  };
 
-  set_diffusivity_over(flow, sigma_epsilon_);
+  set_diffusivity_over(sigma_epsilon_);
   set_sources_of_epsilon(flow, time.dt);
-  const SweepReport of_epsilon = phi_.equation->solve(phi_.history(), {production_, sink_, diffusivity_, phi_.entering},
-                                                      {walls_.cells(), walls_.dissipation()}, epsilon);
-  set_diffusivity_over(flow, sigma_k_);
-  set_sources_of_k(flow, epsilon);
-  for (std::size_t i = 0; i < walls_.cells().size(); ++i) production_[walls_.cells()[i]] = walls_.production()[i];
-  const SweepReport of_k = k_.equation->solve(k_.history(), {production_, sink_, diffusivity_, k_.entering}, {}, *k_.now);
+  const SweepReport of_epsilon = solve(phi_, {walls_.cells(), walls_.dissipation()});
+  set_diffusivity_over(sigma_k_);
+  set_sources_of_k(flow, *phi_.now);
+  for (std::size_t i = 0; i < walls_.cells().size(); ++i) production()[walls_.cells()[i]] = walls_.production()[i];
+  const SweepReport of_k = solve(k_, {});
   return end_correction(flow, of_k, of_epsilon);
 }
 

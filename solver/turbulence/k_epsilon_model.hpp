@@ -17,7 +17,7 @@ class KEpsilonModel : public TwoEquationModel {
   // A model's own part.
   /// Sources of epsilon from k and epsilon as guessed, by set_sources_of_phi(). Local.
   virtual void set_sources_of_epsilon(const Flow& flow, double dt) = 0;
-  /// production_ and sink_ of k, with k as guessed and the new epsilon. Local.
+  /// production() and sink() of k, with k as guessed and the new epsilon. Local.
   virtual void set_sources_of_k(const Flow& flow, const std::vector<double>& epsilon) = 0;
 
   /// Keys of the wall functions, and sigma_k and sigma_epsilon.
@@ -32,12 +32,9 @@ class KEpsilonModel : public TwoEquationModel {
   void set_wall_viscosity(Flow& flow) override { walls_.set_viscosity(flow, *k_.now); }
 
  private:
-  void set_diffusivity_over(const Flow& flow, double sigma);
-
   WallLaw law_;
   double sigma_k_ = 1, sigma_epsilon_;
   WallFunctions walls_;
-  std::vector<double> turbulent_;  // diffusivity of turbulence in the cells, [n_all_cells], m2/s
 };
 
 }  // namespace snag

@@ -24,16 +24,15 @@ std::vector<Side> sides(const Mesh& mesh, const BoundarySet& boundary, Side at_w
 
 }  // namespace
 
-ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls)
+ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls, Workspace& workspace, int place)
     : mesh_(mesh),
-      squares_(mesh, sides(mesh, boundary, at_walls)),
-      matrix_(mesh),
-      diagonal_(mesh.n_all_cells()),
-      right_side_(mesh.n_all_cells()),
-      explicit_(mesh.n_all_cells()),
-      rate_(mesh.n_all_cells()),
-      known_(mesh.n_faces - mesh.n_interior),
-      gradient_(mesh.n_all_cells()) {
+      squares_(mesh, workspace.moments, sides(mesh, boundary, at_walls)),
+      matrix_(workspace.matrix),
+      diagonal_(workspace.scalar[0]),
+      right_side_(workspace.scalar[1]),
+      explicit_(workspace.scalar[2]),
+      gradient_(workspace.vector.at(static_cast<std::size_t>(place))),
+      known_(mesh.n_faces - mesh.n_interior) {
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
     const int p = static_cast<int>(patch);
     open_.push_back(boundary.is_open(p));
@@ -41,23 +40,7 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
   }
 }
 
-void ScalarTransport::mesh_turned() {
-  squares_.update();
-  matrix_.update(mesh_);
-}
-
-void ScalarTransport::begin(const Flow& flow, const TimeScheme& time) {
-  time_ = time;
-  std::fill(rate_.begin(), rate_.end(), 0.0);
-  flux_.resize(static_cast<std::size_t>(mesh_.n_faces));
-  for (int f = 0; f < mesh_.n_faces; ++f) flux_[f] = flow.flux[f] - flow.mesh_flux[f];
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    rate_[mesh_.owner[f]] += std::max(flux_[f], 0.0);
-    rate_[mesh_.neighbour[f]] += std::max(-flux_[f], 0.0);
-  }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) rate_[mesh_.owner[f]] += std::max(flux_[f], 0.0);
-  for (int c = 0; c < mesh_.n_cells; ++c) rate_[c] /= mesh_.cell_volume[c];
-}
+void ScalarTransport::mesh_turned() { squares_.update(); }
 
 SweepReport ScalarTransport::solve(const ScalarHistory& history, const ScalarTerms& terms, const GivenCells& given,
                                    std::vector<double>& phi) {
@@ -84,7 +67,7 @@ void ScalarTransport::known_at_boundary(std::span<const double> guess, std::span
     const bool by_value = squares_.side(p) == Side::value;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int b = f - mesh_.n_interior;
-      known_[b] = !by_value ? 0 : flux_[f] < 0 ? entering[b] : guess[mesh_.owner[f]];
+      known_[b] = !by_value ? 0 : flux(f) < 0 ? entering[b] : guess[mesh_.owner[f]];
     }
   }
 }
@@ -108,16 +91,15 @@ void ScalarTransport::add_interior(std::span<const double> guess, std::span<cons
     const double cross = dot(blend(w, gradient_[P], gradient_[N]), S - c * d);
     const double D = diffusivity[f] * (c + (change == 0 ? 0 : std::clamp(cross / change, -c, c)));
 
-    const double F = std::abs(flux_[f]);
-    const bool from_owner = flux_[f] > 0;
-    const double high = from_owner ? limited_linear(change, dot(gradient_[P], d), 1 - w) / guess[P]
-                                   : limited_linear(-change, -dot(gradient_[N], d), w) / guess[N];
+    // Without branches: the direction of the flux is as good as random.
+    const double F = flux(f), out = std::max(F, 0.0), in = std::max(-F, 0.0), way = F > 0 ? 1 : -1;
+    const int C = F > 0 ? P : N;
+    const double high = limited_linear(way * change, way * dot(gradient_[C], d), F > 0 ? 1 - w : w) / guess[C];
     const double beta = 1 + std::min(high, 1.0);
-    const double upwind = D + F * (beta - 1), downwind = D + F, carried = D + F * beta;
-    matrix_.value[matrix_.place_of_owner[f]] = -(from_owner ? D : carried);
-    matrix_.value[matrix_.place_of_neighbour[f]] = -(from_owner ? carried : D);
-    diagonal_[P] += from_owner ? upwind : downwind;
-    diagonal_[N] += from_owner ? downwind : upwind;
+    matrix_.value[matrix_.place_of_owner[f]] = -(D + in * beta);
+    matrix_.value[matrix_.place_of_neighbour[f]] = -(D + out * beta);
+    diagonal_[P] += D + in + out * (beta - 1);
+    diagonal_[N] += D + out + in * (beta - 1);
   }
 }
 
@@ -128,7 +110,7 @@ void ScalarTransport::add_boundary(const ScalarTerms& terms) {
       if (!enters(p, f)) continue;
       const int P = mesh_.owner[f];
       const double D = velocity_is_given_[p] ? terms.diffusivity[f] * conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
-      const double in = D - flux_[f];
+      const double in = D - flux(f);
       diagonal_[P] += in;
       right_side_[P] += in * terms.entering[f - mesh_.n_interior];
     }

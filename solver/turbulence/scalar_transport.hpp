@@ -20,8 +20,8 @@
 
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
-#include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
+#include "solver/operators/workspace.hpp"
 
 namespace snag {
 
@@ -46,19 +46,18 @@ struct GivenCells {
 
 class ScalarTransport {
  public:
-  /// `at_walls`: what gradients take for known there, Side::slope (zero) or Side::none. Collective.
-  ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls);
+  /// `at_walls`: what gradients take for known there, Side::slope (zero) or Side::none. Of the workspace it uses the matrix, the scalars 0
+  /// to 2, and for its gradient the vector `place`. Collective.
+  ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls, Workspace& workspace, int place);
 
   /// Again after the mesh has turned. Collective.
   void mesh_turned();
-  /// Volume fluxes relative to the mesh, and the step. Local.
-  void begin(const Flow& flow, const TimeScheme& time);
+  /// The step, and the flow whose fluxes, relative to the mesh, all solutions until the next begin() take. Local.
+  void begin(const Flow& flow, const TimeScheme& time) { flow_ = &flow, time_ = time; }
   /// Gradient of a first guess, [n_all_cells]; `entering` as in ScalarTerms. A solve() with the same guess takes it over. Collective.
   const std::vector<Vec3>& gradient(std::span<const double> guess, std::span<const double> entering);
   /// Solve into phi, [n_all_cells], ghosts filled. `given` cells keep their value. Collective.
   SweepReport solve(const ScalarHistory& history, const ScalarTerms& terms, const GivenCells& given, std::vector<double>& phi);
-  /// Rate at which fluid leaves a cell over its volume, 1/s, of the last begin(). [n_cells]
-  std::span<const double> rate() const { return rate_; }
 
   double tolerance = 1e-8;  // root mean square of the relative changes of a sweep
   int max_sweeps = 1000;
@@ -69,18 +68,19 @@ class ScalarTransport {
   void add_boundary(const ScalarTerms& terms);
   void close_rows(std::span<const double> guess, const GivenCells& given);
   void known_at_boundary(std::span<const double> guess, std::span<const double> entering);
-  bool enters(std::size_t patch, int f) const { return open_[patch] && flux_[f] < 0; }
+  double flux(int f) const { return flow_->flux[f] - flow_->mesh_flux[f]; }
+  bool enters(std::size_t patch, int f) const { return open_[patch] && flux(f) < 0; }
 
   const Mesh& mesh_;
   std::vector<bool> open_, velocity_is_given_;  // of each patch: fluid may pass; by a given velocity
   LeastSquares squares_;
-  CellMatrix matrix_;
+  CellMatrix& matrix_;
+  const Flow* flow_ = nullptr;
   TimeScheme time_;
-  std::vector<double> diagonal_, right_side_, explicit_, rate_;
-  std::vector<double> flux_;   // [n_faces] of the step: the number of facets changes as a mesh turns
-  std::vector<double> known_;  // at boundary faces, for gradients
-  std::vector<Vec3> gradient_;
-  bool gradient_is_new_ = false;  // of the guess of the next solve()
+  std::vector<double>&diagonal_, &right_side_, &explicit_;  // [n_all_cells]
+  std::vector<Vec3>& gradient_;                             // [n_all_cells]
+  std::vector<double> known_;                               // at boundary faces, for gradients
+  bool gradient_is_new_ = false;                            // of the guess of the next solve()
 };
 
 }  // namespace snag

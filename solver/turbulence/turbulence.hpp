@@ -16,7 +16,7 @@
 
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
-#include "solver/operators/cell_matrix.hpp"
+#include "solver/operators/workspace.hpp"
 
 namespace snag {
 
@@ -49,8 +49,9 @@ class Turbulence {
   virtual ~Turbulence() = default;
   /// Its keys in [turbulence]; the records point into this object.
   virtual Section section() = 0;
-  /// Once, when the solver is built: fields of the flow, what depends on the mesh. Collective, as are all functions below.
-  virtual void prepare(Flow& flow, const BoundarySet& boundary) { refuse_rough_walls(flow, boundary); }
+  /// Once, when the solver is built: fields of the flow, what depends on the mesh. The workspace is the model's in correct(). Collective,
+  /// as are all functions below.
+  virtual void prepare(Flow& flow, const BoundarySet& boundary, Workspace&) { refuse_rough_walls(flow, boundary); }
   /// Before the first step, with velocity and fluxes known. Throws Error(usage) if no initial state is known.
   virtual void start(Flow&, const BoundarySet&) {}
   /// Again after the mesh has turned, at the begin of a step; then flow.face_viscosity holds for its facets too.

@@ -50,12 +50,13 @@ Parameter TwoEquationModel::constant(const char* key, double* target, double low
   return {key, target, "1", low, high, Basis::literature, std::string("Constant ") + key + " of the model."};
 }
 
-void TwoEquationModel::prepare(Flow& flow, const BoundarySet& boundary) {
+void TwoEquationModel::prepare(Flow& flow, const BoundarySet& boundary, Workspace& workspace) {
   if (initial_k_.has_value() != initial_epsilon_.has_value())
     throw Error(ExitCode::usage, "[turbulence]: of initial_k and initial_epsilon only one is given; give both or none");
   const Mesh& mesh = flow.mesh;
   const auto n_all = static_cast<std::size_t>(mesh.n_all_cells()), n_boundary = static_cast<std::size_t>(mesh.n_faces - mesh.n_interior);
-  k_.equation.emplace(mesh, boundary, Side::slope), phi_.equation.emplace(mesh, boundary, Side::none);
+  workspace_ = &workspace;
+  k_.equation.emplace(mesh, boundary, Side::slope, workspace, 0), phi_.equation.emplace(mesh, boundary, Side::none, workspace, 1);
   k_.now = &flow.turbulent_kinetic_energy, phi_.now = &field_of_phi(flow), epsilon_ = &flow.dissipation_rate;
   epsilon_->assign(n_all, 0), flow.eddy_viscosity.assign(n_all, 0);
   for (Scalar* scalar : {&k_, &phi_}) {
@@ -63,7 +64,6 @@ void TwoEquationModel::prepare(Flow& flow, const BoundarySet& boundary) {
     scalar->entering.assign(n_boundary, 0);
     for (auto* field : {scalar->now, &scalar->old, &scalar->older, &scalar->guess}) field->assign(n_all, 0);
   }
-  for (auto* field : {&production_, &sink_, &strain_}) field->assign(static_cast<std::size_t>(mesh.n_cells), 0);
   flow.y_plus.assign(n_boundary, 0), flow.wall_function.assign(n_boundary, 0);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f)
@@ -120,7 +120,6 @@ void TwoEquationModel::fill_initial(const Flow& flow, const BoundarySet& boundar
 
 void TwoEquationModel::mesh_turned(Flow& flow, const BoundarySet&) {
   k_.equation->mesh_turned(), phi_.equation->mesh_turned();
-  diffusivity_.resize(static_cast<std::size_t>(flow.mesh.n_faces));
   set_viscosity(flow);
 }
 
@@ -135,7 +134,7 @@ void TwoEquationModel::begin_correction(Flow& flow, const BoundarySet& boundary,
   set_eddy_viscosity(flow, k_.guess, phi_.guess);
   set_hindrance(flow, k_.guess);
   for (int c = 0; c < flow.mesh.n_cells; ++c)
-    strain_[c] = twice_strain_squared(flow.velocity_gradient[c]) / (hindrance_.empty() ? 1 : 1 + hindrance_[c]);
+    strain()[c] = twice_strain_squared(flow.velocity_gradient[c]) / (hindrance_.empty() ? 1 : 1 + hindrance_[c]);
 }
 
 TurbulenceReport TwoEquationModel::end_correction(Flow& flow, const SweepReport& k, const SweepReport& phi) {
@@ -150,6 +149,24 @@ TurbulenceReport TwoEquationModel::end_correction(Flow& flow, const SweepReport&
   return report;
 }
 
+/// Rate at which fluid leaves a cell over its volume, 1/s, of the owned cells.
+const std::vector<double>& TwoEquationModel::leaving_rate(const Flow& flow) {
+  const Mesh& mesh = flow.mesh;
+  std::vector<double>& rate = workspace_->scalar[7];
+  std::fill(rate.begin(), rate.end(), 0.0);
+  for (int f = 0; f < mesh.n_faces; ++f) {
+    const double flux = flow.flux[f] - flow.mesh_flux[f];
+    rate[mesh.owner[f]] += std::max(flux, 0.0);
+    if (f < mesh.n_interior) rate[mesh.neighbour[f]] += std::max(-flux, 0.0);
+  }
+  for (int c = 0; c < mesh.n_cells; ++c) rate[c] /= mesh.cell_volume[c];
+  return rate;
+}
+
+SweepReport TwoEquationModel::solve(Scalar& scalar, const GivenCells& given) {
+  return scalar.equation->solve(scalar.history(), {production(), sink(), diffusivity(), scalar.entering}, given, *scalar.now);
+}
+
 /// k* and phi*.
 void TwoEquationModel::guess(Flow& flow, const TimeScheme& time, int outer) {
   const Mesh& mesh = flow.mesh;
@@ -157,7 +174,7 @@ void TwoEquationModel::guess(Flow& flow, const TimeScheme& time, int outer) {
     k_.guess = *k_.now, phi_.guess = *phi_.now;
     return;
   }
-  const auto rate = k_.equation->rate();
+  const std::vector<double>& rate = leaving_rate(flow);
   for (int c = 0; c < mesh.n_cells; ++c) {
     const double number = time.dt * std::max(rate[c], turnover_rate(k_.old[c], phi_.old[c]));
     const double step = time.ratio * std::clamp(1.25 - 0.5 * number, 0.0, 1.0);
@@ -185,17 +202,6 @@ double TwoEquationModel::boundary_eddy_viscosity(const Flow& flow, int f) const 
   const int b = f - flow.mesh.n_interior;
   if (flow.flux[f] >= flow.mesh_flux[f] || !(phi_.entering[b] > 0)) return flow.eddy_viscosity[flow.mesh.owner[f]];
   return entering_viscosity(k_.entering[b], phi_.entering[b]);
-}
-
-void TwoEquationModel::set_diffusivity(const Flow& flow, const std::vector<double>& of_cells, double share) {
-  const Mesh& mesh = flow.mesh;
-  const double nu = flow.dynamic_viscosity / flow.density;
-  diffusivity_.resize(static_cast<std::size_t>(mesh.n_faces));  // the number of facets changes as a mesh turns
-  for (int f = 0; f < mesh.n_interior; ++f) {
-    const double w = mesh.weight[f];
-    diffusivity_[f] = nu + passing(mesh, f) * (w * of_cells[mesh.owner[f]] + (1 - w) * of_cells[mesh.neighbour[f]]);
-  }
-  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) diffusivity_[f] = nu + share * boundary_eddy_viscosity(flow, f);
 }
 
 void TwoEquationModel::set_interior_viscosity(Flow& flow) {

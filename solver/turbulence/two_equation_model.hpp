@@ -41,7 +41,7 @@ double twice_strain_squared(const Mat3& G);
 
 class TwoEquationModel : public Turbulence {
  public:
-  void prepare(Flow& flow, const BoundarySet& boundary) override;
+  void prepare(Flow& flow, const BoundarySet& boundary, Workspace& workspace) override;
   void start(Flow& flow, const BoundarySet& boundary) override;
   void mesh_turned(Flow& flow, const BoundarySet& boundary) override;
   void begin_step(Flow& flow, const TimeScheme& time) override;
@@ -91,26 +91,44 @@ class TwoEquationModel : public Turbulence {
 
   /// First part of a correction: fluxes, entering fluid, guesses, eddy viscosity of them. Collective.
   void begin_correction(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer);
-  /// production_ and sink_ of the equation of phi in a cell, from its sources P - b phi^2 and the share s.
+  // In the workspace, within a correction:
+  std::vector<double>& production() { return workspace_->scalar[3]; }  // [n_cells] of it, as the two below
+  std::vector<double>& sink() { return workspace_->scalar[4]; }
+  std::vector<double>& strain() { return workspace_->scalar[5]; }  // 2 S:S/(1 + L s), 1/s2
+  std::vector<double>& diffusivity() { return workspace_->face; }  // [n_faces], m2/s
+
+  /// Production and sink of the equation of phi in a cell, from its sources P - b phi^2 and the share s.
   void set_sources_of_phi(int c, double P, double b, double share) {
     const double root = share * std::sqrt(P * b);  // b phi_e
-    production_[c] = P + root * phi_.guess[c], sink_[c] = root + b * phi_.guess[c];
+    production()[c] = P + root * phi_.guess[c], sink()[c] = root + b * phi_.guess[c];
   }
+  /// Solve the equation of k or phi with the sources and the diffusivity in the workspace. Collective.
+  SweepReport solve(Scalar& scalar, const GivenCells& given);
   /// Last part: raises, viscosities, report. Collective.
   TurbulenceReport end_correction(Flow& flow, const SweepReport& k, const SweepReport& phi);
-  /// Into diffusivity_ from that of turbulence in the cells, m2/s, [n_all_cells]; `share`: of it, of nu_t, in fluid that enters.
-  void set_diffusivity(const Flow& flow, const std::vector<double>& of_cells, double share);
+  /// Into diffusivity(): nu + sigma(c) nu_t of the cells, interpolated; in fluid that enters sigma is `entering`.
+  template <class Sigma>
+  void set_diffusivity(const Flow& flow, const Sigma& sigma, double entering) {
+    const Mesh& mesh = flow.mesh;
+    std::vector<double>& faces = workspace_->face;
+    const double nu = flow.dynamic_viscosity / flow.density;
+    for (int f = 0; f < mesh.n_interior; ++f) {
+      const int P = mesh.owner[f], N = mesh.neighbour[f];
+      const double w = mesh.weight[f];
+      faces[f] = nu + passing(mesh, f) * (w * sigma(P) * flow.eddy_viscosity[P] + (1 - w) * sigma(N) * flow.eddy_viscosity[N]);
+    }
+    for (int f = mesh.n_interior; f < mesh.n_faces; ++f) faces[f] = nu + entering * boundary_eddy_viscosity(flow, f);
+  }
 
   /// Dissipation rate of the flow, [n_all_cells], m2/s3.
   std::vector<double>* epsilon() const { return epsilon_; }
 
   Scalar k_, phi_;
   double C_mu_ = 0.09;
-  std::vector<double> production_, sink_, strain_;  // [n_cells]; strain_: 2 S:S/(1 + L s), 1/s2
-  std::vector<double> diffusivity_;                 // [n_faces], m2/s
 
  private:
   void fill_initial(const Flow& flow, const BoundarySet& boundary);
+  const std::vector<double>& leaving_rate(const Flow& flow);
   void set_entering(const Flow& flow, const BoundarySet& boundary);
   void guess(Flow& flow, const TimeScheme& time, int outer);
   double boundary_eddy_viscosity(const Flow& flow, int f) const;
@@ -124,6 +142,7 @@ class TwoEquationModel : public Turbulence {
   }
   std::int64_t raise(const Mesh& mesh);
 
+  Workspace* workspace_ = nullptr;
   std::optional<double> initial_k_, initial_epsilon_;
   double tolerance_ = 1e-8;
   std::vector<double>* epsilon_ = nullptr;   // of the flow

@@ -15,9 +15,9 @@ struct LinearUpwind final : FaceScheme<LinearUpwind> {
   bool is_bounded() const override { return true; }
   static Vec3 high_order_part(ConvectedVelocity velocity, int f, double F) {
     const Mesh& mesh = velocity.mesh;
-    const int P = mesh.owner[f], N = mesh.neighbour[f];
-    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P];
-    return F > 0 ? scaled(velocity.psi[P], velocity.G[P] * way) : scaled(velocity.psi[N], velocity.G[N] * (way - mesh.delta[f]));
+    const int P = mesh.owner[f], C = F > 0 ? P : mesh.neighbour[f];
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (F > 0 ? 0.0 : 1.0) * mesh.delta[f];
+    return scaled(velocity.psi[C], velocity.G[C] * way);
   }
 };
 const bool registered = convection_schemes().add<LinearUpwind>();

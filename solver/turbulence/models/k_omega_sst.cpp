@@ -51,7 +51,7 @@ class KOmegaSst final : public TwoEquationModel {
   static constexpr const char* name = "k_omega_sst";
   KOmegaSst() : TwoEquationModel("omega") {}
   Section section() override;
-  void prepare(Flow& flow, const BoundarySet& boundary) override;
+  void prepare(Flow& flow, const BoundarySet& boundary, Workspace& workspace) override;
   void mesh_turned(Flow& flow, const BoundarySet& boundary) override;
   void begin_step(Flow& flow, const TimeScheme& time) override;
   TurbulenceReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) override;
@@ -94,7 +94,6 @@ class KOmegaSst final : public TwoEquationModel {
 
   bool curvature_correction_ = false;
   Curvature curvature_;
-  std::vector<double> curvature_factor_;  // f, [n_cells]; empty without the correction
   double a_1_ = 0.31;
   Constants near_{5.0 / 9, 3.0 / 40, 0.85, 0.5}, far_{0.44, 0.0828, 1, 0.856};  // (.)_1, (.)_2
   SpaldingLaw law_;
@@ -104,7 +103,6 @@ class KOmegaSst final : public TwoEquationModel {
   std::vector<FittedFace> fitted_;
   std::vector<double> friction_velocity_;           // [n_all_cells], of wall cells, m/s
   std::vector<double> blending_, cross_diffusion_;  // F_1, [n_all_cells]; (1 - F_1) C, [n_cells], 1/s2
-  std::vector<double> turbulent_;                   // diffusivity of turbulence in the cells, [n_all_cells], m2/s
 };
 
 const bool registered = turbulence_models().add<KOmegaSst>();
@@ -129,13 +127,13 @@ Section KOmegaSst::section() {
   return model;
 }
 
-void KOmegaSst::prepare(Flow& flow, const BoundarySet& boundary) {
+void KOmegaSst::prepare(Flow& flow, const BoundarySet& boundary, Workspace& workspace) {
   field_of_phi(flow);  // the first one
   if (curvature_correction_) {
-    curvature_.prepare(flow.mesh);
+    curvature_.prepare(flow.mesh, workspace.moments);
     flow.model_fields.push_back({"production_factor", "1", 0, std::vector<double>(static_cast<std::size_t>(flow.mesh.n_all_cells()), 1.0)});
   }
-  TwoEquationModel::prepare(flow, boundary);
+  TwoEquationModel::prepare(flow, boundary, workspace);
 }
 
 void KOmegaSst::mesh_turned(Flow& flow, const BoundarySet& boundary) {
@@ -223,9 +221,9 @@ void KOmegaSst::set_blending(const Flow& flow) {
 }
 
 void KOmegaSst::set_diffusivity_of(const Flow& flow, double Constants::*sigma) {
-  turbulent_.resize(flow.eddy_viscosity.size());
-  for (std::size_t c = 0; c < turbulent_.size(); ++c) turbulent_[c] = blended(static_cast<int>(c)).*sigma * flow.eddy_viscosity[c];
-  set_diffusivity(flow, turbulent_, far_.*sigma);
+  const double near = near_.*sigma, far = far_.*sigma;
+  set_diffusivity(
+      flow, [this, near, far](int c) { return blending_[c] * near + (1 - blending_[c]) * far; }, far);
 }
 
 /// That of omega times r.
@@ -235,16 +233,16 @@ void KOmegaSst::fit_diffusivity(const Mesh& mesh) {
     const double change = std::log(phi_.guess[mesh.neighbour[fitted.face]] / phi_.guess[mesh.owner[fitted.face]]);
     const double n = std::clamp(-change / a, -1.0, 2.0);
     const double slope = std::abs(n) < 1e-6 ? 1 / a : -n / std::expm1(-n * a);
-    diffusivity_[fitted.face] *= slope * std::exp(-(n + 1) * b) * std::expm1(a);
+    diffusivity()[fitted.face] *= slope * std::exp(-(n + 1) * b) * std::expm1(a);
   }
 }
 
 TurbulenceReport KOmegaSst::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) {
   begin_correction(flow, boundary, time, outer);
   if (curvature_correction_) {
-    curvature_.find(flow, time.dt, phi_.guess, curvature_factor_);
-    for (int c = 0; c < flow.mesh.n_cells; ++c) strain_[c] *= curvature_factor_[c];
-    std::copy(curvature_factor_.begin(), curvature_factor_.end(), flow.model_fields.back().values.begin());
+    std::vector<double>& factor = flow.model_fields.back().values;
+    curvature_.find(flow, time.dt, phi_.guess, factor);
+    for (int c = 0; c < flow.mesh.n_cells; ++c) strain()[c] *= factor[c];
   }
   walls_.find(flow, boundary, friction_velocity_);
   set_blending(flow);
@@ -259,12 +257,12 @@ SweepReport KOmegaSst::solve_omega(const Flow& flow) {
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
     const Constants constants = blended(c);
     const double omega = phi_.guess[c], in_viscous_layer = std::min(1.0, omega_viscous(c, nu) / omega), C = cross_diffusion_[c];
-    set_sources_of_phi(c, constants.alpha * strain_[c] + std::max(C, 0.0),
+    set_sources_of_phi(c, constants.alpha * strain()[c] + std::max(C, 0.0),
                        constants.beta * (1 + in_viscous_layer * in_viscous_layer * excess_[c]), 0.5);
-    sink_[c] += std::max(-C, 0.0) / omega;
+    sink()[c] += std::max(-C, 0.0) / omega;
   }
   const std::vector<double> at_walls = walls_.omega(flow, friction_velocity_, C_mu_, near_.beta);
-  return phi_.equation->solve(phi_.history(), {production_, sink_, diffusivity_, phi_.entering}, {walls_.cells(), at_walls}, *phi_.now);
+  return solve(phi_, {walls_.cells(), at_walls});
 }
 
 SweepReport KOmegaSst::solve_k(const Flow& flow) {
@@ -272,11 +270,11 @@ SweepReport KOmegaSst::solve_k(const Flow& flow) {
   set_diffusivity_of(flow, &Constants::sigma_k);
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
     const double growth = 0.5 * omega[c] / phi_.guess[c];
-    const double P = std::min(flow.eddy_viscosity[c] * strain_[c], production_limit * C_mu_ * k_.guess[c] * omega[c]);
-    production_[c] = P / std::max(1.0, growth);
-    sink_[c] = C_mu_ * omega[c];
+    const double P = std::min(flow.eddy_viscosity[c] * strain()[c], production_limit * C_mu_ * k_.guess[c] * omega[c]);
+    production()[c] = P / std::max(1.0, growth);
+    sink()[c] = C_mu_ * omega[c];
   }
-  return k_.equation->solve(k_.history(), {production_, sink_, diffusivity_, k_.entering}, {}, *k_.now);
+  return solve(k_, {});
 }
 
 std::vector<StoredField> KOmegaSst::stored() {

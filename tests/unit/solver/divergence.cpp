@@ -25,7 +25,8 @@ struct Watched {
   Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {4, 1, 1}, {8, 4, 4});
   BoundarySet boundary{mesh, conditions(channel)};
   Flow flow{mesh};
-  CellFluxes fluxes{std::vector<double>(mesh.n_all_cells()), std::vector<double>(mesh.n_all_cells())};
+  std::vector<double> net = std::vector<double>(mesh.n_all_cells()), through = net;
+  CellFluxes fluxes{net, through};
   StepReport report;
   DivergenceWatch watch;
 

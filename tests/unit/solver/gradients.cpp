@@ -17,7 +17,8 @@ Mesh tetrahedra() { return tetrahedral_box(MPI_COMM_WORLD, {.upper = {2, 1, 1}, 
 
 /// Gradient of a linear field with one kind of knowledge on all patches; returns the largest error of both forms.
 double largest_error(const Mesh& mesh, Side side) {
-  const LeastSquares squares(mesh, std::vector<Side>(mesh.patches.size(), side));
+  const CellMoments moments(mesh);
+  const LeastSquares squares(mesh, moments, std::vector<Side>(mesh.patches.size(), side));
   std::vector<double> phi(mesh.n_all_cells()), given(mesh.n_faces - mesh.n_interior), values(given.size());
   std::vector<Vec3> g(phi.size()), gauss(phi.size());
   for (int c = 0; c < mesh.n_cells; ++c) phi[c] = dot(slope, mesh.cell_centre[c]);
@@ -47,7 +48,8 @@ TEST(Gradients, bounded_where_nothing_is_known) { EXPECT_LT(largest_error(tetrah
 // The sum of V grad p over the cells is the sum of p S over the boundary, whatever p.
 TEST(Gradients, gauss_form_telescopes) {
   const Mesh mesh = tetrahedra();
-  const LeastSquares squares(mesh, std::vector<Side>(mesh.patches.size(), Side::slope));
+  const CellMoments moments(mesh);
+  const LeastSquares squares(mesh, moments, std::vector<Side>(mesh.patches.size(), Side::slope));
   std::vector<double> p(mesh.n_all_cells()), given(mesh.n_faces - mesh.n_interior), values(given.size());
   std::vector<Vec3> g(p.size()), gauss(p.size());
   for (int c = 0; c < mesh.n_cells; ++c) p[c] = std::sin(static_cast<double>(37 * mesh.cell_id[c] % 101));

@@ -42,11 +42,12 @@ double deviation(const Circles& circles, int around, const std::string& motion, 
   Flow flow(mesh);
   flow.rotating_zone = zone.get();
   Curvature curvature;
-  curvature.prepare(mesh);
+  CellMoments moments(mesh);
+  curvature.prepare(mesh, moments);
   circles.set(flow, shells.origin);
   curvature.begin_step(flow);
   flow.time += dt;
-  if (zone->slides()) zone->mesh().turn(zone->angle(flow.time)), curvature.mesh_turned();
+  if (zone->slides()) zone->mesh().turn(zone->angle(flow.time)), moments.update(), curvature.mesh_turned();
   circles.set(flow, shells.origin);
   std::vector<double> factor;
   curvature.find(flow, dt, std::vector<double>(static_cast<std::size_t>(mesh.n_cells), 1e-9), factor);
@@ -81,7 +82,8 @@ TEST(Curvature, FactorOfPlaneShear) {
   const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {4, 4, 4});
   Flow flow(mesh);
   Curvature curvature;
-  curvature.prepare(mesh);
+  const CellMoments moments(mesh);
+  curvature.prepare(mesh, moments);
   std::vector<double> factor;
   const std::vector<double> omega(static_cast<std::size_t>(mesh.n_cells), 1.0);
   for (const Mat3& G : {Mat3{Vec3{0, 3, 0}, Vec3{}, Vec3{}}, Mat3{Vec3{2, 0, 0}, Vec3{0, -2, 0}, Vec3{}}}) {

@@ -34,7 +34,8 @@ TEST(CurvedLayers, flux_along_a_boundary_layer) {
     const Vec3& x = mesh.face_centre[f];
     at_boundary.push_back(std::abs(x.z - depth / 2) < 1e-9 ? speed(depth_of_layer(x)) * unit({-x.y, x.x, 0}) : Vec3{});
   }
-  const LeastSquares squares(mesh, {Side::value, Side::value, Side::mirror});
+  const CellMoments moments(mesh);
+  const LeastSquares squares(mesh, moments, {Side::value, Side::value, Side::mirror});
   std::vector<Mat3> G(u.size());
   squares.gradient(u, at_boundary, G);
   double largest = 0;

@@ -17,13 +17,14 @@ class Homogeneous {
   Homogeneous(const std::string& model, const Mat3& gradient)
       : mesh_(structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {2, 2, 2}, {true, true, true})),
         boundary_(mesh_, {}),
+        workspace_(mesh_),
         flow(mesh_),
         turbulence_(read_turbulence(CaseFile::parse("[turbulence]\nmodel = \"" + model +
                                                     "\"\ntolerance = 1e-12\ninitial_k = \"0.3 m2/s2\"\ninitial_epsilon = \"0.6 m2/s3\"\n")
                                         .root())) {
     flow.dynamic_viscosity = 1e-12;  // (nu epsilon)^(1/2) is nothing against k
     std::fill(flow.velocity_gradient.begin(), flow.velocity_gradient.end(), gradient);
-    turbulence_->prepare(flow, boundary_);
+    turbulence_->prepare(flow, boundary_, workspace_);
     turbulence_->start(flow, boundary_);
   }
   void advance(double dt) {
@@ -38,6 +39,7 @@ class Homogeneous {
  private:
   Mesh mesh_;
   BoundarySet boundary_;
+  Workspace workspace_;
 
  public:
   Flow flow;

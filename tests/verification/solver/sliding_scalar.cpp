@@ -21,7 +21,8 @@ class CarriedScalar {
       : shells_{.rotor = {14, 2, 3}, .stator = {17, 3, 4}, .tetrahedra = tetrahedra},
         mesh_(ring_mesh(shells_)),
         solver_(make_solver()),
-        transport_(mesh_, solver_->boundary(), Side::slope),
+        workspace_(mesh_),
+        transport_(mesh_, solver_->boundary(), Side::slope, workspace_, 0),
         entering_(mesh_.n_faces - mesh_.n_interior, entering),
         zero_(mesh_.n_cells) {
     for (int c = 0; c < mesh_.n_all_cells(); ++c) phi.push_back(start(mesh_.cell_centre[c]));
@@ -34,7 +35,7 @@ class CarriedScalar {
     time_ = bdf(dt, solver_->flow.time_step > 0 ? dt : 0);
     solver_->advance(dt);
     older_ = old_, old_ = phi;
-    transport_.mesh_turned();
+    workspace_.mesh_turned(mesh_), transport_.mesh_turned();
     transport_.begin(solver_->flow, time_);
     const std::vector<double> gamma(mesh_.n_faces, diffusivity);
     for (int i = 0; i < guesses; ++i) {
@@ -85,6 +86,7 @@ class CarriedScalar {
   Shells shells_;
   Mesh mesh_;
   std::unique_ptr<FlowSolver> solver_;
+  Workspace workspace_;
   ScalarTransport transport_;
   std::vector<double> entering_, zero_, old_, older_;
   TimeScheme time_;
