@@ -25,7 +25,7 @@ constexpr Bytes gradient_pressure = gradient_scalar + Bytes{16, 0} + Bytes{8 + 8
 constexpr Bytes limiter{8 + 8 + 24 + 24, 4 + 24 + 72 + 8 + 8 + 24};  // faces of cells, x_f, d; u, G, psi, V, x_P
 
 // Momentum
-constexpr Bytes momentum_guess = Bytes{24, 144} + limiter;  // fluxes, copy of G; from the second corrector on
+constexpr Bytes momentum_guess = Bytes{24, 0} + limiter;  // fluxes; from the second corrector on
 constexpr Bytes momentum_rows{0, 8 + 8 + 24 + 24 + 48 + 48};
 constexpr Bytes momentum_faces{8 + 72 + 8 + 8 + 8 + 8 + 16, 48 + 48 + 72 + 8 + 24};  // S, d, x_f, w, F, mu, places, entries
 constexpr Bytes momentum_assembly = momentum_rows + momentum_faces;
@@ -35,33 +35,35 @@ constexpr Bytes pressure_mobility{8 + 8 + 8 + 8, 8 + 8 + 8};
 constexpr Bytes pressure_flux{8 + 8 + 72 + 8 + 8 + 8, 24 + 72 + 24 + 8 + 8 + 24};
 constexpr Bytes pressure_coefficients{8 + 48 + 8 + 16, 0};
 constexpr Bytes pressure_imbalance{8 + 8, 8 + 16};
-constexpr Bytes pressure_right_side{8 + 48 + 8, 8 + 8 + 16 + 8 + 24};
+constexpr Bytes pressure_right_side{0, 8 + 8};
+constexpr Bytes pressure_cross_flux{8 + 48 + 8 + 8, 16 + 24};  // not in the first solution
 constexpr Bytes pressure_new_flux{8 + 48 + 8 + 8 + 16, 8 + 8 + 24};
 constexpr Bytes pressure_new_cells{0, 48 + 8 + 24 + 16 + 8 + 48 + 24};
 constexpr Bytes pressure_once = pressure_mobility + pressure_flux + pressure_coefficients + pressure_imbalance + pressure_new_flux +
                                 gradient_pressure + pressure_new_cells;
-// A step of conjugate gradients: the operator face by face, and six operations with vectors.
-constexpr Bytes pressure_operator{8 + 8, 16 + 8 + 8 + 16 + 16};
-constexpr Bytes pressure_vectors{0, 24 + 16 + 24 + 24 + 8 + 16};
-// A cycle of multigrid, in single precision, passes three times over the matrix of each level: smoothing down and up, residual. Two entries
-// a face; row, b, diagonal, x read and written. Levels hold 1.6 times the entries of the finest (one level of aggressive coarsening);
-// prolongation and restriction one and a half entries a cell each.
+// A step of conjugate gradients: the operator face by face, and loops over vectors for r into the cycle, r.z, the direction, p.Ap, x and r.
+constexpr Bytes pressure_operator{8 + 8, 8 + 8 + 16};
+constexpr Bytes pressure_vectors{0, (8 + 4) + (8 + 4) + (4 + 16) + 16 + (16 + 8 + 16 + 8)};
+// A cycle of multigrid, in single precision, passes twice over the matrix of each level: down with the residual, and up. Two entries a
+// face; row, b, 1/D, x, residual. Levels hold 1.6 times the entries of the finest (one level of aggressive coarsening); prolongation and
+// restriction one and a half entries a cell each.
 constexpr double multigrid_complexity = 1.6;
-constexpr Bytes pressure_cycle = (multigrid_complexity * 3) * Bytes{2 * 8, 4 + 4 + 4 + 8} + 2 * Bytes{0, 1.5 * 8 + 4 + 8};
+constexpr Bytes pressure_cycle =
+    multigrid_complexity * (Bytes{2 * 8, 4 + 4 + 4 + 4 + 12} + Bytes{2 * 8, 4 + 4 + 4 + 8}) + 2 * Bytes{0, 1.5 * 8 + 4 + 8};
 constexpr Bytes pressure_iteration = pressure_operator + pressure_vectors + pressure_cycle;
 
 // Turbulence: k and epsilon
-constexpr Bytes turbulence_begin{24 + 8 + 8, 8 + 16 + 24};
+constexpr Bytes turbulence_rate{16 + 8, 8 + 24};  // in the first corrector
 constexpr Bytes turbulence_guess{0, 32 + 24 + 72 + 8};
 constexpr Bytes turbulence_diffusivity{8 + 8 + 8, 8};
 constexpr Bytes turbulence_sources{0, 40};
 constexpr Bytes turbulence_rows{0, 8 + 16 + 16 + 24};
-constexpr Bytes turbulence_faces{8 + 48 + 8 + 8 + 8 + 8 + 16, 8 + 24 + 16 + 16};
+constexpr Bytes turbulence_faces{8 + 48 + 8 + 8 + 16 + 8 + 16, 8 + 24 + 16 + 16};
 constexpr Bytes turbulence_scaling{32, 8 + 16 + 16 + 8 + 4 + 16};
 constexpr Bytes turbulence_viscosity{8 + 8 + 8, 16 + 8 + 8};
-constexpr Bytes turbulence_once = turbulence_guess + turbulence_viscosity +
-                                  2 * (turbulence_begin + turbulence_diffusivity + turbulence_sources + gradient_scalar + turbulence_rows +
-                                       turbulence_faces + turbulence_scaling);
+constexpr Bytes turbulence_once =
+    turbulence_guess + turbulence_viscosity +
+    2 * (turbulence_diffusivity + turbulence_sources + gradient_scalar + turbulence_rows + turbulence_faces + turbulence_scaling);
 
 // The rest of a step: guesses from the history with their rates and limiter, history of the fluxes before and after, Courant numbers.
 constexpr Bytes history_flux{8 + 8 + 72 + 16 + 8 + 24, 48 + 72 + 24};
@@ -80,9 +82,10 @@ Traffic traffic_of(const StepReport& step, double n_cells, double n_faces) {
   for (std::size_t i = 0; i < step.outer.size(); ++i) {
     const OuterReport& outer = step.outer[i];
     if (i > 0) traffic.momentum += bytes(momentum_guess);
+    if (i == 0) traffic.turbulence += bytes(turbulence_rate);
     traffic.momentum += bytes(momentum_assembly + outer.momentum.sweeps * sweep_vector);
     const int n_solves = outer.continuity.solves;
-    traffic.pressure += bytes(pressure_once + n_solves * pressure_right_side + (n_solves - 1) * gradient_pressure +
+    traffic.pressure += bytes(pressure_once + n_solves * pressure_right_side + (n_solves - 1) * (gradient_pressure + pressure_cross_flux) +
                               outer.continuity.iterations * pressure_iteration);
     traffic.turbulence += bytes(turbulence_once + outer.turbulence.sweeps() * sweep_scalar);
     traffic.rest += bytes(gradient_vector);
