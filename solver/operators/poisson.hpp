@@ -64,7 +64,7 @@ class Poisson {
   const Mesh& mesh_;
   Multigrid multigrid_;
   bool singular_;
-  std::span<const double> coefficient_;      // [n_faces]
+  std::span<const double> coefficient_;  // [n_faces]
   std::vector<double>&residual_, &p_, &Ap_;
   std::unique_ptr<Preconditioner> preconditioner_;
   bool rebuild_ = true;
