@@ -202,6 +202,7 @@ void TurningMesh::keep_reference() {
   }
   for (std::size_t n = 0; n < node_turns.size(); ++n)
     if (node_turns[n]) r.node.push_back(static_cast<int>(n));
+  unit_mesh_flux_ = taken(unit_mesh_flux_, r.face);
   r.cell_centre = taken(mesh_.cell_centre, r.cell), r.node_position = taken(mesh_.node, r.node);
   for (const auto& [kept, all] :
        {std::pair{&r.face_vector, &mesh_.face_vector}, std::pair{&r.face_centre, &mesh_.face_centre}, std::pair{&r.delta, &mesh_.delta}}) {
@@ -278,7 +279,7 @@ void TurningMesh::join(const std::vector<Facet>& facets) {
 
 void TurningMesh::set_mesh_flux(double omega, std::vector<double>& flux) const {
   flux.assign(static_cast<std::size_t>(mesh_.n_faces), 0);
-  for (std::size_t f = 0; f < unit_mesh_flux_.size(); ++f) flux[f] = omega * unit_mesh_flux_[f];
+  for (std::size_t i = 0; i < unit_mesh_flux_.size(); ++i) flux[reference_.face[i]] = omega * unit_mesh_flux_[i];
   for (std::size_t b = 0; b < unit_boundary_mesh_flux_.size(); ++b)
     flux[static_cast<std::size_t>(mesh_.n_interior) + b] = omega * unit_boundary_mesh_flux_[b];
 }

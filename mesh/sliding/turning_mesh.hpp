@@ -56,7 +56,7 @@ class TurningMesh {
     std::vector<Vec3> cell_centre, face_vector, face_centre, delta, node_position;
   };
   Turning reference_;
-  std::vector<double> unit_mesh_flux_, unit_boundary_mesh_flux_;  // at omega = 1 of [0, first_facet), of boundary faces
+  std::vector<double> unit_mesh_flux_, unit_boundary_mesh_flux_;  // at omega = 1 of Turning::face, of boundary faces
   std::vector<std::pair<std::int64_t, int>> cell_of_id_;          // of all local cells at the interface, sorted
 };
 
