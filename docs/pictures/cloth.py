@@ -1,10 +1,9 @@
-"""Pictures of the validation of cloth in water, as SVG: cloth.py PICTURE OUT.svg, PICTURE one of forced, layers, turning, spheres, bending, choices, limits, with SNAG_BINARY_DIR and SNAG_SOURCE_DIR set. Runs the cases
-of tests/cases and the test programs of the build folder (for turning, bending and limits), and draws what they find over exact solutions, theories and models; needs numpy, matplotlib, vtk. Takes one to five
+"""Pictures of the validation of cloth in water, as SVG: cloth.py PICTURE OUT.svg, PICTURE one of forced, layers, turning, spheres, bending, choices, with SNAG_BINARY_DIR and SNAG_SOURCE_DIR set. Runs the cases
+of tests/cases and the test programs of the build folder (for turning and bending), and draws what they find over exact solutions, theories and models; needs numpy, matplotlib, vtk. Takes one to five
 minutes a picture.
 
-Three kinds of runs are too long for that; what they found lies beside this script:
+Two kinds of runs are too long for that; what they found lies beside this script:
   cloth-channel.csv        nearly closed cloth across a channel: cloth.py channel cloth-channel.csv (ten minutes)
-  cloth-kernels.txt        what tests/cases/plate_across_long.py PlateAcrossLong.test_any_resistance_kernel_and_step prints (ten minutes)
   cloth-sphere-drag.txt    what tests/cases/sphere_drag_long.py prints (half an hour)"""
 import ast
 import contextlib
@@ -443,35 +442,12 @@ def choices():
     return figure
 
 
-def limits():
-    """Where a scheme with too long a step would ring, grow or heat up."""
-    figure, (kernels, energy) = plt.subplots(1, 2, figsize=(10, 3.8), gridspec_kw={"width_ratios": (1.5, 1)})
-    rows = re.findall(r"(\w+), K (\S+), (\S+) cells a step: (\S+), least (\S+), largest (\S+)", (HERE / "cloth-kernels.txt").read_text())
-    names, K = list(dict.fromkeys(row[0] for row in rows)), list(dict.fromkeys(row[1] for row in rows))
-    for name, of, cells, mean, least, largest in rows:
-        place, step = names.index(name) + 0.25 * (K.index(of) - 1), ("0.25", "1", "4").index(cells)
-        mean, least, largest = float(mean), float(least), float(largest)
-        is_first = name == names[0] and step == 1
-        kernels.errorbar(place + 0.06 * (step - 1), mean, [[mean - least], [largest - mean]], fmt="os^"[step], color=(BLUE, GREEN, RED)[K.index(of)], markersize=4, markerfacecolor="none", linewidth=1, label=f"K = {float(of):g}" if is_first else None)
-    for mark, cells in zip("os^", ("1/4", "1", "4")):
-        kernels.plot([], [], mark, color=GREY, markersize=4, markerfacecolor="none", label=f"{cells} of a cell a step")
-    kernels.set_xticks(range(len(names)), names)
-    kernels.set_ylim(0, 2.6)
-    label(kernels, "sheet of 100 mm across a stream, cells of 25 mm, kernel of 12 mm", "kernel", "drag coefficient: mean, least, largest", ncol=2)
-    found = numpy.array(printed("verification_dem", "PressedCloth.ComesToRestAtTheChosenStep", r"(\S+) s: kinetic energy (\S+) of m g r, strain (\S+); at a tenth of the step (\S+), (\S+)"), float)
-    time = 1e3 * found[:, 0]
-    for column, colour, line, name in ((1, BLUE, "-", "kinetic energy, chosen step"), (3, BLUE, "--", "kinetic energy, a tenth of it"), (2, RED, "-", "strain of 99 %, chosen step"), (4, RED, "--", "strain of 99 %, a tenth of it")):
-        energy.semilogy(time, found[:, column], line, color=colour, linewidth=1.2, label=name)
-    label(energy, "five layers of cloth pressed onto a floor", "time, ms", "energy over $m g r_p$, strain")
-    return figure
-
-
 if __name__ == "__main__":
     picture, out = sys.argv[1:]
     if picture == "channel":
         closed_channel(out)
     else:
         plt.rcParams.update({"font.size": 9, "svg.hashsalt": "snag"})
-        figure = {f.__name__: f for f in (forced, layers, turning, spheres, bending, choices, limits)}[picture]()
+        figure = {f.__name__: f for f in (forced, layers, turning, spheres, bending, choices)}[picture]()
         figure.tight_layout()
         figure.savefig(out, metadata={"Date": None})

@@ -136,6 +136,45 @@ void declare(Mat matrix, MPI_Comm comm, bool singular) {
   check_petsc(MatNullSpaceDestroy(&constants), "MatNullSpaceDestroy");
 }
 
+/// The matrix of these coefficients, for the preconditioner; the caller destroys it. Row by row: the sorting of coordinate lists took a
+/// twentieth of a pump's step.
+Mat assembled(const Mesh& mesh, std::span<const double> coefficient, bool singular) {
+  const PetscInt n = mesh.n_cells;
+  CellMatrix rows(mesh);
+  std::vector<double> diagonal(mesh.n_all_cells());
+  for (int f = 0; f < mesh.n_interior; ++f) {
+    const double k = coefficient[f];
+    rows.value[rows.place_of_owner[f]] = rows.value[rows.place_of_neighbour[f]] = -k;
+    diagonal[mesh.owner[f]] += k, diagonal[mesh.neighbour[f]] += k;
+  }
+  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) diagonal[mesh.owner[f]] += coefficient[f];
+
+  const auto number = global_numbers(mesh);
+  std::vector<PetscInt> column(rows.column.size()), n_own(n, 1), n_other(n, 0);
+  for (PetscInt c = 0; c < n; ++c) {
+    for (int e = rows.row_start[c]; e < rows.row_start[c + 1]; ++e) {
+      column[e] = number[rows.column[e]];
+      ++(rows.column[e] < n ? n_own : n_other)[c];
+    }
+  }
+  Mat matrix = nullptr;
+  check_petsc(MatCreate(mesh.comm, &matrix), "MatCreate");
+  check_petsc(MatSetSizes(matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
+  check_petsc(MatSetType(matrix, MATAIJ), "MatSetType");
+  check_petsc(MatXAIJSetPreallocation(matrix, 1, n_own.data(), n_other.data(), nullptr, nullptr), "MatXAIJSetPreallocation");
+  for (PetscInt c = 0; c < n; ++c) {
+    const int begin = rows.row_start[c];
+    // Added: two cells may meet in several facets.
+    check_petsc(MatSetValues(matrix, 1, &number[c], rows.row_start[c + 1] - begin, &column[begin], &rows.value[begin], ADD_VALUES),
+                "MatSetValues");
+    check_petsc(MatSetValue(matrix, number[c], number[c], diagonal[c], ADD_VALUES), "MatSetValue");
+  }
+  check_petsc(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
+  check_petsc(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
+  declare(matrix, mesh.comm, singular);
+  return matrix;
+}
+
 }  // namespace
 
 Poisson::Poisson(const Mesh& mesh, Multigrid multigrid, bool singular, const Arrays& arrays)
@@ -158,48 +197,9 @@ void Poisson::apply(std::span<const double> x) {
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) Ap_[mesh_.owner[f]] += coefficient_[f] * x[mesh_.owner[f]];
 }
 
-/// The matrix as it stands, for the preconditioner; the caller destroys it. Row by row: the sorting of coordinate lists took a twentieth of
-/// a pump's step.
-Mat Poisson::assembled() const {
-  const PetscInt n = mesh_.n_cells;
-  CellMatrix rows(mesh_);
-  std::vector<double> diagonal(mesh_.n_all_cells());
-  for (int f = 0; f < mesh_.n_interior; ++f) {
-    const double k = coefficient_[f];
-    rows.value[rows.place_of_owner[f]] = rows.value[rows.place_of_neighbour[f]] = -k;
-    diagonal[mesh_.owner[f]] += k, diagonal[mesh_.neighbour[f]] += k;
-  }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) diagonal[mesh_.owner[f]] += coefficient_[f];
-
-  const auto number = global_numbers(mesh_);
-  std::vector<PetscInt> column(rows.column.size()), n_own(n, 1), n_other(n, 0);
-  for (PetscInt c = 0; c < n; ++c) {
-    for (int e = rows.row_start[c]; e < rows.row_start[c + 1]; ++e) {
-      column[e] = number[rows.column[e]];
-      ++(rows.column[e] < n ? n_own : n_other)[c];
-    }
-  }
-  Mat matrix = nullptr;
-  check_petsc(MatCreate(mesh_.comm, &matrix), "MatCreate");
-  check_petsc(MatSetSizes(matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE), "MatSetSizes");
-  check_petsc(MatSetType(matrix, MATAIJ), "MatSetType");
-  check_petsc(MatXAIJSetPreallocation(matrix, 1, n_own.data(), n_other.data(), nullptr, nullptr), "MatXAIJSetPreallocation");
-  for (PetscInt c = 0; c < n; ++c) {
-    const int begin = rows.row_start[c];
-    // Added: two cells may meet in several facets.
-    check_petsc(MatSetValues(matrix, 1, &number[c], rows.row_start[c + 1] - begin, &column[begin], &rows.value[begin], ADD_VALUES),
-                "MatSetValues");
-    check_petsc(MatSetValue(matrix, number[c], number[c], diagonal[c], ADD_VALUES), "MatSetValue");
-  }
-  check_petsc(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyBegin");
-  check_petsc(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), "MatAssemblyEnd");
-  declare(matrix, mesh_.comm, singular_);
-  return matrix;
-}
-
 void Poisson::set_up_preconditioner() {
   preconditioner_.reset();
-  Mat matrix = assembled();
+  Mat matrix = assembled(mesh_, coefficient_, singular_);
   if (multigrid_ == Multigrid::boomeramg) {
     PC hierarchy = nullptr;
     check_petsc(PCCreate(mesh_.comm, &hierarchy), "PCCreate");

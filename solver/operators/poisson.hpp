@@ -9,8 +9,6 @@
 //
 // The operator is applied face by face, so that it follows a turning mesh at no cost; a matrix is assembled for the set-up of the
 // preconditioner only, which is repeated when iterations grow beyond 1.8 times those of a fresh one.
-#include <petscmat.h>
-
 #include <memory>
 #include <span>
 #include <vector>
@@ -56,7 +54,6 @@ class Poisson {
   class OwnCycle;
   class Gamg;
   void apply(std::span<const double> x);
-  Mat assembled() const;
   void set_up_preconditioner();
   const char* iterate(std::span<const double> b, std::vector<double>& x, double target, PoissonReport& report);
   void fix_level(std::span<double> x);

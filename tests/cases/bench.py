@@ -73,7 +73,7 @@ class Bench(harness.CaseTest):
 
     def test_coupling(self):
         """Each kernel: the parts make up the step, and the exchange loses nothing."""
-        run = self.bench("coupling", "--quick", "--steps", "1", ranks=2)
+        run = self.bench("coupling", "--quick", "--steps", "8", ranks=2)
         records = json.loads((run.folder / "bench.json").read_text())
         values = {record["name"]: record["value"] for record in records}
         self.assertEqual(len(values), len(records), "no name twice")
