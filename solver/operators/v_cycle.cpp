@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -106,8 +107,7 @@ VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest))
   for (PetscInt l = 0; l < n_levels; ++l) {
     const GlobalRows matrix(l == 0 ? finest : coarse[n_levels - 1 - l]);
     if (l > 0) check_petsc(MatDestroy(&coarse[n_levels - 1 - l]), "MatDestroy");
-    of_last = std::move(prolongation);
-    prolongation.reset();
+    of_last = std::exchange(prolongation, std::nullopt);
     std::optional<GlobalRows> restriction;
     if (l + 1 < n_levels) {
       Mat &interpolation = interpolations[n_levels - 2 - l], transposed = nullptr;
