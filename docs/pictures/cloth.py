@@ -1,9 +1,10 @@
-"""Pictures of the validation of cloth in water, as SVG: cloth.py PICTURE OUT.svg, PICTURE one of forced, layers, turning, spheres, bending, choices, with SNAG_BINARY_DIR and SNAG_SOURCE_DIR set. Runs the cases
-of tests/cases and the test programs of the build folder (for turning and bending), and draws what they find over exact solutions, theories and models; needs numpy, matplotlib, vtk. Takes one to five
+"""Pictures of the validation of cloth in water, as SVG: cloth.py PICTURE OUT.svg, PICTURE one of forced, layers, turning, spheres, bending, choices, limits, with SNAG_BINARY_DIR and SNAG_SOURCE_DIR set. Runs the cases
+of tests/cases and the test programs of the build folder (for turning, bending and limits), and draws what they find over exact solutions, theories and models; needs numpy, matplotlib, vtk. Takes one to five
 minutes a picture.
 
-Two kinds of runs are too long for that; what they found lies beside this script:
+Three kinds of runs are too long for that; what they found lies beside this script:
   cloth-channel.csv        nearly closed cloth across a channel: cloth.py channel cloth-channel.csv (ten minutes)
+  cloth-kernels.txt        what tests/cases/plate_across_long.py PlateAcrossLong.test_any_resistance_kernel_and_step prints (ten minutes)
   cloth-sphere-drag.txt    what tests/cases/sphere_drag_long.py prints (half an hour)"""
 import ast
 import contextlib
@@ -119,7 +120,7 @@ def forced():
         for delta, colour in ((0.016, BLUE), (0.008, RED)):
             for step, end, line in ((0.01, 0.3, "-"), (0.04, 2, "--")):
                 flow = test.across_a_channel(10, delta, step, end)
-                channel.plot(step * (1 + numpy.arange(len(flow))), flow, line, color=colour, linewidth=1, label=f"kernel {1e3 * delta:g} mm, steps of {1e3 * step:g} mm: {100 * (flow[-1] - 1):+.1f} %")
+                channel.plot(step * (1 + numpy.arange(len(flow))), flow, line, color=colour, linewidth=1, label=f"kernel {1e3 * delta:g} mm, steps of {1e3 * step:g} ms: {100 * (flow[-1] - 1):+.1f} %")
         for step, colour, line in ((0.0005, RED, "-"), (0.004, BLUE, "o")):
             rags = test.sheet(1000, 0.012, free_mass=plate_across.ADDED_MASS / plate_across.SIDE**2, end=0.048, step=step).monitor("rags")
             released.plot(1e3 * rags.column("time [s]"), rags.column("vx [m/s]"), line, color=colour, markersize=4, markerfacecolor="none", linewidth=1, label=f"kernel 12 mm, steps of {1e3 * step:g} ms")
@@ -442,12 +443,45 @@ def choices():
     return figure
 
 
+# Limits
+
+
+def limits():
+    """Any kernel, loss coefficient and step, and cloth that is pressed to a floor. Lines of the first test: `KERNEL, K K, CELLS cells a step: mean, least LEAST, largest LARGEST`."""
+    text = (HERE / "cloth-kernels.txt").read_text()
+    rows = re.findall(r"(\w+), K (\S+), (\S+) cells a step: (\S+), least (\S+), largest (\S+)", text)
+    kernels, coefficients = (list(dict.fromkeys(row[k] for row in rows)) for k in (0, 1))
+    figure, (drag, energy, strain) = plt.subplots(1, 3, figsize=(11, 3.6), gridspec_kw={"width_ratios": (1.5, 1, 1)})
+    marks = dict(zip(dict.fromkeys(row[2] for row in rows), ("o", "s", "^")))
+    for kernel, K, cells, *force in rows:
+        mean, least, largest = (float(value) for value in force)
+        k = coefficients.index(K)
+        x = kernels.index(kernel) + 0.27 * (k - 1) + 0.07 * (list(marks).index(cells) - 1)
+        first = kernel == kernels[0] and (k == 0 or cells == "1")
+        name = f"K = 1, {cells} cells a step" if k == 0 else f"K = {float(K):g}"
+        drag.errorbar(x, mean, [[mean - least], [largest - mean]], fmt=marks[cells], color=(BLUE, RED, GREEN)[k], markersize=3.5, markerfacecolor="none", linewidth=1, label=name if first else None)
+    drag.set_xticks(range(len(kernels)), kernels)
+    drag.set_ylim(0, 2)
+    label(drag, "sheet across a stream, last 40 of 100 steps", "", "drag coefficient: mean, least, largest", ncols=2)
+
+    found = numpy.array(printed("verification_dem", "PressedCloth.ComesToRest*", r"(\S+) s: kinetic energy (\S+) of m g r, strain (\S+); at a tenth of the step (\S+), (\S+)"), float)
+    for k, (colour, line, name) in enumerate(((BLUE, "-", "chosen sub-step"), (RED, "--", "a tenth of it"))):
+        energy.semilogy(1e3 * found[:, 0], found[:, 1 + 2 * k], line, color=colour, linewidth=1, label=name)
+        strain.plot(1e3 * found[:, 0], found[:, 2 + 2 * k], line, color=colour, linewidth=1, label=name)
+    energy.axhline(1e-6, color=GREY, linewidth=1, label="bound")
+    strain.axhspan(0.95 * found[-1, 4], 1.05 * found[-1, 4], color="0.9", zorder=0, label="within 5 %")
+    strain.set_ylim(0.05, 0.075)
+    label(energy, "five layers pressed onto a floor", "time, ms", r"kinetic energy over $m g r_p$")
+    label(strain, "the same: strain of 99 %", "time, ms", "strain", loc="lower right")
+    return figure
+
+
 if __name__ == "__main__":
     picture, out = sys.argv[1:]
     if picture == "channel":
         closed_channel(out)
     else:
         plt.rcParams.update({"font.size": 9, "svg.hashsalt": "snag"})
-        figure = {f.__name__: f for f in (forced, layers, turning, spheres, bending, choices)}[picture]()
+        figure = {f.__name__: f for f in (forced, layers, turning, spheres, bending, choices, limits)}[picture]()
         figure.tight_layout()
         figure.savefig(out, metadata={"Date": None})
