@@ -81,11 +81,11 @@ class DiscInATunnel(harness.CaseTest):
 
     def test_drag(self):
         table = tomllib.loads((FOLDER / "measured.toml").read_text())["disc_D1"]
-        radius, rigid, speed, C, heavy = 0.037, 2.24, 10, 15, 1  # m, C_D, m/s, 1, kg/m2
+        radius, speed, C, heavy = 0.037, 10, 15, 1  # m, m/s, 1, kg/m2
         mesh = self.shared / "tunnel.msh"
         across = graded_box.axis(-0.09, 0.09, (-0.0425, 0.0425), SIZE, 1.2)
         graded_box.write(mesh, (graded_box.axis(0, 0.54, (0.165, 0.24), SIZE, 1.2), across, across))
-        disc = cut_disc.Disc(radius, pressure=rigid * 0.5 * DENSITY * speed**2)
+        disc = cut_disc.Disc(radius, pressure=table["C_D"] * 0.5 * DENSITY * speed**2)
         case = self.case(in_mesh(mesh, disc.cloth(C, 99, heavy, PLACE)))
         run = self.run_case(case, 1, *(word for s in in_stream(speed) for word in ("--set", s)), timeout=5400)
         reconfiguration = late_drag(run) / (disc.pressure * math.pi * radius**2)
