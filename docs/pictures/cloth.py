@@ -289,11 +289,12 @@ def spheres():
             if points:
                 of.semilogx(*zip(*points), mark, color=colour, markersize=5, markerfacecolor="none", linestyle="-", linewidth=0.5, label=f"{cells:g} cells" if cells != 1 else "1 cell")
         of.axhline(0, color=GREY, linewidth=1)
-        of.set_ylim(-1, 2)
+        of.set_ylim(-2, 2)
         label(of, kernel, "Re", "deviation of the speed, %" if kernel == "gaussian" else "", loc="upper right", title="diameter of", title_fontsize=7)
-    for Re, cells, keys, error in rows:
-        if keys.get("kernel") == "wendland" and "wall" not in keys:
-            axes[0].plot(Re, error, "*", color=marks[cells][1], markersize=7, label=f"{cells:g} cells, wendland")
+    for cells, (_, colour) in marks.items():
+        points = [(Re, error) for Re, d, keys, error in rows if d == cells and keys.get("kernel") == "wendland" and "wall" not in keys]
+        if points:
+            axes[0].plot(*zip(*points), "*", color=colour, markersize=7, label=f"{cells:g} cells, wendland")
     axes[0].legend(frameon=False, fontsize=7, loc="upper right", title="diameter of", title_fontsize=7)
 
     distance = numpy.linspace(0.7, 4, 100)
