@@ -148,7 +148,11 @@ std::string shared_text(MPI_Comm comm, const std::filesystem::path& file) {
 }  // namespace
 
 CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const std::filesystem::path& folder)
-    : comm_(comm), folder_(folder), observables_(experiment.observables), picture_size_(picture_size_of(experiment)) {
+    : comm_(comm),
+      folder_(folder),
+      observables_(experiment.observables),
+      picture_size_(picture_size_of(experiment)),
+      first_seed_(experiment.seed) {
   if (!folder_.empty()) program_ = program_fingerprint(comm_);
   for (std::size_t p = 0; p < experiment.points.size(); ++p) {
     const OperatingPoint& point = experiment.points[p];
@@ -213,7 +217,10 @@ CaseChange CaseSimulator::change_of(const RunRequest& request) const {
   std::erase_if(of_case, [this](const auto& input) { return !is_of_case(input.first); });
   const PointCase& base = points_.at(static_cast<std::size_t>(request.point)).base;
   // The points are compared as if what is chance at one had no part in another. Whole runs of a pump forget how they began.
-  constexpr std::uint64_t seeds_of_a_point = 1000;
+  if (request.seed >= first_seed_ + seeds_of_a_point)
+    throw Error(ExitCode::usage, "seed " + std::to_string(request.seed) + " is beyond the " + std::to_string(seeds_of_a_point) +
+                                     " of a point that begin at " + std::to_string(first_seed_) +
+                                     " ([budget] seed); ask for fewer runs a state");
   const std::uint64_t own = base.is_whole_run() ? 0 : seeds_of_a_point * static_cast<std::uint64_t>(request.point);
   return base.change(request.effects, of_case, request.seed + own, request.forms);
 }

@@ -21,6 +21,9 @@ namespace snag {
 
 class CaseSimulator final : public Simulator {
  public:
+  /// From that of the experiment on: the runs of another point have others.
+  static constexpr std::uint64_t seeds_of_a_point = 1000;
+
   /// `folder`: holds the runs that were done before by the same program, in runs.tsv and runs/, and takes those to come; empty: nothing is
   /// stored on disk, and cases with a mesh are refused. Runs of the table that the experiment names count whatever program made them.
   /// Collective over all ranks of the program; throws Error(usage, io) that names the case.
@@ -35,7 +38,7 @@ class CaseSimulator final : public Simulator {
   int n_runs() const override { return n_runs_; }
   int n_used() const override { return static_cast<int>(used_.size()); }
   int n_imported() const override;
-  /// What a run changes of the base case of its point.
+  /// What a run changes of the base case of its point. Throws Error(usage) for a seed that is one of another point.
   CaseChange change_of(const RunRequest& request) const;
   /// The case of a run with all its keys and its time step, to be read from any folder. Collective over all ranks; throws Error.
   std::string resolved_case(const RunRequest& request);
@@ -73,6 +76,7 @@ class CaseSimulator final : public Simulator {
   std::filesystem::path folder_;
   std::vector<Observable> observables_;
   double picture_size_;  // m
+  std::uint64_t first_seed_;
   std::vector<Point> points_;
   std::vector<Effect> effects_;
   std::vector<Nuisance> nuisances_;

@@ -126,6 +126,20 @@ TEST_F(CaseSimulatorTest, AnswersBeforeTheFirstSample) {
   EXPECT_LT(x[1], x[2]);
 }
 
+/// Requirement: no run of a point has the seed of a run of another point.
+TEST_F(CaseSimulatorTest, PointsHaveSeedsOfTheirOwn) {
+  experiment_.seed = 7;
+  const CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  RunRequest request = with("turbulent_dispersion", 1);
+  std::set<std::vector<std::string>> changes;
+  const std::uint64_t last = experiment_.seed + CaseSimulator::seeds_of_a_point - 1;
+  for (request.point = 0; request.point < 2; ++request.point)
+    for (request.seed = experiment_.seed; request.seed <= last; ++request.seed)
+      EXPECT_TRUE(changes.insert(simulator.change_of(request).overrides).second) << request.point << ", " << request.seed;
+  request.point = 0, request.seed = last + 1;
+  EXPECT_THROW(static_cast<void>(simulator.change_of(request)), Error);
+}
+
 /// Requirement: a camera's scale multiplies lengths; a calibration shifts them by its uncertainty; neither takes a run of its own.
 TEST_F(CaseSimulatorTest, Camera) {
   CaseSimulator simulator(MPI_COMM_WORLD, experiment_);

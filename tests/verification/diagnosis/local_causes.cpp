@@ -3,9 +3,12 @@
 // Requirement: an effect that acts from a time on only is named with that time, and one that acts all the time is not called local.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
+#include "diagnosis/attribution/local_causes.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
@@ -39,6 +42,35 @@ TEST(LocalCauses, NamedWithTheirOnset) {
   std::printf("%d of %d named, %d of them within 3 sd\n", named, n, within);
   EXPECT_GE(named, n - 1);
   EXPECT_GE(within, named - 1);
+}
+
+/// Requirement: each of three turns brings the places of a profile nearer, and where the data are so good that one place has all the
+/// evidence, the onset is not said to be known better than the places stand apart.
+TEST(LocalCauses, TheOnsetIsKnownAsWellAsItsPlacesStand) {
+  constexpr double duration = 0.8, spacing = duration / 9, of_profile = 0.5 * spacing, even = 3.464101615137755;  // 12^(1/2)
+  Gate gate;
+  gate.effect = "lift", gate.from = 0.333;
+  const Experiment experiment = formula::experiment({.effects = {{"lift", 1.5}}, .gate = gate}, 3, 1, 1, 1e-6, 8200);
+  std::map<int, LocalCause> found;  // by turns that are allowed
+  for (const int allowed : {0, 1, 9}) {
+    formula::Sphere sphere(experiment, false, false, true);
+    Responses model(experiment, sphere);
+    Fitter fitter(model);
+    const auto& effects = model.effects();
+    const auto lift = std::find_if(effects.begin(), effects.end(), [](const Effect& effect) { return effect.name == "lift"; });
+    const GateFamily family{.axis = -1, .is_upwards = true, .low = 0, .high = duration};
+    const ScannedLocal scanned{.effect = static_cast<int>(lift - effects.begin()), .family = family, .place = 4 * spacing, .theta = 1};
+    const int local = model.add_local(scanned.effect, family.at(scanned.place));
+    int turns = 0;
+    const LocalFit fit = fit_local_cause(model, fitter, local, scanned, [&](int) { return turns++ < allowed; });
+    EXPECT_EQ(turns, std::min(allowed + 1, 3));
+    found[allowed] = fit.cause;
+    std::printf("%d turns allowed: lift from %.5f +- %.5f s on, truth %.5f\n", allowed, fit.cause.mean, fit.cause.sd, gate.from);
+  }
+  EXPECT_NEAR(found[0].sd / (of_profile / even), 1, 1e-9);
+  EXPECT_NEAR(found[1].sd / (0.4 * of_profile / even), 1, 1e-9);
+  EXPECT_NEAR(found[9].sd / (0.4 * 0.4 * 0.4 * of_profile / even), 1, 1e-9);
+  for (const auto& [turns, cause] : found) EXPECT_LT(std::abs(cause.mean - gate.from), 3 * cause.sd) << turns;
 }
 
 TEST(LocalCauses, WhatActsAllTheTimeIsNotLocal) {
