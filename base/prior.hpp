@@ -11,12 +11,17 @@ enum class Need {
   gradient,    // of the velocity
   turbulence,  // k and epsilon
   sheet,       // bonds in two directions
+  fibre,       // bonds in one direction
   bonds,
   solid_fraction,  // of a computed flow
   gravity,
   contact,
-  several,  // particles
-  hertz,    // contacts by the law of Hertz
+  several,    // particles
+  hertz,      // contacts by the law of Hertz
+  pipe,       // [pipe_flow], of water that is not computed
+  bend,       // of that pipe
+  crumple,    // a piece that starts crumpled by a pipe
+  averaging,  // over a width that the case gives
 };
 
 /// theta = 0 is the base model to the bit. A force is switched on by its name in [coupling] forces with theta at `key`.

@@ -70,11 +70,13 @@ void KeyChanges::scale(const std::string& key, double factor) {
 }
 
 void KeyChanges::add(const std::string& key, const std::vector<double>& added) {
-  for (const KeyNode& node : nodes_of(root_, key)) {
-    std::vector<double>& sum = changes_.emplace(node.key, Change{node.value}).first->second.added;
-    sum.resize(added.size(), 0);
-    for (std::size_t i = 0; i < added.size(); ++i) sum[i] += added[i];
-  }
+  for (const KeyNode& node : nodes_of(root_, key)) add(node, added);
+}
+
+void KeyChanges::add(const KeyNode& node, const std::vector<double>& added) {
+  std::vector<double>& sum = changes_.emplace(node.key, Change{node.value}).first->second.added;
+  sum.resize(added.size(), 0);
+  for (std::size_t i = 0; i < added.size(); ++i) sum[i] += added[i];
 }
 
 std::vector<std::string> KeyChanges::overrides() const {

@@ -36,6 +36,7 @@ class KeyChanges {
   /// Of the numbers that the case has at a key. What is added has one number, or as many as the key.
   void scale(const std::string& key, double factor);
   void add(const std::string& key, const std::vector<double>& added);
+  void add(const KeyNode& node, const std::vector<double>& added);
   std::vector<std::string> overrides() const;
 
  private:

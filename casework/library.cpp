@@ -6,6 +6,7 @@
 #include "base/parameter_text.hpp"
 #include "base/words.hpp"
 #include "casework/point_case.hpp"
+#include "coupling/candidates.hpp"
 #include "coupling/fluid_force.hpp"
 #include "dem/candidates.hpp"
 
@@ -44,7 +45,8 @@ std::vector<CatalogueEffect> all_of_cases() {
     if (description.prior)
       all.push_back({.name = name, .prior = *description.prior, .is_force = name != "gravity", .forms = forms_of(*force)});
   }
-  for (const Candidate& candidate : dem_candidates()) all.push_back(setting_effect(candidate));
+  for (const auto& candidates : {dem_candidates(), coupling_candidates()})
+    for (const Candidate& candidate : candidates) all.push_back(setting_effect(candidate));
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return all;
 }
@@ -60,6 +62,8 @@ const char* reason_against(Need need, const CaseFeatures& facts) {
       return facts.turbulence ? "" : "the flow has no turbulence";
     case Need::sheet:
       return facts.sheet ? "" : "there is no sheet";
+    case Need::fibre:
+      return facts.fibre ? "" : "there is no fibre";
     case Need::bonds:
       return facts.bonds ? "" : "there are no bonds";
     case Need::solid_fraction:
@@ -70,6 +74,14 @@ const char* reason_against(Need need, const CaseFeatures& facts) {
       return facts.wall || facts.several ? "" : "nothing can touch";
     case Need::hertz:
       return facts.hertz ? "" : "contacts are no spheres of Hertz";
+    case Need::pipe:
+      return facts.pipe ? "" : "there is no [pipe_flow], or its water is computed";
+    case Need::bend:
+      return facts.bend ? "" : "there is no bend in [pipe_flow], or its water is computed";
+    case Need::crumple:
+      return facts.crumple ? "" : "no piece starts crumpled by a pipe";
+    case Need::averaging:
+      return facts.averaging ? "" : "there is no [coupling] kernel_width over which water of cells is averaged";
     case Need::several:
       return facts.several ? "" : "there is one particle";
   }
@@ -116,7 +128,7 @@ std::vector<std::string> CatalogueEffect::overrides(double theta, int form, std:
     const std::string text = base(key);
     if (text.empty() && setting.with.empty()) continue;  // no such piece
     std::from_chars(text.data(), text.data() + text.size(), before);
-    all.push_back(key + "=" + toml_text(setting.is_relative ? before * (1 + theta) : std::max(0.0, before + theta)));
+    all.push_back(key + "=" + toml_text(setting.is_relative ? before * (1 + theta) : before + theta));
   }
   all.insert(all.end(), setting.with.begin(), setting.with.end());
   return all;

@@ -65,10 +65,19 @@ CaseFeatures facts_of(const toml::table& root, const Simulation& run) {
     n += rag.n_particles;
     facts.bonds = facts.bonds || rag.n_bonds > 0;
     facts.sheet = facts.sheet || (rag.n_columns > 1 && rag.n_rows > 1);
+    facts.fibre = facts.fibre || (rag.n_particles > 1 && std::min(rag.n_columns, rag.n_rows) == 1);
   }
   facts.several = n > 1, facts.oriented = n > 1;
+  facts.pipe = facts.prescribed && run.pipe_flow().is_there(), facts.bend = facts.pipe && run.pipe_flow().has_bend();
+  facts.averaging = run.mesh && value("coupling.kernel_width_m") != nullptr && root["coupling"]["kernel"].value_or(std::string()) != "cell";
+  for (const RagPiece& piece : run.rags->pieces())
+    facts.crumple = facts.crumple || (piece.plan.crumpled() && piece.plan.confine_radius > 0);
   facts.hertz = root["contact"]["law"].value_or(std::string()).starts_with("hertz");
   return facts;
+}
+
+bool is_drag_replacement(const std::string& force) {
+  return fluid_forces().make(force, "diagnosis")->description().role == Role::drag_replacement;
 }
 
 std::vector<std::string> listed_forces(const toml::table& root) {
@@ -106,11 +115,12 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
   facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
+  pipe_flow_ = run.pipe_flow();
   has_passage_ = run.passage->geometry().has_value(), has_exit_ = run.observe_settings.has_exit();
   forces_ = listed_forces(tree_->root);
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {
-    drag_is_replaced_ = drag_is_replaced_ || fluid_forces().make(name, "diagnosis")->description().role == Role::drag_replacement;
+    drag_is_replaced_ = drag_is_replaced_ || is_drag_replacement(name);
     const std::string key = "coupling." + name + ".drag_factor";
     if (!nodes_of(tree_->root, key).empty()) drag_factors_.push_back(key);
   }
@@ -203,6 +213,14 @@ class PointCase::Edit final : public RunEdit {
   const CaseFeatures& base() const override { return point_.facts_; }
   void set(const std::string& text) override { keys_.set(text); }
   void scale(const std::string& key, double factor) override { keys_.scale(key, factor); }
+  void add(const std::string& key, const Vec3& vector) override { keys_.add(key, {vector.x, vector.y, vector.z}); }
+  void move_pieces_inside(double way) override {
+    for (const char* key : piece_places)
+      for (const KeyNode& node : nodes_of(point_.tree_->root, key)) {
+        const Vec3 to = way * point_.pipe_flow_.inside_at(vector_of(node.value, {}));
+        keys_.add(node, {to.x, to.y, to.z});
+      }
+  }
   void turn_pieces(double angle) override { turn_ += angle; }
   void scale_picture(double factor, int axis) override {
     change_.picture_scale *= factor;
@@ -236,7 +254,7 @@ class PointCase::Edit final : public RunEdit {
   void add_deviation(const std::string& name, double deviation) {
     if (name == flow_field) return scale_flow(1 + deviation);
     if (name != drag_law_uncertainty && name != drag_law_uncertainty_per_point) return scale(name, 1 + deviation);
-    if (point_.drag_is_replaced_)
+    if (point_.drag_is_replaced_ || replaces_drag_)
       drag_ *= 1 + deviation;
     else
       for (const std::string& key : point_.drag_factors_) scale(key, 1 + deviation);
@@ -268,6 +286,7 @@ class PointCase::Edit final : public RunEdit {
 
  private:
   void add_force(const std::string& name) {
+    replaces_drag_ = replaces_drag_ || is_drag_replacement(name);
     if (std::find(forces_.begin(), forces_.end(), name) == forces_.end()) forces_.push_back(name);
   }
 
@@ -275,8 +294,9 @@ class PointCase::Edit final : public RunEdit {
   KeyChanges keys_;
   std::vector<std::string> forces_;
   std::size_t n_base_forces_;
-  double turn_ = 0;  // rad
-  double drag_ = 1;  // factor on drag that replaces the particles' own
+  double turn_ = 0;             // rad
+  bool replaces_drag_ = false;  // an added force does
+  double drag_ = 1;             // factor on drag that replaces the particles' own
   CaseChange change_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/case_file.hpp"
+#include "coupling/pipe_flow.hpp"
 #include "diagnosis/data/own_candidate.hpp"
 #include "diagnosis/effects/effect_model.hpp"
 #include "observe/observables.hpp"
@@ -94,10 +95,11 @@ class PointCase {
   std::string resolved_, sha256_;
   std::unique_ptr<Tree> tree_;  // of resolved_
   CaseFeatures facts_;
+  PipeFlow pipe_flow_;
   bool crumpled_ = false;          // a piece starts crumpled, by its seed
   bool drag_is_replaced_ = false;  // a law of the sheet stands in for that of its particles, whose factor is without effect then
   bool restarts_ = false;
-  bool has_passage_ = false, has_exit_ = false;                   // [rag_passage]; an exit plane in [virtual_camera]
+  bool has_passage_ = false, has_exit_ = false;  // [rag_passage]; an exit plane in [virtual_camera]
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
   std::map<std::string, OwnCandidate> own_candidates_;            // by name

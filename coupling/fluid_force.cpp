@@ -1,5 +1,6 @@
 #include "coupling/fluid_force.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/words.hpp"
@@ -77,6 +78,7 @@ SphereLoad load_on_sphere(const FluidForce& force, const SphereState& state) {
   rag.radius = d / 2, rag.hydrodynamic_diameter = d, rag.hydrodynamic_volume = volume, rag.mass = state.particle_density * volume;
   rag.inertia = 0.1 * rag.mass * d * d;
   const Tile tile = tile_of_sphere(state);
+  rag.n_particles = std::count(tile.exists.begin(), tile.exists.end(), 1.0);
 
   UniformFields fields(tile.field_size);
   const auto& G = state.velocity_gradient;

@@ -56,6 +56,21 @@ void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& neede
   }
 }
 
+void PrescribedField::add_modes(const VectorSum& u_at, const std::array<VectorSum, 3>& G_at, const Tile& tile) const {
+  const int begin = tile.index(0, 0), end = tile.index(tile.nx, tile.ny - 1);
+  const double speed = flow_.pipe_speed();
+  for (int p = begin; p < end; ++p) {
+    const Vec3 x = tile.vector(Tile::x, p);
+    u_at.add(p, flow_.pipe.velocity(x, speed));
+    if (!needed_.velocity_gradient) continue;
+    const Mat3 G = flow_.pipe.gradient(x, speed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 row = flow_.gradient[i] + G[i];
+      G_at.at(i).x[p] = row.x, G_at.at(i).y[p] = row.y, G_at.at(i).z[p] = row.z;
+    }
+  }
+}
+
 FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed) {
   const double t = time_ + elapsed;
   Vec3 uniform, rate;  // the part of u that is the same everywhere, and its time derivative
@@ -77,6 +92,7 @@ FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double ela
     const Vec3 u = uniform + G * Vec3{x[p], y[p], z[p]};
     u_at.x[p] = u.x, u_at.y[p] = u.y, u_at.z[p] = u.z;
   }
+  if (flow_.pipe.changes_water()) add_modes(u_at, G_at, tile);
   const auto array = [](const VectorSum& v) { return VectorArray{v.x, v.y, v.z}; };
   FluidSamples fluid{.density = flow_.density,
                      .dynamic_viscosity = viscosity_,

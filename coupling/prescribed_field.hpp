@@ -1,13 +1,14 @@
 #pragma once
 // A flow that is given as a formula and feels nothing: single spheres and fibres without a mesh.
 //
-//   u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(omega_i t + phase_i)
+//   u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(omega_i t + phase_i) + modes of [pipe_flow]
 //   k(x) = max(k_0 + x . grad k, 0),   epsilon uniform
 //   Du/Dt = du/dt + G u,    grad p = -rho Du/Dt + mu lap u = -rho Du/Dt      (beside the hydrostatic)
 //
 // Evaluated where the particles are at every sub-step.
 #include "coupling/fluid_field.hpp"
 #include "coupling/particle_list.hpp"
+#include "coupling/pipe_flow.hpp"
 
 namespace snag {
 
@@ -21,8 +22,11 @@ struct PrescribedFlow {
   Vec3 amplitude, omega, phase;                                  // m/s, rad/s, rad
   double turbulent_kinetic_energy = 0, dissipation_rate = 0;     // k at the origin, m2/s2; epsilon, m2/s3
   Vec3 turbulent_kinetic_energy_gradient;                        // m/s2
+  PipeFlow pipe;                                                 // a table of its own
 
   Section section();
+  /// U of the pipe, m/s.
+  double pipe_speed() const { return dot(velocity, pipe.axis); }
   /// Throws Error(usage) if both viscosities are given.
   double viscosity() const;  // mu, Pa s
 };
@@ -36,6 +40,9 @@ class PrescribedField final : public FluidField {
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
 
  private:
+  /// Those of the pipe, to velocities and gradients at the places of a tile.
+  void add_modes(const VectorSum& u_at, const std::array<VectorSum, 3>& G_at, const Tile& tile) const;
+
   PrescribedFlow flow_;
   double viscosity_, time_ = 0;
   SampleSet needed_;

@@ -97,6 +97,12 @@ void accelerations(const FormulaSource& source, double factor, double* const* a_
     const Vec3 a = rate + G * Vec3{u.x[p], u.y[p], u.z[p]};
     a_at[0][p] = factor * a.x, a_at[1][p] = factor * a.y, a_at[2][p] = factor * a.z;
   }
+  const PipeFlow& pipe = source.flow.pipe;
+  if (!pipe.changes_water()) return;
+  for (int p = source.begin; p < source.end; ++p) {
+    const Vec3 a = pipe.gradient(source.position[p], source.flow.pipe_speed()) * u[p];
+    a_at[0][p] += factor * a.x, a_at[1][p] += factor * a.y, a_at[2][p] += factor * a.z;
+  }
 }
 
 double k_of(const FormulaSource& source, int p) {

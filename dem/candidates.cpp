@@ -39,7 +39,16 @@ std::vector<Candidate> dem_candidates() {
                      .maximum = 9,
                      .needs = {Need::bonds}},
            .is_relative = true,
-           .of_force = "reconfiguration"}};
+           .of_force = "reconfiguration"},
+          {.name = "crumple_size",
+           .prior = {.key = "rag.confine_radius_m",
+                     .meaning = "relative change of the radius to which the rag was crumpled",
+                     .mean = -0.15,
+                     .sd = 0.2,
+                     .minimum = -0.4,
+                     .maximum = 2,
+                     .needs = {Need::crumple}},
+           .is_relative = true}};
 }
 
 }  // namespace snag

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <vector>
 
 #include "base/words.hpp"
@@ -18,10 +19,24 @@ std::string strength_in_words(const Verdict& v, const std::string& name) {
   return " = " + rounded(e.mean) + " ± " + rounded(e.sd) + (e.unit == "1" ? "" : " " + e.unit);
 }
 
+/// Of causes whose strength says more than their name: before and after it.
+struct Words {
+  const char *before, *after;
+};
+const std::map<std::string, Words> words_of_cause{
+    {"swirl", {"swirl: the water swirls by ", " of its mean speed at the wall of the pipe"}},
+    {"flow_profile", {"flow_profile: the speed on the axis of the pipe is larger by ", " of the mean speed at the same flow rate"}},
+    {"bend_vortices", {"bend_vortices: the bend makes the water on the axis flow outwards by ", " of its mean speed"}},
+    {"start_offset", {"start_offset: the pieces start nearer the inside of the bend by ", ""}}};
+
 /// "lift", or "lift from 0.21 ± 0.01 s on".
 std::string cause_in_words(const Verdict& v, const std::string& name) {
   const auto found = v.local.find(name);
-  if (found == v.local.end()) return name;
+  if (found == v.local.end()) {
+    const auto words = words_of_cause.find(name);
+    const std::string strength = words == words_of_cause.end() ? "" : strength_in_words(v, name);
+    return strength.empty() ? name : words->second.before + strength.substr(std::string(" = ").size()) + words->second.after;
+  }
   const LocalCause& local = found->second;
   const std::string place = rounded(local.mean) + " ± " + rounded(local.sd) + " " + local.unit;
   if (local.coordinate == "t") return local.effect + " from " + place + " on";

@@ -95,13 +95,21 @@ void Simulation::read_mesh(const CaseFile& file) {
   mesh = kept->mesh, mesh_quality = kept->quality;
 }
 
+void Simulation::read_pipe_flow(const Table& root) {
+  if (!root.has("pipe_flow")) return;
+  read(root, pipe_flow_);
+  pipe_flow_.prepare();
+  if (!pipe_flow_.changes_water() || prescribed_ || start_settings_.frozen) return;
+  throw Error(ExitCode::usage, root.table("pipe_flow").where() +
+                                   " changes water that is computed, or there is none; remove swirl, profile and vortices, or give "
+                                   "[initial_flow] frozen = true or [flow] kind = \"prescribed\"");
+}
+
 void Simulation::build_water(const CaseFile& file) {
-  if (!mesh) {
-    if (!file.root().has("flow")) return;
-    prescribed_.emplace();
-    read(file.root(), *prescribed_);
-    return;
-  }
+  if (!mesh && file.root().has("flow")) read(file.root(), prescribed_.emplace());
+  read_pipe_flow(file.root());
+  if (prescribed_) prescribed_->pipe = pipe_flow_;
+  if (!mesh) return;
   FlowSettings settings;
   read(file.root(), settings);
   const auto gap_picture = std::filesystem::path(file.file()).replace_extension(".interface_gap.vtp");
@@ -312,6 +320,7 @@ std::string Simulation::start_water() {
     kept.as_started.emplace(water->flow);
   }
   scale_flow(water->flow, *kept.as_started, start_settings_.velocity_factor);
+  add_pipe_flow(water->flow, pipe_flow_);
   return log_message;
 }
 

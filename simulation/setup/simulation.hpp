@@ -5,6 +5,7 @@
 
 #include "base/case_file.hpp"
 #include "coupling/coupled_solver.hpp"
+#include "coupling/pipe_flow.hpp"
 #include "dem/contacts/contact_settings.hpp"
 #include "dem/holds.hpp"
 #include "dem/rag_system.hpp"
@@ -60,6 +61,8 @@ class Simulation {
   std::unique_ptr<CoupledSolver> coupling_of(const CaseFile& file);
   /// The water stays as [initial_flow] gives it.
   bool frozen() const { return start_settings_.frozen; }
+  /// [pipe_flow]; not there without that table.
+  const PipeFlow& pipe_flow() const { return pipe_flow_; }
   /// The case says that the water is laminar; it is not only for want of a model.
   bool laminar_asked() const { return laminar_asked_; }
   void save(CheckpointWriter& writer) const;
@@ -98,6 +101,7 @@ class Simulation {
  private:
   void read_mesh(const CaseFile& file);
   void build_water(const CaseFile& file);
+  void read_pipe_flow(const Table& root);
   void read_pump(const Table& root);
   void build_rags(const CaseFile& file);
   void couple(const CaseFile& file);
@@ -119,6 +123,7 @@ class Simulation {
   CachedFlow* cached_flow_ = nullptr;  // of the store, for frozen water
   std::string mesh_key_;               // of the store
   std::optional<PrescribedFlow> prescribed_;
+  PipeFlow pipe_flow_;
   std::unique_ptr<SpeedBounds> speed_bounds_;  // of the rags
   std::int64_t time_step_ = 0;
   double alone_seconds_ = 0;  // of water or rags without coupling

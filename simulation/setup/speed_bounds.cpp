@@ -29,7 +29,7 @@ double prescribed_speed(const PrescribedFlow& flow, const RagSystem& rags) {
   for (const Tile& tile : rags.tiles())
     for_particles(tile, [&](int k, int, int) { reach = std::max(reach, norm(tile.vector(Tile::x, k))); });
   for (const Vec3& row : flow.gradient) gradient += norm_squared(row);
-  return norm(flow.velocity) + norm(flow.amplitude) + std::sqrt(gradient) * maximum(rags.comm(), reach);
+  return (1 + flow.pipe.largest_share()) * norm(flow.velocity) + norm(flow.amplitude) + std::sqrt(gradient) * maximum(rags.comm(), reach);
 }
 
 }  // namespace

@@ -114,6 +114,47 @@ TEST_F(CaseSimulatorTest, EffectsChangeTheRun) {
   }
 }
 
+/// Requirement: what a case with a pipe, a bend and a fibre can show beyond others: at zero the base model to the bit, else another run;
+/// and the start moves towards the inside of the bend where the piece is, together with a candidate that moves it.
+TEST_F(CaseSimulatorTest, EffectsOfAPipe) {
+  std::string text = swung_sphere;
+  const std::size_t piece = text.find("[[particle]]"), coupling = text.find("[coupling]");
+  text.replace(piece, coupling - piece, R"([[fibre]]
+length_m = 0.03
+n_points = 6
+density_kg_m3 = 1150
+centre_m = [0.0, -0.5, 0.02]
+[pipe_flow]
+point_m = [0.3, 0.0, 0.0]
+radius_m = 0.1
+bend_radius_m = 0.3
+bend_angle_rad = 1.5707963267948966
+)");
+  text.replace(text.find("velocity_m_s = [0.1, 0, 0]"), 26, "velocity_m_s = [0.1, 0.1, 0]");
+  if (rank_of(MPI_COMM_WORLD) == 0) std::ofstream(folder_ / "pipe.toml") << text;
+  MPI_Barrier(MPI_COMM_WORLD);
+  for (OperatingPoint& point : experiment_.points) point.case_file = folder_ / "pipe.toml", point.input_u = {{"flow.amplitude", 0.05}};
+  experiment_.own_candidates = {{.effect = {.name = "start_x"}, .key = "fibre.centre_m", .unit = 1, .direction = Vec3{1, 0, 0}}};
+  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
+  std::map<std::string, const Effect*> effects;
+  for (const Effect& effect : simulator.effects()) effects[effect.name] = &effect;
+  const auto base = values(simulator, RunRequest());
+  for (const char* name : {"fibre_drag", "swirl", "flow_profile", "bend_vortices", "start_offset", "start_place", "start_spin"}) {
+    EXPECT_EQ(effects.at(name)->blind, "") << name;
+    EXPECT_EQ(values(simulator, with(name, 0)), base) << name;
+    if (std::string(name) != "bend_vortices") {
+      EXPECT_NE(values(simulator, with(name, effects.at(name)->mean)), base) << name;
+    }
+  }
+  for (const char* name : {"averaging_length", "crumple_size"}) EXPECT_NE(effects.at(name)->blind, "") << name;
+  EXPECT_EQ(simulator.change_of(with("swirl", -0.2)).overrides, std::vector<std::string>{"pipe_flow.swirl=-0.2"});
+  RunRequest both = with("start_offset", 0.01);
+  both.effects["start_x"] = 0.02;
+  const auto moved = simulator.change_of(both).overrides;  // before the bend its inside is on the side of x
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_TRUE(moved[0].starts_with("fibre.0.centre_m=[0.03")) << moved[0];
+}
+
 /// Requirement: a run answers before the first sample of a path too, at its start and half-way: a clock that starts early looks there.
 TEST_F(CaseSimulatorTest, AnswersBeforeTheFirstSample) {
   CaseSimulator simulator(MPI_COMM_WORLD, experiment_);

@@ -149,20 +149,48 @@ TEST(Forces, CandidatesAreTheBaseModelAtZero) {
       for (const auto& parameter : force.parameters())
         if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose(form);
       const bool on_drag = force.description().role != Role::force;
-      const SphereState s = slanted_state();
-      const SphereLoad base = on_drag ? base_load(s) : SphereLoad{};
       for (const double extreme : {prior.minimum, prior.maximum}) set_strength(force, name, extreme);
-      set_strength(force, name, 0);
-      const SphereLoad none = load_on_sphere(force, s);
-      EXPECT_EQ(none.force, base.force);
-      EXPECT_EQ(none.torque, base.torque);
-      EXPECT_EQ(none.slope, base.slope);
-      EXPECT_EQ(none.added_mass, base.added_mass);
-      set_strength(force, name, prior.mean);
-      const SphereLoad there = load_on_sphere(force, s);
-      EXPECT_TRUE(norm(there.force - base.force) > 0 || norm(there.torque) > 0);
+      bool is_seen = false;
+      for (const bool is_cloth : {true, false}) {
+        SphereState s = slanted_state();
+        if (!is_cloth) s.next_row = {};  // a fibre
+        const SphereLoad base = on_drag ? base_load(s) : SphereLoad{};
+        set_strength(force, name, 0);
+        const SphereLoad none = load_on_sphere(force, s);
+        EXPECT_EQ(none.force, base.force);
+        EXPECT_EQ(none.torque, base.torque);
+        EXPECT_EQ(none.slope, base.slope);
+        EXPECT_EQ(none.added_mass, base.added_mass);
+        set_strength(force, name, prior.mean);
+        const SphereLoad there = load_on_sphere(force, s);
+        is_seen = is_seen || norm(there.force - base.force) > 0 || norm(there.torque) > 0;
+      }
+      EXPECT_TRUE(is_seen);
     }
   });
+}
+
+// Requirement: what comes along the axis of a fibre does not change the drag across it (independence principle of Taylor 1952), cloth and
+// spheres keep their drag, and along the axis each form has its law: of a swept layer 5.4 Re^(-1/2) cos(i) sin(i)^(1/2) of rho U^2 d/2.
+TEST(Forces, DragOfAFibreByItsAxis) {
+  const auto law = fluid_forces().make("fibre_drag", "test");
+  SphereState s;
+  s.next_in_row = {s.diameter, 0, 0};
+  const double across = 0.5, rho = s.fluid_density, d = s.diameter;
+  for (const auto& parameter : law->parameters())
+    if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose("swept");
+  for (const double along : {0.0, 0.5, 5.0}) {
+    s.fluid_velocity = {along, across, 0};
+    const double Re = rho * std::hypot(along, across) * d / s.dynamic_viscosity, sine = across / std::hypot(along, across);
+    const double pressure = 0.5 * rho * (along * along + across * across) * d * d;
+    const Vec3 F = load_on_sphere(*law, s).force;
+    EXPECT_NEAR(F.y, pressure * (1.1 * sine * sine + 4 / std::sqrt(Re) * std::pow(sine, 1.5)), 1e-12 * F.y) << along;
+    EXPECT_NEAR(F.x, pressure * 5.4 / std::sqrt(Re) * std::sqrt((1 - sine * sine) * sine), 1e-12 * F.y) << along;
+    EXPECT_EQ(F.z, 0);
+  }
+  SphereState cloth = s, sphere = s;
+  cloth.next_row = {0, s.diameter, 0}, sphere.next_in_row = {};
+  for (const SphereState& other : {cloth, sphere}) EXPECT_EQ(load_on_sphere(*law, other).force, base_load(other).force);
 }
 
 // Requirement: the slope given for the implicit step is what a stable step needs: not negative, finite at rest, and F = K w for a drag.

@@ -15,6 +15,8 @@ struct Recorded final : RunEdit {
   const CaseFeatures& base() const override { return facts; }
   void set(const std::string& text) override { changes[text] = 1; }
   void scale(const std::string& key, double factor) override { changes.emplace(key, 1).first->second *= factor; }
+  void add(const std::string& key, const Vec3& vector) override { changes[key] += norm(vector); }
+  void move_pieces_inside(double way) override { changes["inside"] = way; }
   void turn_pieces(double angle) override { changes["turn"] = angle; }
   void scale_picture(double factor, int axis) override { changes["picture " + std::to_string(axis)] = factor; }
   CaseFeatures facts;
@@ -39,7 +41,8 @@ TEST(Effects, RegistryHoldsTheFolder) {
 /// Requirement: an effect of a case that can show it changes its run, and says for every other case why it cannot be shown.
 TEST(Effects, WhatCanBeSeenChangesARun) {
   CaseFeatures all;
-  for (bool CaseFeatures::*fact : {&CaseFeatures::flows, &CaseFeatures::uniform, &CaseFeatures::varies, &CaseFeatures::oriented})
+  for (bool CaseFeatures::*fact : {&CaseFeatures::flows, &CaseFeatures::uniform, &CaseFeatures::varies, &CaseFeatures::oriented,
+                                   &CaseFeatures::pipe, &CaseFeatures::bend})
     all.*fact = true;
   for (const std::string& name : effect_models().names()) {
     const Effect effect = effect_models().make(name, "test")->effect(all);

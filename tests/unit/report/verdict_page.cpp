@@ -38,6 +38,12 @@ TEST(VerdictPage, AttributedCauseIsOnHand) {
   EXPECT_FALSE(holds(page, "more repeats"));
 }
 
+TEST(VerdictPage, WaterOfAPipeInWords) {
+  EXPECT_EQ(verdict_sentence(of(VerdictKind::effects, Wording::attributed, {"swirl"}, 0.999)),
+            "The gap comes from swirl: the water swirls by 0.48 ± 0.02 of its mean speed at the wall of the pipe: attributed, probability "
+            "over 99 %.");
+}
+
 TEST(VerdictPage, SuspectedCauseIsCheckedFirst) {
   Verdict v = of(VerdictKind::effects, Wording::suspected, {"lift"}, 0.999);
   v.improved.files = {"case_with_effects_A.toml", "case_with_effects_B.toml"};
