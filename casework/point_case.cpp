@@ -117,6 +117,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
   pipe_flow_ = run.pipe_flow();
   has_passage_ = run.passage->geometry().has_value(), has_exit_ = run.observe_settings.has_exit();
+  has_hold_ = run.holds != nullptr;
   forces_ = listed_forces(tree_->root);
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
   for (const std::string& name : forces_) {
@@ -181,6 +182,8 @@ std::string PointCase::reason_against(const ObservableRecord& observable) const 
     case Needs::planes:
       if (is_whole_run()) return has_passage_ ? "" : "it is defined by the flanges in [rag_passage], which the case lacks";
       return has_exit_ ? "" : "it is defined by the exit plane in [virtual_camera], which the case lacks";
+    case Needs::hold:
+      return has_hold_ ? "" : "it is the force of a [[hold]], which the case lacks";
     case Needs::nothing:
       break;
   }

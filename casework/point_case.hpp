@@ -100,6 +100,7 @@ class PointCase {
   bool drag_is_replaced_ = false;  // a law of the sheet stands in for that of its particles, whose factor is without effect then
   bool restarts_ = false;
   bool has_passage_ = false, has_exit_ = false;  // [rag_passage]; an exit plane in [virtual_camera]
+  bool has_hold_ = false;
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
   std::map<std::string, OwnCandidate> own_candidates_;            // by name

@@ -44,10 +44,11 @@ class Reading {
 
 /// What kind of number it is: how a camera's scale changes it, and how it is averaged. The last three are of the whole run, the others of a
 /// time.
-enum class Measure { position, velocity, area, ratio, axis_angle, duration, count, event };
+enum class Measure { position, velocity, area, ratio, axis_angle, force, duration, count, event };
 
-/// What of the case defines it: nothing more; planes through which a piece comes in and goes out; the flanges and the tongue of a pump.
-enum class Needs { nothing, planes, pump };
+/// What of the case defines it: nothing more; planes through which a piece comes in and goes out; the flanges and the tongue of a pump; a
+/// hold.
+enum class Needs { nothing, planes, pump, hold };
 
 struct ObservableRecord {
   const char* id;

@@ -85,6 +85,16 @@ TEST(ObservableSources, ANewSourceIsReadInMemory) {
   EXPECT_EQ(seen[4], 7);
 }
 
+/// Requirement: the force of a hold on what hangs from it is its weight, and runs without a hold have none.
+TEST(ObservableSources, ForceOfAHold) {
+  const double mass = 1150 * 4. / 3 * std::acos(-1.) * std::pow(2.5e-3, 3);
+  const std::string held = std::string(falling_sphere) + "[[hold]]\nparticles = [0]\n";
+  const auto seen = run_in_memory(CaseFile::parse(held), {{"force_x", 0.05}, {"force_z", 0.05}});
+  EXPECT_NEAR(seen[0], 0, 1e-12 * mass);
+  EXPECT_NEAR(seen[1], 9.81 * mass, 1e-9 * mass);
+  EXPECT_TRUE(std::isnan(run_in_memory(CaseFile::parse(falling_sphere), {{"force_z", 0.05}})[0]));
+}
+
 /// Requirement: a run in a folder answers an observable of the whole run by the source's own function, not a number where the run lacks it.
 TEST(ObservableSources, ANewSourceIsReadInAFolder) {
   const auto folder = std::filesystem::temp_directory_path() / "snag_observable_sources";
