@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/parameter_text.hpp"
+#include "base/units.hpp"
 #include "base/words.hpp"
 #include "casework/key_changes.hpp"
 #include "casework/library.hpp"
@@ -91,6 +92,51 @@ std::vector<std::string> listed_forces(const toml::table& root) {
   return names;
 }
 
+constexpr const char* of_geometry = "mesh.set.";
+
+std::vector<std::string> geometry_values(const toml::table& root) {
+  std::vector<std::string> values;
+  if (const auto* list = root["mesh"]["set"].as_array())
+    for (const toml::node& value : *list) values.push_back(value.value_or(std::string()));
+  return values;
+}
+
+/// Values of the geometry, "key=value" of [mesh] set, as numbers at mesh.set.KEY.
+void number_geometry(toml::table& root, const std::vector<std::string>& values) {
+  if (values.empty()) return;
+  std::string text;
+  for (const std::string& value : values) text += value + "\n";
+  try {
+    root["mesh"].as_table()->insert_or_assign("set", toml::parse(text));
+  } catch (const toml::parse_error&) {
+    return;  // words without quotes are for snag mesh alone
+  }
+}
+
+/// SI value of the unit that ends the name of such a number: they stand as they are given, "mesh.set.height_mm" in mm.
+double unit_of_geometry(const std::string& key) {
+  for (auto at = key.find('_', key.rfind('.') + 1); at != std::string::npos; at = key.find('_', at + 1))
+    if (const auto unit = parse_unit(unit_of_suffix(key.substr(at + 1)))) return unit->factor;
+  return 1;
+}
+
+/// Overrides of such numbers as one of their list.
+void gather_geometry(std::vector<std::string>& overrides, std::vector<std::string> values) {
+  bool is_changed = false;
+  const std::string prefix = of_geometry;
+  for (const std::string& text : overrides) {
+    if (!text.starts_with(prefix)) continue;
+    const std::string change = text.substr(prefix.size()), key = change.substr(0, change.find('='));
+    is_changed = true;
+    for (std::string& value : values)
+      if (value.substr(0, value.find_first_of(" =")) == key) value = change;
+  }
+  if (!is_changed) return;
+  std::erase_if(overrides, [&](const std::string& text) { return text.starts_with(prefix); });
+  for (std::string& value : values) value = toml_text(value);
+  overrides.push_back("mesh.set=[" + joined(values) + "]");
+}
+
 /// All ranks build a case whose water is computed; each builds the others for itself.
 MPI_Comm ranks_of(const CaseFile& file) {
   StartSettings start;
@@ -114,6 +160,8 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   case_file_ = read;
   resolved_ = read.resolved(), sha256_ = read.sha256();
   tree_->root = toml::parse(resolved_);
+  geometry_ = geometry_values(tree_->root);
+  number_geometry(tree_->root, geometry_);
   facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
   pipe_flow_ = run.pipe_flow();
   has_passage_ = run.passage->geometry().has_value(), has_exit_ = run.observe_settings.has_exit();
@@ -161,6 +209,7 @@ void PointCase::set_own_candidate(const OwnCandidate& candidate) {
       refuse("is a list of " + std::to_string(list->size()) + " numbers; say along which with direction = [..]");
     if (own.direction && (list == nullptr || list->size() != 3)) refuse("is no vector; leave direction out");
   }
+  if (own.key.starts_with(of_geometry)) own.unit /= unit_of_geometry(own.key);
   own_candidates_[own.effect.name] = std::move(own);
 }
 
@@ -283,6 +332,7 @@ class PointCase::Edit final : public RunEdit {
       set("coupling.forces=[" + joined(forces_) + "]");
     }
     change_.overrides = keys_.overrides();
+    gather_geometry(change_.overrides, point_.geometry_);
     if (turn_ != 0) point_.turn(turn_, change_.overrides);
     return std::move(change_);
   }

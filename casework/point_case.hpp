@@ -80,6 +80,7 @@ class PointCase {
   /// drag_law_uncertainty (all drag, alike at all points), drag_law_uncertainty_per_point (all drag, at each point on its own: Reynolds
   /// numbers far apart), or a number of the case by its resolved key, such as "particle.density_kg_m3".
   void check_nuisance(const std::string& key) const;
+  /// Of a generated mesh also a number of its geometry that [mesh] set gives, "mesh.set.tongue_gap": runs then have meshes of their own.
   /// Value of a number of the case, as TOML, "" if there is none; two points with equal values share its deviation.
   std::string value_of(const std::string& key) const;
 
@@ -101,6 +102,7 @@ class PointCase {
   bool restarts_ = false;
   bool has_passage_ = false, has_exit_ = false;  // [rag_passage]; an exit plane in [virtual_camera]
   bool has_hold_ = false;
+  std::vector<std::string> geometry_;                             // [mesh] set: "key=value"
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag
   std::map<std::string, std::vector<std::string>> alternatives_;  // by effect
   std::map<std::string, OwnCandidate> own_candidates_;            // by name

@@ -1,4 +1,5 @@
-// Geometry of casing and vane: a prescribed flow has none.
+// Geometry of casing and vane: a prescribed flow has none. Of a generated mesh each number that [mesh] set gives may be a candidate of the
+// experiment file, or an uncertain input, at mesh.set.NAME (casework/point_case.hpp): no single number stands for the geometry.
 #include "diagnosis/effects/effect_model.hpp"
 
 namespace snag {
@@ -17,7 +18,8 @@ struct Geometry final : EffectModel {
             .maximum = 4,
             .random = false,
             .acts_on_water = false,
-            .blind = base.prescribed ? "a prescribed flow has no casing" : "the geometry of a mesh is varied by cases of their own"};
+            .blind = base.prescribed ? "a prescribed flow has no casing"
+                                     : "name numbers of the mesh, such as mesh.set.tongue_gap, as a [[candidate]] or in input_u"};
   }
   void change(double, int, std::uint64_t, RunEdit&) const override {}
 };

@@ -17,7 +17,7 @@ struct Inlet final : EffectModel {
             .maximum = 2,
             .random = false,
             .acts_on_water = false,
-            .blind = base.prescribed ? "a prescribed flow has no inlet" : "the inlet of a mesh is varied by cases of their own"};
+            .blind = base.prescribed ? "a prescribed flow has no inlet" : "the inlet of a mesh is varied by an [[alternative]]"};
   }
   void change(double, int, std::uint64_t, RunEdit&) const override {}
 };

@@ -91,6 +91,31 @@ class MeshedDiagnosis(harness.CaseTest):
         self.assertEqual({file: file.stat().st_mtime_ns for file in runs}, made, "no run is made twice")
         self.assertEqual(again["probability"], verdict["probability"])
 
+    def test_geometry_is_a_candidate_and_an_uncertain_input(self):
+        """Numbers of a generated mesh: the runs of the candidate have meshes with another height, and what changes them is their length."""
+        geometry = ", ".join(f"'{value}'" for value in MESH[1:]).replace("=100", "=100.0")
+        text = self.channel("once", 0.5).read_text()
+        mesh = text[text.index("[mesh]") : text.index("[time]")]
+        (self.work / "A.toml").write_text(text.replace(mesh, f'[mesh]\ngeometry = "channel"\nset = [{geometry}]\n'))
+        (self.work / "data.csv").write_text("point,replicate,t_s,observable,value\n" + "".join(f"A,{r},{t},x,{x}\n" for t, x in ((0.01, 0.0851), (0.02, 0.0902)) for r in (1, 2)))
+        file = self.work / "DIAGNOSIS.toml"
+        point = '[[point]]\nid = "A"\ncase = "A.toml"\ninput_u = {{ "mesh.set.{input}" = 0.05 }}\n'
+        candidate = '[[candidate]]\nname = "height"\nkey = "mesh.set.height_mm"\nunit = "mm"\nmean = -5\nsd = 5\nminimum = -10\nmaximum = 15\n'
+        head = f'[experiment]\nname = "geometry"\ndata = "data.csv"\n[[observable]]\nid = "x"\nunit = "m"\nnoise_u = {NOISE["x"]}\n'
+        tail = candidate + '[model]\ncandidates = ["height"]\npairs = false\n[budget]\nmax_runs = 30\n'
+        file.write_text(head + point.format(input="width_mm") + tail)
+        self.diagnosed(file, 1)
+        sizes = set()
+        for run in (self.work / "out" / "runs").glob("run*/case.resolved.toml"):
+            values = [value for value in run.read_text().splitlines() if value.startswith("set = ")][0]
+            sizes.add(tuple(key for key in ("height_mm", "width_mm") if f"{key}=100.0" not in values))
+            self.assertIn("length_mm=300", values)
+        self.assertTrue({(), ("height_mm",), ("width_mm",)} <= sizes, sizes)
+        file.write_text(head + point.format(input="depth_mm") + tail)
+        run = harness.snag(["diagnose", file, "--out", self.work / "refused"], 1, self.work / "refused")
+        self.assertEqual(run.code, 2)
+        self.assertIn("mesh.set.depth_mm", run.tail())
+
 
 if __name__ == "__main__":
     harness.main()
