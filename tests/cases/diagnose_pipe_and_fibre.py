@@ -1,4 +1,4 @@
-# timeout: 600
+# timeout: 900
 # cost: 110
 """Requirement: swirl and profile of the water in a pipe, and drag of fibres by their axis, are found where they are what the data of other
 programs (tests/other_programs) hold, and are not named where something else is.
