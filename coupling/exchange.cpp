@@ -13,6 +13,12 @@ namespace {
 constexpr double momentum_tolerance = 1e-10;  // of what was exchanged
 }
 
+Exchange::Exchange(const Kernel& kernel, Flow& flow, bool two_way, bool screens)
+    : kernel_(kernel), flow_(flow), two_way_(two_way), screens_(screens) {
+  const auto n_cells = static_cast<std::size_t>(flow.mesh.n_cells);
+  flow.reaction.resize(n_cells), flow.solid_fraction.resize(n_cells);
+}
+
 ExchangeBalance Exchange::spread(const ParticleAmounts& amounts, double dt) {
   const Mesh& mesh = flow_.mesh;
   flow_.solid_fraction.assign(mesh.n_cells, 0.0);

@@ -24,9 +24,8 @@ struct ExchangeBalance {
 
 class Exchange {
  public:
-  /// `two_way`: with reaction; `screens`: with screens.
-  Exchange(const Kernel& kernel, Flow& flow, bool two_way, bool screens)
-      : kernel_(kernel), flow_(flow), two_way_(two_way), screens_(screens) {}
+  /// `two_way`: with reaction; `screens`: with screens. The flow gets both fields of rags, zero until spread().
+  Exchange(const Kernel& kernel, Flow& flow, bool two_way, bool screens);
 
   /// Sets solid fraction, screens and reaction of the flow from what the particles give over the step dt (s), and returns what was
   /// exchanged, for check_momentum. Collective.

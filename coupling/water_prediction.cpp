@@ -16,6 +16,9 @@ std::vector<Vec3> read_vectors(CheckpointReader& reader, const std::string& name
   for (std::size_t c = 0; c < vectors.size(); ++c) vectors[c] = {rows[3 * c], rows[3 * c + 1], rows[3 * c + 2]};
   return vectors;
 }
+
+/// N/m3, zero in water without rags.
+Vec3 force_of_rags(const Flow& flow, int cell) { return flow.reaction.empty() ? Vec3{} : flow.reaction[cell]; }
 }  // namespace
 
 WaterPrediction::WaterPrediction(const Flow& flow, double kernel_width) : flow_(flow) {
@@ -48,7 +51,7 @@ void WaterPrediction::predict(std::span<const int> cells) {
     Vec3 change, by_rags;
     if (known_) {
       change = (1 / scheme_.now) * (dt * turned(c, rate_[c]) - scheme_.old * u - scheme_.older * flow_.velocity_old[c]) - u;
-      by_rags = (dt / (scheme_.now * flow_.density)) * turned(c, flow_.reaction[c]);
+      by_rags = (dt / (scheme_.now * flow_.density)) * turned(c, force_of_rags(flow_, c));
     } else {
       change = turned(c, u) - u;
     }
@@ -69,7 +72,7 @@ void WaterPrediction::end_step() {
   rate_.resize(mesh.n_cells);
   for (int c = 0; c < mesh.n_cells; ++c) {
     const Vec3 difference = scheme_.now * flow_.velocity[c] + scheme_.old * flow_.velocity_old[c] + scheme_.older * flow_.velocity_older[c];
-    rate_[c] = (1 / scheme_.dt) * difference - (1 / flow_.density) * flow_.reaction[c];
+    rate_[c] = (1 / scheme_.dt) * difference - (1 / flow_.density) * force_of_rags(flow_, c);
   }
 }
 

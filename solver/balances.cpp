@@ -90,7 +90,7 @@ void Balances::add_cells(const Step& step) {
     zone.stored += stored;
     zone.lost_convection += torque(r, change) - stored;
     zone.lost_pressure += torque(r, V * flow.pressure_gradient[c]);
-    const Vec3 given = V * (flow.reaction[c] + flow.body_force);
+    const Vec3 given = V * ((flow.reaction.empty() ? Vec3{} : flow.reaction[c]) + flow.body_force);
     zone.given += torque(r, given);
 
     const double energy = 0.5 * inertia * (a0 * norm_squared(u) + a1 * norm_squared(u_old) + a2 * norm_squared(u_older));
@@ -113,7 +113,7 @@ void Balances::add_inner_faces(const Step& step) {
   std::array<MomentumFlux, block> flux;
   for (int first = 0; first < mesh_.n_interior; first += block) {
     const int n = std::min(block, mesh_.n_interior - first);
-    step.momentum.fluxes(flow, guess_, predicted_, first, std::span(flux).first(static_cast<std::size_t>(n)));
+    step.momentum.fluxes(flow, guess_, psi_, predicted_, first, std::span(flux).first(static_cast<std::size_t>(n)));
     for (int i = 0; i < n; ++i) {
       const int f = first + i, P = mesh_.owner[f], N = mesh_.neighbour[f];
       const Vec3 way = mesh_.face_centre[f] - mesh_.cell_centre[P], r = mesh_.face_centre[f] - origin_;

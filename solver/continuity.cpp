@@ -20,6 +20,11 @@ namespace {
 // Of the fluxes through a cell's faces: no solve can be asked for less than their rounding.
 constexpr double rounding = 1e-15;
 
+Poisson::Arrays working_arrays(Workspace& workspace) {
+  const auto array = [&](std::size_t part) { return workspace.scalar_in(workspace.vector[2], part); };
+  return {.residual = array(0), .direction = array(1), .product = array(2)};
+}
+
 }  // namespace
 
 Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings, Workspace& workspace)
@@ -28,7 +33,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       mesh_(mesh),
       settings_(settings),
       squares_(mesh, workspace.moments, boundary.pressure_sides()),
-      poisson_(mesh, settings.multigrid, !boundary.fixes_pressure(), {workspace.scalar[3], workspace.scalar[4], workspace.scalar[5]}),
+      poisson_(mesh, settings.multigrid, !boundary.fixes_pressure(), working_arrays(workspace)),
       coefficient_(mesh.n_faces),
       correction_(workspace.scalar[0]),
       imbalance_(workspace.scalar[1]),

@@ -46,7 +46,7 @@ struct ContinuityReport {
 
 class Continuity {
  public:
-  /// Of the workspace it uses the vectors and the scalars 0 to 5.
+  /// Of the workspace it uses the vectors and the scalars.
   Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings, Workspace& workspace);
 
   /// Pressure gradient and boundary pressure of flow.pressure as it is given (a start). Collective.

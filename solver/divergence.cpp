@@ -136,7 +136,8 @@ void DivergenceWatch::see_conditions(const Flow& flow, const BoundarySet& bounda
 void DivergenceWatch::see_forces(const Flow& flow) {
   Vec3 by_rags;  // N
   double volume = 0;
-  for (int c = 0; c < mesh_.n_cells; ++c) by_rags += mesh_.cell_volume[c] * flow.reaction[c], volume += mesh_.cell_volume[c];
+  for (int c = 0; c < mesh_.n_cells; ++c) volume += mesh_.cell_volume[c];
+  for (std::size_t c = 0; c < flow.reaction.size(); ++c) by_rags += mesh_.cell_volume[c] * flow.reaction[c];
   const Vec3 mean = sum(mesh_.comm, std::span<const Vec3>(&by_rags, 1)) / sum(mesh_.comm, volume);  // N/m3
   gained_speed_ += flow.time_step_size * norm(flow.body_force + mean) / flow.density;
   widen(gained_speed_, "forces on the water since the start");
@@ -248,7 +249,7 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
   if (shape.quality < poor_quality || shape.non_orthogonality_deg > oblique_faces || shape.skewness > skew_faces)
     causes.push_back("the mesh is poor at this cell: refine or optimise it there (quality above " + rounded(poor_quality) +
                      ", non-orthogonality below " + rounded(oblique_faces) + " degrees, skewness below " + rounded(skew_faces) + ")");
-  if (flow.reaction[found.cell] != Vec3{})
+  if (!flow.reaction.empty() && flow.reaction[found.cell] != Vec3{})
     causes.push_back("a rag is in this cell: a wider [coupling] kernel_width softens its force on the water");
   const auto scheme = convection_schemes().make(settings_.convection, "[flow] convection");
   if (!scheme->is_bounded() || (scheme->is_limited() && !limiters().make(settings_.limiter, "[flow] limiter")->bounds()))

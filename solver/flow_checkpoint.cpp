@@ -114,8 +114,10 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(flow.velocity_gradient_old).data(), 9);
   write_cells(checkpoint, "flow/pressure", mesh, flow.pressure.data(), 1);
   write_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient).data(), 3);
-  write_cells(checkpoint, "flow/reaction", mesh, flat(flow.reaction).data(), 3);
-  write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
+  if (sum(mesh.comm, static_cast<std::int64_t>(flow.reaction.size())) > 0)
+    write_cells(checkpoint, "flow/reaction", mesh, flat(flow.reaction).data(), 3);
+  if (sum(mesh.comm, static_cast<std::int64_t>(flow.solid_fraction.size())) > 0)
+    write_cells(checkpoint, "flow/solid_fraction", mesh, flow.solid_fraction.data(), 1);
   if (sum(mesh.comm, static_cast<std::int64_t>(flow.screen.size())) > 0)
     write_cells(checkpoint, "flow/screen", mesh, flow.screen.data(), 1);
   for (const StoredField& field : turbulence_->stored()) write_cells(checkpoint, "flow/" + field.name, mesh, field.values->data(), 1);
@@ -139,9 +141,12 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
   if (checkpoint.has("flow/boundary")) boundary_.restore_state(checkpoint.shared("flow/boundary"));
   load_water(checkpoint);
   // Owned cells only: these fields have no ghosts.
-  const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
-  std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
-  flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
+  if (checkpoint.has("flow/reaction")) {
+    const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
+    flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
+    std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
+  }
+  if (checkpoint.has("flow/solid_fraction")) flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
   if (checkpoint.has("flow/screen")) {
     flow.screen.resize(static_cast<std::size_t>(mesh.n_all_cells()));
     read_cells(checkpoint, "flow/screen", mesh, flow.screen, 1);

@@ -116,7 +116,7 @@ void FlowSolver::balance_body_force() {
   const TimeScheme unit_step{.dt = flow.density};  // mobility 1: the velocity below is an acceleration times the density
   const std::vector<Mat3> no_gradient(flow.velocity.size());
   const auto velocity = flow.velocity;
-  const auto reaction = std::exchange(flow.reaction, std::vector<Vec3>(flow.reaction.size()));
+  const auto reaction = std::exchange(flow.reaction, {});
   const auto values = boundary_.exchange_for_rest_state();
   for (int k = 0; k < static_correctors; ++k) {
     for (std::size_t c = 0; c < velocity.size(); ++c) flow.velocity[c] = flow.body_force - flow.pressure_gradient[c];
@@ -142,7 +142,6 @@ void FlowSolver::fields_follow_facets() {
   workspace_.mesh_turned(mesh);
   continuity_.history.mesh_turned();
   squares_.update();
-  momentum_.mesh_turned();
 }
 
 /// The mesh at the new time; shift the history, values of the boundary, first guesses.
@@ -182,7 +181,7 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
   if (outer > 0) momentum_.guess_from_last(flow);
   if (is_last && balances_) balances_->take_guess(flow);
   did.momentum = momentum_.predict(flow, boundary_, time);
-  if (is_last && balances_) balances_->take_prediction(flow);
+  if (is_last && balances_) balances_->take_prediction(flow, momentum_.limiter_factors());
   if (!(did.momentum.final <= exploded))
     watch_.fail(flow, boundary_, time.dt, "the momentum equation has a residual of " + scientific(did.momentum.final));
   if (!did.momentum.converged)

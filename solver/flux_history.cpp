@@ -5,21 +5,18 @@
 
 #include <algorithm>
 
-#include "base/room.hpp"
 #include "mesh/sliding/turning_mesh.hpp"
 #include "solver/fields/face.hpp"
 
 namespace snag {
 
 FluxHistory::FluxHistory(const Mesh& mesh, Workspace& workspace)
-    : deviation(mesh.n_faces), deviation_old(mesh.n_faces), mesh_(mesh), inherited_(mesh.n_faces), swept_(workspace.scalar[5]) {}
+    : deviation(mesh.n_faces), deviation_old(mesh.n_faces), mesh_(mesh), swept_(workspace.scalar_in(workspace.vector[0], 2)) {}
 
-void FluxHistory::mesh_turned() {
-  resize_facets(mesh_, deviation), resize_facets(mesh_, deviation_old), resize_with_room(inherited_, deviation.size());
-}
+void FluxHistory::mesh_turned() { resize_facets(mesh_, deviation), resize_facets(mesh_, deviation_old); }
 
-void FluxHistory::begin_step(const std::vector<double>& convection, const std::vector<double>& diffusion,
-                             const std::vector<double>& mesh_flux, const TimeScheme& time) {
+void FluxHistory::begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
+                             const TimeScheme& time) {
   std::fill(swept_.begin(), swept_.end(), 0.0);
   if (mesh_.turning.zone >= 0) {
     for (int f = 0; f < mesh_.n_faces; ++f) {
@@ -31,15 +28,15 @@ void FluxHistory::begin_step(const std::vector<double>& convection, const std::v
   const auto rate_of = [&](int c) { return (convection[c] + diffusion[c] + swept_[c]) / mesh_.cell_volume[c]; };
   for (int f = 0; f < mesh_.n_faces; ++f) {
     if (f == mesh_.first_facet) {  // facets inherit nothing
-      std::fill(inherited_.begin() + f, inherited_.begin() + mesh_.n_interior, 0.0);
+      std::fill(deviation_old.begin() + f, deviation_old.begin() + mesh_.n_interior, 0.0);
       f = mesh_.n_interior;
       if (f == mesh_.n_faces) break;
     }
     const int P = mesh_.owner[f], N = f < mesh_.n_interior ? mesh_.neighbour[f] : P;
     const double fading = 0.5 * (rate_of(P) + rate_of(N)) * time.dt;
     const double kept = std::clamp(2 - fading, 0.0, 1.0);
-    inherited_[f] = -kept * (time.old * deviation[f] + time.older * deviation_old[f] +
-                             fading * ((1 + time.ratio) * deviation[f] - time.ratio * deviation_old[f]));
+    const double psi = deviation[f], psi_old = deviation_old[f];
+    deviation_old[f] = -kept * (time.old * psi + time.older * psi_old + fading * ((1 + time.ratio) * psi - time.ratio * psi_old));
   }
 }
 

@@ -10,6 +10,7 @@
 // Without it psi would gather the differences between the pressure gradients of cells and faces for ever: in a drum that turns with its
 // water the velocity of the cells drifted outwards, and Coriolis' force took 5 % of the swirl in a turn. A face without history (of the
 // sliding interface) has psi = 0 and is as stable.
+#include <span>
 #include <vector>
 
 #include "solver/fields/flow.hpp"
@@ -20,27 +21,27 @@ namespace snag {
 
 class FluxHistory {
  public:
-  /// Of the workspace it uses the scalar 5 at the begin of a step.
+  /// Of the workspace it uses the last part of the vector 0 at the begin of a step.
   FluxHistory(const Mesh& mesh, Workspace& workspace);
 
   /// Again after the facets of the mesh have changed. Local.
   void mesh_turned();
   /// What a step inherits, a0 times psi at its end without pressure; `convection`, `diffusion`: their rates times the volume,
   /// [n_all_cells], m3/s; `mesh_flux` of the faces, m3/s. Collective.
-  void begin_step(const std::vector<double>& convection, const std::vector<double>& diffusion, const std::vector<double>& mesh_flux,
+  void begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
                   const TimeScheme& time);
   /// Keep psi of the step just done. `gradient` of velocity: that which its flux was formed with, else psi would gather the difference step
   /// by step.
   void end_step(const Flow& flow, const std::vector<Mat3>& gradient);
 
-  /// [n_faces], m3/s, times a0.
-  const std::vector<double>& inherited() const { return inherited_; }
-  std::vector<double> deviation, deviation_old;  // psi, [n_faces], m3/s; kept in the checkpoint
+  /// [n_faces], m3/s, times a0; from the begin of a step to its end.
+  const std::vector<double>& inherited() const { return deviation_old; }
+  std::vector<double> deviation, deviation_old;  // psi, [n_faces], m3/s; kept in the checkpoint. Within a step, from its begin to its end,
+                                                 // what is inherited has the place of the old one
 
  private:
   const Mesh& mesh_;
-  std::vector<double> inherited_;
-  std::vector<double>& swept_;  // by the faces of a cell, m3/s, [n_all_cells]
+  std::span<double> swept_;  // by the faces of a cell, m3/s, [n_all_cells]
 };
 
 }  // namespace snag

@@ -25,7 +25,6 @@
 
 #include <algorithm>
 
-#include "base/room.hpp"
 #include "mesh/skewness.hpp"
 #include "parallel/sum.hpp"
 #include "solver/convection/convection.hpp"
@@ -62,17 +61,15 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
       matrix_(workspace.matrix),
       diagonal_(workspace.vector[0]),
       right_side_(workspace.vector[1]),
-      convection_rate_(workspace.scalar[6]),
-      diffusion_rate_(workspace.scalar[7]),
-      flux_(mesh.n_faces),
-      psi_(mesh.n_all_cells(), Vec3{1, 1, 1}) {
+      psi_(workspace.vector[2]),
+      convection_rate_(workspace.scalar_in(workspace.vector[0], 0)),
+      diffusion_rate_(workspace.scalar_in(workspace.vector[0], 1)),
+      flux_(workspace.face) {
   std::vector<double> corner(static_cast<std::size_t>(mesh.n_all_cells()));
   for (const int c : corner_cells(mesh)) corner[c] = 1;
   mesh.halo.exchange(corner);
   in_corner_.assign(corner.begin(), corner.end());
 }
-
-void Momentum::mesh_turned() { resize_with_room(flux_, static_cast<std::size_t>(mesh_.n_faces)); }
 
 /// Fluxes with a share of their extrapolation. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are,
 /// so that the flux is that of the face as it lies now; facets have no psi.
@@ -115,13 +112,12 @@ double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, cons
     flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
   std::swap(flow.velocity_gradient, flow.velocity_gradient_old);
-  limit(flow);
   return share;
 }
 
 /// Rates of the owned cells from flux_ and the viscosity.
 void Momentum::set_rates(const Flow& flow) {
-  auto &convection = convection_rate_, &diffusion = diffusion_rate_;
+  const auto convection = convection_rate_, diffusion = diffusion_rate_;
   std::fill(convection.begin(), convection.end(), 0.0), std::fill(diffusion.begin(), diffusion.end(), 0.0);
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
@@ -148,7 +144,6 @@ double Momentum::flux_share(const Flow& flow, const TimeScheme& time) const {
 
 void Momentum::guess_from_last(const Flow& flow) {
   for (int f = 0; f < mesh_.n_faces; ++f) flux_[f] = flow.flux[f] - flow.mesh_flux[f];
-  limit(flow);
 }
 
 void Momentum::limit(const Flow& flow) {
@@ -159,21 +154,22 @@ void Momentum::limit(const Flow& flow) {
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
+  limit(flow);
   start_rows(flow, time);
-  scheme_->add_interior(inputs(flow, flow.velocity), {matrix_, diagonal_, right_side_});
+  scheme_->add_interior(inputs(flow, flow.velocity, psi_), {matrix_, diagonal_, right_side_});
   add_boundary(flow, boundary);
   const auto report = solve_rows<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
   record_boundary(flow, boundary);
   return report;
 }
 
-FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess) const {
-  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi_, .in_corner = in_corner_};
+FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi) const {
+  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi, .in_corner = in_corner_};
 }
 
-void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
-                      std::span<MomentumFlux> flux) const {
-  scheme_->fluxes(inputs(flow, guess), predicted, first, flux);
+void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi, const std::vector<Vec3>& predicted,
+                      int first, std::span<MomentumFlux> flux) const {
+  scheme_->fluxes(inputs(flow, guess, psi), predicted, first, flux);
 }
 
 void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
@@ -189,10 +185,11 @@ void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {
 /// Time derivative, pressure gradient and forces; N a cell.
 void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
   const double inertia = flow.density / time.dt;
+  const bool has_rags = !flow.reaction.empty();
   for (int c = 0; c < mesh_.n_cells; ++c) {
     const double V = mesh_.cell_volume[c], a = V * inertia * time.now;
     diagonal_[c] = {a, a, a};
-    right_side_[c] = V * (flow.reaction[c] + flow.body_force - flow.pressure_gradient[c] -
+    right_side_[c] = V * ((has_rags ? flow.reaction[c] : Vec3{}) + flow.body_force - flow.pressure_gradient[c] -
                           inertia * (time.old * flow.velocity_old[c] + time.older * flow.velocity_older[c]));
   }
   if (!flow.rotating_zone || flow.rotating_zone->slides()) return;

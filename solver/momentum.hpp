@@ -31,12 +31,10 @@ struct MomentumSettings {
 
 class Momentum {
  public:
-  /// Throws Error(usage) for an unknown scheme or limiter. Of the workspace it uses the matrix and the vectors in predict(), and from a
-  /// guess from the history to the begin of that step the scalars 6 and 7.
+  /// Throws Error(usage) for an unknown scheme or limiter. Of the workspace it uses the matrix and the vectors in predict(), the faces from
+  /// a guess to the correction that follows, and from a guess from the history to the begin of that step two parts of the vector 0.
   Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace& workspace);
 
-  /// Again after the facets of the mesh have changed. Local.
-  void mesh_turned();
   /// First guesses of a step from its history: u and the convecting flux extrapolated in time, and in flow.velocity_gradient the gradients
   /// for the explicit terms; that of the begin becomes the old one. `history`: how far fluxes were from their cells' velocities; used where
   /// faces turn. Returns the share of the flux's extrapolation, 0 at large steps. Collective.
@@ -51,15 +49,17 @@ class Momentum {
   /// fills flow.boundary_friction, boundary_convection. Collective.
   SweepReport predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
 
+  /// Factors of the limiter, [n_all_cells]; until the vectors of the workspace have other values, and of a scheme that has a limiter.
+  const std::vector<Vec3>& limiter_factors() const { return psi_; }
   /// Momentum through the interior faces first, first + 1 ... as it stood in the equation: `guess` is the velocity before predict(),
-  /// `predicted` that behind it; flow.velocity_gradient still is what it was then. Local.
-  void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
+  /// `predicted` that behind it, `psi` the factors of the limiter then; flow.velocity_gradient still is what it was. Local.
+  void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi, const std::vector<Vec3>& predicted, int first,
               std::span<MomentumFlux> flux) const;
   /// The convecting flux in force, relative to the mesh, [n_faces], m3/s.
   const std::vector<double>& convecting_flux() const { return flux_; }
   /// Rates of convection and of diffusion times the volume, [n_all_cells], m3/s, of the last guess from the history.
-  const std::vector<double>& convection_rate() const { return convection_rate_; }
-  const std::vector<double>& diffusion_rate() const { return diffusion_rate_; }
+  std::span<const double> convection_rate() const { return convection_rate_; }
+  std::span<const double> diffusion_rate() const { return diffusion_rate_; }
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
@@ -67,7 +67,7 @@ class Momentum {
   void set_rates(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
-  FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess) const;
+  FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi) const;
   void start_rows(const Flow& flow, const TimeScheme& time);
   void add_boundary(Flow& flow, const BoundarySet& boundary);
   void record_boundary(Flow& flow, const BoundarySet& boundary) const;
@@ -78,9 +78,9 @@ class Momentum {
   std::shared_ptr<const Limiter> limiter_;
   CellMatrix& matrix_;
   std::vector<Vec3>&diagonal_, &right_side_;  // [n_all_cells], the ghosts' parts are not used
-  std::vector<double>&convection_rate_, &diffusion_rate_;
-  std::vector<double> flux_;             // F, relative to the mesh, [n_faces], m3/s
-  std::vector<Vec3> psi_;                // limiter
+  std::vector<Vec3>& psi_;                    // limiter
+  std::span<double> convection_rate_, diffusion_rate_;
+  std::vector<double>& flux_;            // F, relative to the mesh, [n_faces], m3/s
   std::vector<std::uint8_t> in_corner_;  // [n_all_cells] 1 for cells in a corner
 };
 

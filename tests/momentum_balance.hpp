@@ -28,7 +28,7 @@ inline MomentumBalance momentum_balance(const FlowSolver& water) {
   for (int c = 0; c < mesh.n_cells; ++c) {
     balance.change += inertia * mesh.cell_volume[c] *
                       (time.now * flow.velocity[c] + time.old * flow.velocity_old[c] + time.older * flow.velocity_older[c]);
-    balance.given += mesh.cell_volume[c] * flow.reaction[c];
+    if (!flow.reaction.empty()) balance.given += mesh.cell_volume[c] * flow.reaction[c];
     volume += mesh.cell_volume[c];
   }
   balance.body = volume * flow.body_force;

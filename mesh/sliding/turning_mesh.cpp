@@ -263,6 +263,7 @@ void TurningMesh::join(const std::vector<Facet>& facets) {
   auto& start = mesh_.face_node_start;
   const int begin = start[static_cast<std::size_t>(mesh_.first_facet)];
   start.erase(start.begin() + mesh_.first_facet, start.begin() + n_old);
+  if (const std::size_t n = start.size() + facets.size(); n > start.capacity()) start.reserve(n + n / 64);
   start.insert(start.begin() + mesh_.first_facet, facets.size(), begin);
   mesh_.facet_share.resize(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i) {

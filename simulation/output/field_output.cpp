@@ -56,10 +56,14 @@ void FieldOutput::write(const Flow& flow) {
   const auto owned = [&](const std::string& name, const auto& values) {
     return vtk_array(name, std::span(values).first(static_cast<std::size_t>(n)), single_precision_);
   };
+  const auto of_rags = [&](const std::string& name, auto values) {  // a copy, zero without rags
+    values.resize(static_cast<std::size_t>(n));
+    return owned(name, values);
+  };
   piece_.cell_arrays = {owned("velocity [m/s]", flow.velocity),
                         owned("pressure [Pa]", flow.pressure),
-                        owned("solid_fraction [1]", flow.solid_fraction),
-                        owned("reaction [N/m3]", flow.reaction),
+                        of_rags("solid_fraction [1]", flow.solid_fraction),
+                        of_rags("reaction [N/m3]", flow.reaction),
                         {"rank [1]", 1, std::vector<double>(n, rank), true}};
   if (!flow.eddy_viscosity.empty())
     for (const auto& [name, values] :

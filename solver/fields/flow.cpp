@@ -18,8 +18,6 @@ Flow::Flow(const Mesh& m)
       boundary_pressure(m.n_faces - m.n_interior),
       boundary_friction(m.n_faces - m.n_interior),
       turning_friction(m.n_faces - m.n_interior),
-      boundary_convection(m.n_faces - m.n_interior),
-      reaction(m.n_cells),
-      solid_fraction(m.n_cells) {}
+      boundary_convection(m.n_faces - m.n_interior) {}
 
 }  // namespace snag

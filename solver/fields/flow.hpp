@@ -57,7 +57,7 @@ struct Flow {
                                             // model or C_mu^(1/4) k^(1/2); 0 elsewhere
   std::vector<std::uint8_t> wall_function;  // likewise: 1 where face_viscosity (u_P - u_w)/y is the shear of a wall function
 
-  // from the rags, [n_cells]
+  // from the rags, [n_cells], empty without
   std::vector<Vec3> reaction;          // f
   std::vector<double> solid_fraction;  // 1
   std::vector<double> screen;          // s, of cloth that eddies do not cross, 1/m, [n_all_cells]; empty without

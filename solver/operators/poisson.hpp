@@ -30,7 +30,7 @@ class Poisson {
  public:
   /// Arrays to work in while solving, [n_all_cells].
   struct Arrays {
-    std::vector<double>&residual, &direction, &product;
+    std::span<double> residual, direction, product;
   };
   /// `singular`: no boundary value is fixed; x is then taken with zero mean. Collective.
   Poisson(const Mesh& mesh, Multigrid multigrid, bool singular, const Arrays& arrays);
@@ -62,7 +62,7 @@ class Poisson {
   Multigrid multigrid_;
   bool singular_;
   std::span<const double> coefficient_;  // [n_faces]
-  std::vector<double>&residual_, &p_, &Ap_;
+  std::span<double> residual_, p_, Ap_;
   std::unique_ptr<Preconditioner> preconditioner_;
   bool rebuild_ = true;
   double fresh_cost_ = 0;  // iterations a decade after a set-up

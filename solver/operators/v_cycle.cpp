@@ -142,6 +142,7 @@ void VCycle::add_level(const GlobalRows& matrix, const GlobalRows* restriction, 
 
 void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from) {
   std::vector<std::pair<int, double>> row;
+  level.over_diagonal.reserve(static_cast<std::size_t>(level.n));
   for (int i = 0; i < level.n; ++i) {
     row.clear();
     double diagonal = 0;
@@ -160,7 +161,7 @@ void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRow
     level.matrix.end_row();
     level.over_diagonal.push_back(diagonal > 0 ? static_cast<Value>(1 / diagonal) : 0);
   }
-  level.matrix.fit();
+  level.matrix.fit(), level.ghost_matrix.shrink_to_fit();
 }
 
 template <int block>

@@ -2,8 +2,10 @@
 // What the equations of a step share: moments for gradients, and arrays that they use in turn. Momentum, pressure, turbulence: each of them
 // finds in these arrays what the last one left behind, fills what it needs, and is done with it when the next one begins.
 #include <array>
+#include <span>
 #include <vector>
 
+#include "base/flat.hpp"
 #include "base/room.hpp"
 #include "mesh/mesh.hpp"
 #include "solver/operators/cell_matrix.hpp"
@@ -22,11 +24,17 @@ struct Workspace {
     resize_with_room(face, static_cast<std::size_t>(mesh.n_faces));
   }
 
+  /// A scalar field in the place of a vector that is not in use: its part 0, 1 or 2; [n_all_cells].
+  std::span<double> scalar_in(std::vector<Vec3>& unused, std::size_t part) {
+    const std::size_t n = unused.size();
+    return flat(unused).subspan(part * n, n);
+  }
+
   CellMoments moments;
   // in turn
   CellMatrix matrix;
-  std::array<std::vector<double>, 8> scalar;  // [n_all_cells]
-  std::array<std::vector<Vec3>, 2> vector;    // [n_all_cells]
+  std::array<std::vector<double>, 3> scalar;  // [n_all_cells]
+  std::array<std::vector<Vec3>, 3> vector;    // [n_all_cells]
   std::vector<double> face;                   // [n_faces]
 };
 

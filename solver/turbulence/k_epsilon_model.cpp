@@ -15,7 +15,7 @@ void KEpsilonModel::prepare_walls(const Flow& flow, const BoundarySet& boundary)
 
 TurbulenceReport KEpsilonModel::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer) {
   begin_correction(flow, boundary, time, outer);
-  walls_.equilibrium(flow, boundary, k_.guess);
+  walls_.equilibrium(flow, boundary, *k_.guess);
   const auto set_diffusivity_over = [&](double sigma) {
     set_diffusivity(
         flow, [sigma](int) { return 1 / sigma; }, 1 / sigma);

@@ -30,7 +30,6 @@ ScalarTransport::ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, 
       matrix_(workspace.matrix),
       diagonal_(workspace.scalar[0]),
       right_side_(workspace.scalar[1]),
-      explicit_(workspace.scalar[2]),
       gradient_(workspace.vector.at(static_cast<std::size_t>(place))),
       known_(mesh.n_faces - mesh.n_interior) {
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch) {
@@ -49,7 +48,7 @@ SweepReport ScalarTransport::solve(const ScalarHistory& history, const ScalarTer
   start_rows(history, terms);
   add_interior(history.guess, terms.diffusivity);
   add_boundary(terms);
-  close_rows(history.guess, given);
+  scale_rows(history.guess, given);
   std::copy(history.guess.begin(), history.guess.end(), phi.begin());
   return solve_rows<double>(mesh_, matrix_, diagonal_, right_side_, phi, tolerance, max_sweeps, true);
 }
@@ -77,9 +76,9 @@ void ScalarTransport::start_rows(const ScalarHistory& history, const ScalarTerms
     const double V = mesh_.cell_volume[c];
     const bool collapsed = history.older[c] * time_.ratio > (1 + time_.ratio) * history.old[c];
     const TimeScheme time = collapsed ? TimeScheme{.dt = time_.dt} : time_;
-    diagonal_[c] = V * (time.now / time.dt + terms.sink[c]);
-    right_side_[c] = V * terms.production[c];
-    explicit_[c] = -V / time.dt * (time.old * history.old[c] + time.older * history.older[c]);
+    const double past = -V / time.dt * (time.old * history.old[c] + time.older * history.older[c]);
+    diagonal_[c] = V * (time.now / time.dt + terms.sink[c]) + std::max(-past, 0.0) / history.guess[c];
+    right_side_[c] = V * terms.production[c] + std::max(past, 0.0);
   }
 }
 
@@ -117,12 +116,8 @@ void ScalarTransport::add_boundary(const ScalarTerms& terms) {
   }
 }
 
-void ScalarTransport::close_rows(std::span<const double> guess, const GivenCells& given) {
+void ScalarTransport::scale_rows(std::span<const double> guess, const GivenCells& given) {
   for (int c = 0; c < mesh_.n_cells; ++c) {
-    if (explicit_[c] >= 0)
-      right_side_[c] += explicit_[c];
-    else
-      diagonal_[c] -= explicit_[c] / guess[c];
     const double scale = 1 / (diagonal_[c] * guess[c]);
     diagonal_[c] *= scale, right_side_[c] *= scale;
     for (int k = matrix_.row_start[c]; k < matrix_.row_start[c + 1]; ++k) matrix_.value[k] *= scale;

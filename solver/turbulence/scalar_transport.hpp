@@ -47,7 +47,7 @@ struct GivenCells {
 class ScalarTransport {
  public:
   /// `at_walls`: what gradients take for known there, Side::slope (zero) or Side::none. Of the workspace it uses the matrix, the scalars 0
-  /// to 2, and for its gradient the vector `place`. Collective.
+  /// and 1, and for its gradient the vector `place`. Collective.
   ScalarTransport(const Mesh& mesh, const BoundarySet& boundary, Side at_walls, Workspace& workspace, int place);
 
   /// Again after the mesh has turned. Collective.
@@ -56,7 +56,7 @@ class ScalarTransport {
   void begin(const Flow& flow, const TimeScheme& time) { flow_ = &flow, time_ = time; }
   /// Gradient of a first guess, [n_all_cells]; `entering` as in ScalarTerms. A solve() with the same guess takes it over. Collective.
   const std::vector<Vec3>& gradient(std::span<const double> guess, std::span<const double> entering);
-  /// Solve into phi, [n_all_cells], ghosts filled. `given` cells keep their value. Collective.
+  /// Solve into phi, [n_all_cells], ghosts filled; phi may be the array of the first guess. `given` cells keep their value. Collective.
   SweepReport solve(const ScalarHistory& history, const ScalarTerms& terms, const GivenCells& given, std::vector<double>& phi);
 
   double tolerance = 1e-8;  // root mean square of the relative changes of a sweep
@@ -66,7 +66,7 @@ class ScalarTransport {
   void start_rows(const ScalarHistory& history, const ScalarTerms& terms);
   void add_interior(std::span<const double> guess, std::span<const double> diffusivity);
   void add_boundary(const ScalarTerms& terms);
-  void close_rows(std::span<const double> guess, const GivenCells& given);
+  void scale_rows(std::span<const double> guess, const GivenCells& given);
   void known_at_boundary(std::span<const double> guess, std::span<const double> entering);
   double flux(int f) const { return flow_->flux[f] - flow_->mesh_flux[f]; }
   bool enters(std::size_t patch, int f) const { return open_[patch] && flux(f) < 0; }
@@ -77,10 +77,10 @@ class ScalarTransport {
   CellMatrix& matrix_;
   const Flow* flow_ = nullptr;
   TimeScheme time_;
-  std::vector<double>&diagonal_, &right_side_, &explicit_;  // [n_all_cells]
-  std::vector<Vec3>& gradient_;                             // [n_all_cells]
-  std::vector<double> known_;                               // at boundary faces, for gradients
-  bool gradient_is_new_ = false;                            // of the guess of the next solve()
+  std::vector<double>&diagonal_, &right_side_;  // [n_all_cells]
+  std::vector<Vec3>& gradient_;                 // [n_all_cells]
+  std::vector<double> known_;                   // at boundary faces, for gradients
+  bool gradient_is_new_ = false;                // of the guess of the next solve()
 };
 
 }  // namespace snag

@@ -62,8 +62,9 @@ void TwoEquationModel::prepare(Flow& flow, const BoundarySet& boundary, Workspac
   for (Scalar* scalar : {&k_, &phi_}) {
     scalar->equation->tolerance = tolerance_;
     scalar->entering.assign(n_boundary, 0);
-    for (auto* field : {scalar->now, &scalar->old, &scalar->older, &scalar->guess}) field->assign(n_all, 0);
+    for (auto* field : {scalar->now, &scalar->old, &scalar->older}) field->assign(n_all, 0);
   }
+  k_.guess = k_.now, phi_.guess = &workspace.scalar[2];
   flow.y_plus.assign(n_boundary, 0), flow.wall_function.assign(n_boundary, 0);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f)
@@ -131,10 +132,11 @@ void TwoEquationModel::begin_correction(Flow& flow, const BoundarySet& boundary,
   k_.equation->begin(flow, time), phi_.equation->begin(flow, time);
   set_entering(flow, boundary);
   guess(flow, time, outer);
-  set_eddy_viscosity(flow, k_.guess, phi_.guess);
-  set_hindrance(flow, k_.guess);
+  set_eddy_viscosity(flow, *k_.guess, *phi_.guess);
+  set_hindrance(flow, *k_.guess);
+  const std::span<double> strains = strain();
   for (int c = 0; c < flow.mesh.n_cells; ++c)
-    strain()[c] = twice_strain_squared(flow.velocity_gradient[c]) / (hindrance_.empty() ? 1 : 1 + hindrance_[c]);
+    strains[c] = twice_strain_squared(flow.velocity_gradient[c]) / (hindrance_.empty() ? 1 : 1 + hindrance_[c]);
 }
 
 TurbulenceReport TwoEquationModel::end_correction(Flow& flow, const SweepReport& k, const SweepReport& phi) {
@@ -150,9 +152,9 @@ TurbulenceReport TwoEquationModel::end_correction(Flow& flow, const SweepReport&
 }
 
 /// Rate at which fluid leaves a cell over its volume, 1/s, of the owned cells.
-const std::vector<double>& TwoEquationModel::leaving_rate(const Flow& flow) {
+std::span<const double> TwoEquationModel::leaving_rate(const Flow& flow) {
   const Mesh& mesh = flow.mesh;
-  std::vector<double>& rate = workspace_->scalar[7];
+  const std::span<double> rate = production();  // not yet in use
   std::fill(rate.begin(), rate.end(), 0.0);
   for (int f = 0; f < mesh.n_faces; ++f) {
     const double flux = flow.flux[f] - flow.mesh_flux[f];
@@ -171,17 +173,17 @@ SweepReport TwoEquationModel::solve(Scalar& scalar, const GivenCells& given) {
 void TwoEquationModel::guess(Flow& flow, const TimeScheme& time, int outer) {
   const Mesh& mesh = flow.mesh;
   if (outer > 0) {
-    k_.guess = *k_.now, phi_.guess = *phi_.now;
+    *phi_.guess = *phi_.now;
     return;
   }
-  const std::vector<double>& rate = leaving_rate(flow);
+  const std::span<const double> rate = leaving_rate(flow);
   for (int c = 0; c < mesh.n_cells; ++c) {
     const double number = time.dt * std::max(rate[c], turnover_rate(k_.old[c], phi_.old[c]));
     const double step = time.ratio * std::clamp(1.25 - 0.5 * number, 0.0, 1.0);
-    k_.guess[c] = extrapolated(k_.old[c], k_.older[c], step);
-    phi_.guess[c] = extrapolated(phi_.old[c], phi_.older[c], step);
+    (*k_.guess)[c] = extrapolated(k_.old[c], k_.older[c], step);
+    (*phi_.guess)[c] = extrapolated(phi_.old[c], phi_.older[c], step);
   }
-  mesh.halo.exchange(k_.guess), mesh.halo.exchange(phi_.guess);
+  mesh.halo.exchange(*k_.guess), mesh.halo.exchange(*phi_.guess);
 }
 
 /// k and phi of fluid that enters, by the speed of the flow through each face.

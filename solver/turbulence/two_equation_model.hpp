@@ -53,12 +53,13 @@ class TwoEquationModel : public Turbulence {
   /// k or phi.
   struct Scalar {
     std::string symbol;
-    std::vector<double>* now = nullptr;     // of the flow, [n_all_cells]
-    std::vector<double> old, older, guess;  // [n_all_cells]
-    std::vector<double> entering;           // [n_faces - n_interior]
+    std::vector<double>* now = nullptr;    // of the flow, [n_all_cells]
+    std::vector<double> old, older;        // [n_all_cells]
+    std::vector<double>* guess = nullptr;  // [n_all_cells], within a correction; of k, which is solved for last, what `now` is until then
+    std::vector<double> entering;          // [n_faces - n_interior]
     std::optional<ScalarTransport> equation;
 
-    ScalarHistory history() const { return {old, older, guess}; }
+    ScalarHistory history() const { return {old, older, *guess}; }
   };
 
   explicit TwoEquationModel(const std::string& symbol_of_phi) { k_.symbol = "k", phi_.symbol = symbol_of_phi; }
@@ -92,15 +93,15 @@ class TwoEquationModel : public Turbulence {
   /// First part of a correction: fluxes, entering fluid, guesses, eddy viscosity of them. Collective.
   void begin_correction(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, int outer);
   // In the workspace, within a correction:
-  std::vector<double>& production() { return workspace_->scalar[3]; }  // [n_cells] of it, as the two below
-  std::vector<double>& sink() { return workspace_->scalar[4]; }
-  std::vector<double>& strain() { return workspace_->scalar[5]; }  // 2 S:S/(1 + L s), 1/s2
-  std::vector<double>& diffusivity() { return workspace_->face; }  // [n_faces], m2/s
+  std::span<double> production() { return workspace_->scalar_in(workspace_->vector[2], 0); }  // [n_cells] of it, as the two below
+  std::span<double> sink() { return workspace_->scalar_in(workspace_->vector[2], 1); }
+  std::span<double> strain() { return workspace_->scalar_in(workspace_->vector[2], 2); }  // 2 S:S/(1 + L s), 1/s2
+  std::vector<double>& diffusivity() { return workspace_->face; }                         // [n_faces], m2/s
 
   /// Production and sink of the equation of phi in a cell, from its sources P - b phi^2 and the share s.
   void set_sources_of_phi(int c, double P, double b, double share) {
     const double root = share * std::sqrt(P * b);  // b phi_e
-    production()[c] = P + root * phi_.guess[c], sink()[c] = root + b * phi_.guess[c];
+    production()[c] = P + root * (*phi_.guess)[c], sink()[c] = root + b * (*phi_.guess)[c];
   }
   /// Solve the equation of k or phi with the sources and the diffusivity in the workspace. Collective.
   SweepReport solve(Scalar& scalar, const GivenCells& given);
@@ -128,7 +129,7 @@ class TwoEquationModel : public Turbulence {
 
  private:
   void fill_initial(const Flow& flow, const BoundarySet& boundary);
-  const std::vector<double>& leaving_rate(const Flow& flow);
+  std::span<const double> leaving_rate(const Flow& flow);
   void set_entering(const Flow& flow, const BoundarySet& boundary);
   void guess(Flow& flow, const TimeScheme& time, int outer);
   double boundary_eddy_viscosity(const Flow& flow, int f) const;

@@ -51,17 +51,19 @@ void KEpsilon::set_eddy_viscosity(Flow& flow, const std::vector<double>& k, cons
 }
 
 void KEpsilon::set_sources_of_epsilon(const Flow& flow, double dt) {
+  const std::vector<double>&k = *k_.guess, &guess = *phi_.guess;
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
-    const double b = C_2_ / k_.guess[c], decayed = b * phi_.guess[c] * dt;
-    set_sources_of_phi(c, C_1_ * C_mu_ * k_.guess[c] * strain()[c], b, 0.5 * decayed / (1 + decayed));
+    const double b = C_2_ / k[c], decayed = b * guess[c] * dt;
+    set_sources_of_phi(c, C_1_ * C_mu_ * k[c] * strain()[c], b, 0.5 * decayed / (1 + decayed));
   }
 }
 
 void KEpsilon::set_sources_of_k(const Flow& flow, const std::vector<double>& epsilon) {
+  const std::vector<double>&k = *k_.guess, &guess = *phi_.guess;
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
-    const double growth = 0.5 * epsilon[c] / phi_.guess[c];
+    const double growth = 0.5 * epsilon[c] / guess[c];
     production()[c] = flow.eddy_viscosity[c] * strain()[c] / std::max(1.0, growth);
-    sink()[c] = epsilon[c] / k_.guess[c];
+    sink()[c] = epsilon[c] / k[c];
   }
 }
 

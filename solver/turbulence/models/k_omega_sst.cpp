@@ -207,7 +207,7 @@ KOmegaSst::Constants KOmegaSst::blended(int c) const {
 /// F_1 and (1 - F_1) C of the guesses.
 void KOmegaSst::set_blending(const Flow& flow) {
   const double nu = flow.dynamic_viscosity / flow.density;
-  const std::vector<double>&k = k_.guess, &omega = phi_.guess;
+  const std::vector<double>&k = *k_.guess, &omega = *phi_.guess;
   const auto& grad_k = k_.equation->gradient(k, k_.entering);
   const auto& grad_omega = phi_.equation->gradient(omega, phi_.entering);
   blending_.resize(k.size()), cross_diffusion_.resize(k.size());
@@ -228,9 +228,10 @@ void KOmegaSst::set_diffusivity_of(const Flow& flow, double Constants::*sigma) {
 
 /// That of omega times r.
 void KOmegaSst::fit_diffusivity(const Mesh& mesh) {
+  const std::vector<double>& omega = *phi_.guess;
   for (const FittedFace& fitted : fitted_) {
     const double a = fitted.ratio_cells, b = fitted.ratio_face;
-    const double change = std::log(phi_.guess[mesh.neighbour[fitted.face]] / phi_.guess[mesh.owner[fitted.face]]);
+    const double change = std::log(omega[mesh.neighbour[fitted.face]] / omega[mesh.owner[fitted.face]]);
     const double n = std::clamp(-change / a, -1.0, 2.0);
     const double slope = std::abs(n) < 1e-6 ? 1 / a : -n / std::expm1(-n * a);
     diffusivity()[fitted.face] *= slope * std::exp(-(n + 1) * b) * std::expm1(a);
@@ -241,7 +242,7 @@ TurbulenceReport KOmegaSst::correct(Flow& flow, const BoundarySet& boundary, con
   begin_correction(flow, boundary, time, outer);
   if (curvature_correction_) {
     std::vector<double>& factor = flow.model_fields.back().values;
-    curvature_.find(flow, time.dt, phi_.guess, factor);
+    curvature_.find(flow, time.dt, *phi_.guess, factor);
     for (int c = 0; c < flow.mesh.n_cells; ++c) strain()[c] *= factor[c];
   }
   walls_.find(flow, boundary, friction_velocity_);
@@ -256,7 +257,7 @@ SweepReport KOmegaSst::solve_omega(const Flow& flow) {
   fit_diffusivity(flow.mesh);
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
     const Constants constants = blended(c);
-    const double omega = phi_.guess[c], in_viscous_layer = std::min(1.0, omega_viscous(c, nu) / omega), C = cross_diffusion_[c];
+    const double omega = (*phi_.guess)[c], in_viscous_layer = std::min(1.0, omega_viscous(c, nu) / omega), C = cross_diffusion_[c];
     set_sources_of_phi(c, constants.alpha * strain()[c] + std::max(C, 0.0),
                        constants.beta * (1 + in_viscous_layer * in_viscous_layer * excess_[c]), 0.5);
     sink()[c] += std::max(-C, 0.0) / omega;
@@ -266,11 +267,11 @@ SweepReport KOmegaSst::solve_omega(const Flow& flow) {
 }
 
 SweepReport KOmegaSst::solve_k(const Flow& flow) {
-  const std::vector<double>& omega = *phi_.now;
+  const std::vector<double>&omega = *phi_.now, &k = *k_.guess, &guess = *phi_.guess;
   set_diffusivity_of(flow, &Constants::sigma_k);
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
-    const double growth = 0.5 * omega[c] / phi_.guess[c];
-    const double P = std::min(flow.eddy_viscosity[c] * strain()[c], production_limit * C_mu_ * k_.guess[c] * omega[c]);
+    const double growth = 0.5 * omega[c] / guess[c];
+    const double P = std::min(flow.eddy_viscosity[c] * strain()[c], production_limit * C_mu_ * k[c] * omega[c]);
     production()[c] = P / std::max(1.0, growth);
     sink()[c] = C_mu_ * omega[c];
   }

@@ -76,7 +76,7 @@ void RealizableKEpsilon::set_eddy_viscosity(Flow& flow, const std::vector<double
 void RealizableKEpsilon::set_sources_of_epsilon(const Flow& flow, double dt) {
   const double nu = flow.dynamic_viscosity / flow.density;
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
-    const double k = k_.guess[c], e = phi_.guess[c], S = std::sqrt(strain()[c]), eta = S * k / e;
+    const double k = (*k_.guess)[c], e = (*phi_.guess)[c], S = std::sqrt(strain()[c]), eta = S * k / e;
     const double b = C_2_ / (k + std::sqrt(nu * e)), decayed = b * e * dt;
     set_sources_of_phi(c, std::max(least_C_1, eta / (eta + 5)) * S * e, b, 0.5 * decayed / (1 + decayed));
   }
@@ -84,7 +84,7 @@ void RealizableKEpsilon::set_sources_of_epsilon(const Flow& flow, double dt) {
 
 void RealizableKEpsilon::set_sources_of_k(const Flow& flow, const std::vector<double>& epsilon) {
   for (int c = 0; c < flow.mesh.n_cells; ++c) {
-    const double k = k_.guess[c];
+    const double k = (*k_.guess)[c];
     production()[c] = k * k / (A_0_ * epsilon[c] + strain_limit_[c] * k) * strain()[c];
     sink()[c] = epsilon[c] / k;
   }

@@ -76,6 +76,7 @@ TEST(Divergence, place) {
   const Mesh mesh = box();
   FlowSolver solver(mesh, {}, conditions(std::string(walls) + "[[boundary]]\npatch = \"z1\"\nkind = \"wall\"\n"));
   solver.advance(0.1);
+  solver.flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
   solver.flow.reaction[0].x = std::nan("");
   try {
     solver.advance(0.1);

@@ -17,6 +17,7 @@ Mesh tetrahedra() { return channel_mesh(5); }
 
 /// A body in the middle that pushes the water.
 void put_rag(Flow& flow, double force) {
+  flow.reaction.resize(static_cast<std::size_t>(flow.mesh.n_cells));
   for (int c = 0; c < flow.mesh.n_cells; ++c)
     flow.reaction[c] = norm(flow.mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) < 0.3 ? force * Vec3{-0.8, 0, 0.1} : Vec3{};
 }
@@ -116,6 +117,7 @@ double stirred(const Mesh& mesh, double largest, const std::function<Vec3(int ce
   settings.n_non_orthogonal_correctors = 4;
   FlowSolver solver(mesh, settings,
                     conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"symmetry\"\n"));
+  solver.flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
   const double dt = 0.01;
   for (int i = 0; i < 2; ++i) {
     for (int c = 0; c < mesh.n_cells; ++c) solver.flow.reaction[c] = force(c);

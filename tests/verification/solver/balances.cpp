@@ -195,6 +195,7 @@ TEST(Balances, swirling_stream) {
   settings.body_force = {0.1, 0.05, 0.2};
   FlowSolver solver(mesh, settings, std::move(boundary));
   solver.keep_balances(origin, axis);
+  solver.flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
   for (int i = 0; i < 5; ++i) {
     for (int c = 0; c < mesh.n_cells; ++c)
       solver.flow.reaction[c] = norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.3}) < 0.3 ? Vec3{0, 3, 0.5} : Vec3{};

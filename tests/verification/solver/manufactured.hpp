@@ -51,6 +51,7 @@ struct Manufactured {
   }
   StepReport advance(FlowSolver& solver, double dt) const {
     Flow& flow = solver.flow;
+    flow.reaction.resize(static_cast<std::size_t>(flow.mesh.n_cells));
     for (int c = 0; c < flow.mesh.n_cells; ++c) flow.reaction[c] = force(flow.mesh.cell_centre[c], flow.time + dt);
     return solver.advance(dt);
   }

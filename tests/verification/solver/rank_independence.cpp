@@ -41,6 +41,7 @@ struct Duct {
     return chosen;
   }
   void advance(int steps) {
+    solver.flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
     for (int i = 0; i < steps; ++i) {
       for (int c = 0; c < mesh.n_cells; ++c)
         solver.flow.reaction[c] = norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.5}) < 0.3 ? Vec3{-60, 0, 5} : Vec3{};

@@ -53,6 +53,7 @@ kind = "symmetry"
   double error(const Mesh& mesh, int steps) const {
     const auto made = solver(mesh);
     Flow& flow = made->flow;
+    flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
     for (int i = 0; i < steps; ++i) {
       const double dt = 0.4 / steps;
       for (int c = 0; c < mesh.n_cells; ++c) flow.reaction[c] = force(mesh.cell_centre[c], flow.time + dt);
