@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/room.hpp"
+#include "parallel/running_sum.hpp"
 #include "parallel/sum.hpp"
 #include "solver/fields/face.hpp"
 #include "solver/fields/rotating_zone.hpp"
@@ -40,6 +41,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       right_side_(workspace.scalar[2]),
       slope_(workspace.vector[0]),
       gradient_(workspace.vector[1]),
+      change_(workspace.face),
       given_(mesh.n_faces - mesh.n_interior),
       boundary_correction_(mesh.n_faces - mesh.n_interior) {
   set_coefficients(boundary);
@@ -135,39 +137,39 @@ void Continuity::balance_reaction(Flow& flow) {
   reaction_ = flow.reaction;
   reaction_.resize(static_cast<std::size_t>(mesh_.n_all_cells()));
   mesh_.halo.exchange(reaction_);
-  std::vector<double> change(static_cast<std::size_t>(mesh_.n_faces));
   for (int f = 0; f < mesh_.n_interior; ++f)
-    change[f] = 0.5 * dot(reaction_[mesh_.owner[f]] + reaction_[mesh_.neighbour[f]], mesh_.delta[f]);
+    change_[f] = 0.5 * dot(reaction_[mesh_.owner[f]] + reaction_[mesh_.neighbour[f]], mesh_.delta[f]);
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p)
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const Vec3& force = reaction_[mesh_.owner[f]];
-      change[f] = dot(force, squares_.side(p) == Side::value ? mesh_.delta[f] : unit(mesh_.face_vector[f]));
+      change_[f] = dot(force, squares_.side(p) == Side::value ? mesh_.delta[f] : unit(mesh_.face_vector[f]));
     }
-  const std::vector<Vec3> held = held_by_pressure(change);
+  find_held_by_pressure();
+  const std::vector<Vec3>& held = gradient_;
   std::copy_n(held.begin(), mesh_.n_cells, flow.reaction.begin());
   reaction_excess_.resize(static_cast<std::size_t>(mesh_.n_interior));
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const Vec3 at_face = blend(mesh_.weight[f], held[mesh_.owner[f]], held[mesh_.neighbour[f]]);
-    reaction_excess_[f] = coefficient_[f] * (change[f] - dot(at_face, mesh_.delta[f]));
+    reaction_excess_[f] = coefficient_[f] * (change_[f] - dot(at_face, mesh_.delta[f]));
   }
 }
 
-/// f~ of the header in all cells: with the sum of f.
-std::vector<Vec3> Continuity::held_by_pressure(std::span<const double> change) const {
-  std::vector<Vec3> slope(reaction_.size()), held(reaction_.size());
-  squares_.gradient_of_changes(change, slope);
-  gauss_gradient_of_changes(mesh_, squares_, change, slope, held);
-  std::array<double, 4> sums{};  // of (f~ - f) V, N, and of |f| V
+/// f~ of the header in all cells, into gradient_: with the sum of f.
+void Continuity::find_held_by_pressure() {
+  std::vector<Vec3>& held = gradient_;
+  squares_.gradient_of_changes(change_, slope_);
+  gauss_gradient_of_changes(mesh_, squares_, change_, boundary_correction_, slope_, held);
+  std::array<RunningSum, 4> parts;  // of (f~ - f) V, N, and of |f| V
   for (int c = 0; c < mesh_.n_cells; ++c) {
     const Vec3 more = mesh_.cell_volume[c] * (held[c] - reaction_[c]);
-    for (int i = 0; i < 3; ++i) sums[static_cast<std::size_t>(i)] += more[i];
-    sums[3] += mesh_.cell_volume[c] * norm(reaction_[c]);
+    if (more == Vec3{} && reaction_[c] == Vec3{}) continue;
+    for (int i = 0; i < 3; ++i) parts[static_cast<std::size_t>(i)].add(more[i]);
+    parts[3].add(mesh_.cell_volume[c] * norm(reaction_[c]));
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, mesh_.comm);
-  const Vec3 too_much = Vec3{sums[0], sums[1], sums[2]} / sums[3];
+  const std::vector<double> total = sums(mesh_.comm, parts);
+  const Vec3 too_much = Vec3{total[0], total[1], total[2]} / total[3];
   for (int c = 0; c < mesh_.n_cells; ++c) held[c] -= norm(reaction_[c]) * too_much;
   mesh_.halo.exchange(held);
-  return held;
 }
 
 void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {

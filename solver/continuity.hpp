@@ -46,7 +46,7 @@ struct ContinuityReport {
 
 class Continuity {
  public:
-  /// Of the workspace it uses the vectors and the scalars.
+  /// Of the workspace it uses the vectors and the scalars, and before a step the faces.
   Continuity(const Mesh& mesh, const BoundarySet& boundary, const ContinuitySettings& settings, Workspace& workspace);
 
   /// Pressure gradient and boundary pressure of flow.pressure as it is given (a start). Collective.
@@ -80,7 +80,7 @@ class Continuity {
   void restore(double preconditioner_angle, const BoundarySet& boundary, double fresh_cost, bool rebuild_due);
 
  private:
-  std::vector<Vec3> held_by_pressure(std::span<const double> change) const;
+  void find_held_by_pressure();
   static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b);
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
@@ -112,7 +112,8 @@ class Continuity {
   std::vector<double> reaction_excess_;
   double preconditioner_angle_ = 0;                            // rad
   std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]
-  std::vector<Vec3>&slope_, &gradient_;                        // of p': least squares, Gauss
+  std::vector<Vec3>&slope_, &gradient_;                        // of p': least squares, Gauss; gradient_ also f~
+  std::vector<double>& change_;                                // of the pressure that holds f, from cell to cell, [n_faces]
   std::vector<double> given_, boundary_correction_;            // p' or its slope at the boundary as given; p' there
   std::vector<double> facet_pressure_, facet_correction_;      // [n_interior - first_facet], p and p'
 };

@@ -43,6 +43,12 @@ inline void add_square(SymmetricTensor& m, const Vec3& v, double a) {
 }
 inline Vec3 scaled(double s, const Vec3& a) { return s * a; }
 inline Mat3 scaled(double s, const Mat3& a) { return {s * a[0], s * a[1], s * a[2]}; }
+/// What a cell has by itself: phi, or nothing where a scalar is given by its changes.
+template <class Value>
+auto values_of(std::span<const Value> phi) {
+  return [phi](int c) { return phi[static_cast<std::size_t>(c)]; };
+}
+constexpr auto zero = [](int) { return 0.0; };
 inline void add(Vec3& a, const Vec3& b) { a += b; }
 inline void add(Mat3& a, const Mat3& b) { a[0] += b[0], a[1] += b[1], a[2] += b[2]; }
 
@@ -155,8 +161,9 @@ void LeastSquares::add_interior(std::span<const Value> phi, std::vector<Gradient
   });
 }
 
-template <class Value, class Gradient>
-void LeastSquares::finish(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const {
+/// Adds the boundary and multiplies by M^-1; `phi` gives the value of a cell.
+template <class Value, class Gradient, class OfCell>
+void LeastSquares::finish(const OfCell& phi, std::span<const Value> boundary, std::vector<Gradient>& g) const {
   for (std::size_t p = 0; p < sides_.size(); ++p) {
     const Patch& patch = mesh_.patches[p];
     if (sides_[p] == Side::none) continue;
@@ -164,13 +171,13 @@ void LeastSquares::finish(std::span<const Value> phi, std::span<const Value> bou
       const int P = mesh_.owner[f];
       const Vec3& d = mesh_.delta[f];
       if (sides_[p] == Side::value) {
-        add_product(g[P], boundary[f - mesh_.n_interior] - phi[P], d / norm_squared(d));
+        add_product(g[P], boundary[f - mesh_.n_interior] - phi(P), d / norm_squared(d));
       } else {
         const Vec3 n = unit(mesh_.face_vector[f]);
         if (sides_[p] == Side::slope)
           add_product(g[P], normal_slope(boundary[f - mesh_.n_interior]), n);
         else
-          add_product(g[P], mirrored(phi[P], n), n / dot(d, n));
+          add_product(g[P], mirrored(phi(P), n), n / dot(d, n));
       }
     }
   }
@@ -211,7 +218,7 @@ void LeastSquares::fill_open(std::vector<Gradient>& g) const {
 
 void LeastSquares::gradient(std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const {
   add_interior<double, Vec3>(phi, g);
-  finish<double, Vec3>(phi, boundary, g);
+  finish<double, Vec3>(values_of(phi), boundary, g);
 }
 
 void LeastSquares::gradient_of_changes(std::span<const double> change, std::vector<Vec3>& g) const {
@@ -222,7 +229,6 @@ void LeastSquares::gradient_of_changes(std::span<const double> change, std::vect
     g[mesh_.owner[f]] += owner_share * e;
     g[mesh_.neighbour[f]] += neighbour_share * e;
   });
-  const std::vector<double> zero(g.size());
   finish<double, Vec3>(zero, change.subspan(static_cast<std::size_t>(mesh_.n_interior)), g);
 }
 
@@ -237,16 +243,19 @@ void LeastSquares::gradient(std::span<const double> weight, std::span<const doub
     g[P] += owner_share * (1 - weight[f]) / (1 - w) * e;
     g[N] += neighbour_share * weight[f] / w * e;
   });
-  finish<double, Vec3>(phi, boundary, g);
+  finish<double, Vec3>(values_of(phi), boundary, g);
 }
 
 void LeastSquares::gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const {
   add_interior<Vec3, Mat3>(u, g);
-  finish<Vec3, Mat3>(u, boundary, g);
+  finish<Vec3, Mat3>(values_of(u), boundary, g);
 }
 
-void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
-                   std::span<const double> given, std::span<double> values) {
+namespace {
+
+template <class OfCell>
+void fill_boundary_from(const Mesh& mesh, const LeastSquares& squares, const OfCell& phi, std::span<const Vec3> g,
+                        std::span<const double> given, std::span<double> values) {
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
       const int P = mesh.owner[f], b = f - mesh.n_interior;
@@ -255,15 +264,13 @@ void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<cons
         values[b] = given[b];
       } else if (squares.side(p) == Side::slope) {
         const Vec3 n = unit(mesh.face_vector[f]);
-        values[b] = phi[P] + dot(g[P], along_face(d, n)) + given[b] * dot(d, n);
+        values[b] = phi(P) + dot(g[P], along_face(d, n)) + given[b] * dot(d, n);
       } else {
-        values[b] = phi[P] + dot(g[P], d);
+        values[b] = phi(P) + dot(g[P], d);
       }
     }
   }
 }
-
-namespace {
 
 /// What the sum of phi_f S, `g`, lacks of V `slope` in a cell, along S, as a value at the face.
 inline double lacking(const Mesh& mesh, int c, const Vec3& S, std::span<const Vec3> slope, const std::vector<Vec3>& g) {
@@ -300,21 +307,21 @@ void close_aslant_faces(const Mesh& mesh, const LeastSquares& squares, std::span
   }
 }
 
-}  // namespace
+/// What counts at an interior face in the sum of the owner and in that of the neighbour.
+struct FaceValues {
+  double in_owner, in_neighbour;
+};
 
-void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
-                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets) {
+/// Both forms of the gradient. `of_face` has FaceValues operator()(int f).
+template <class OfFace>
+void sum_over_faces(const Mesh& mesh, const LeastSquares& squares, const OfFace& of_face, std::span<double> boundary,
+                    std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets) {
   std::fill(g.begin(), g.end(), Vec3{});
   for (int f = 0; f < mesh.n_interior; ++f) {
-    const int P = mesh.owner[f], N = mesh.neighbour[f];
-    const double w = weight[f];
-    // From the point on the line of centres that the weight stands for to the face centre.
-    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (1 - w) * mesh.delta[f];
-    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(way, blend(w, slope[P], slope[N]));
-    if (f >= mesh.first_facet && !facets.empty()) facets[static_cast<std::size_t>(f - mesh.first_facet)] = phi_f;
-    const Vec3 term = phi_f * mesh.face_vector[f];
-    g[P] += term;
-    g[N] -= term;
+    const FaceValues phi_f = of_face(f);
+    if (f >= mesh.first_facet && !facets.empty()) facets[static_cast<std::size_t>(f - mesh.first_facet)] = phi_f.in_owner;
+    g[mesh.owner[f]] += phi_f.in_owner * mesh.face_vector[f];
+    g[mesh.neighbour[f]] -= phi_f.in_neighbour * mesh.face_vector[f];
   }
   for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
   close_skew_faces(mesh, squares, slope, g, facets);
@@ -323,23 +330,35 @@ void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<con
   exchange(mesh, g);
 }
 
-void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<const Vec3> slope,
-                               std::vector<Vec3>& g) {
-  std::fill(g.begin(), g.end(), Vec3{});
-  for (int f = 0; f < mesh.n_interior; ++f) {
+}  // namespace
+
+void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
+                   std::span<const double> given, std::span<double> values) {
+  fill_boundary_from(mesh, squares, values_of(phi), g, given, values);
+}
+
+void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
+                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets) {
+  const auto of_face = [&mesh, weight, phi, slope](int f) -> FaceValues {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
-    const double w = mesh.weight[f], at_face = (1 - w) * change[f] + dot(skewness(mesh, f), blend(w, slope[P], slope[N]));
-    g[P] += at_face * mesh.face_vector[f];
-    g[N] -= (at_face - change[f]) * mesh.face_vector[f];
-  }
-  const std::vector<double> zero(g.size());
-  std::vector<double> boundary(static_cast<std::size_t>(mesh.n_faces - mesh.n_interior));
-  fill_boundary(mesh, squares, zero, slope, change.subspan(static_cast<std::size_t>(mesh.n_interior)), boundary);
-  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) g[mesh.owner[f]] += boundary[f - mesh.n_interior] * mesh.face_vector[f];
-  close_skew_faces(mesh, squares, slope, g, {});
-  close_aslant_faces(mesh, squares, slope, boundary, g);
-  for (int c = 0; c < mesh.n_cells; ++c) g[c] *= 1 / mesh.cell_volume[c];
-  exchange(mesh, g);
+    const double w = weight[f];
+    // From the point on the line of centres that the weight stands for to the face centre.
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (1 - w) * mesh.delta[f];
+    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(way, blend(w, slope[P], slope[N]));
+    return {phi_f, phi_f};
+  };
+  sum_over_faces(mesh, squares, of_face, boundary, slope, g, facets);
+}
+
+void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<double> boundary,
+                               std::span<const Vec3> slope, std::vector<Vec3>& g) {
+  const auto of_face = [&mesh, change, slope](int f) -> FaceValues {
+    const double w = mesh.weight[f];
+    const double from_owner = (1 - w) * change[f] + dot(skewness(mesh, f), blend(w, slope[mesh.owner[f]], slope[mesh.neighbour[f]]));
+    return {from_owner, from_owner - change[f]};
+  };
+  fill_boundary_from(mesh, squares, zero, slope, change.subspan(static_cast<std::size_t>(mesh.n_interior)), boundary);
+  sum_over_faces(mesh, squares, of_face, boundary, slope, g, {});
 }
 
 }  // namespace snag

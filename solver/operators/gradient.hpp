@@ -99,8 +99,8 @@ class LeastSquares {
   void for_each_difference(const Act& act) const;
   template <class Value, class Gradient>
   void add_interior(std::span<const Value> phi, std::vector<Gradient>& g) const;
-  template <class Value, class Gradient>
-  void finish(std::span<const Value> phi, std::span<const Value> boundary, std::vector<Gradient>& g) const;
+  template <class Value, class Gradient, class OfCell>
+  void finish(const OfCell& phi, std::span<const Value> boundary, std::vector<Gradient>& g) const;
   template <class Gradient>
   void fill_open(std::vector<Gradient>& g) const;
 
@@ -124,8 +124,8 @@ void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<con
                     std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets = {});
 
 /// The same of a scalar that is given by its changes (LeastSquares::gradient_of_changes()), which need not be those of one scalar: each
-/// cell counts from its own value. Collective.
-void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<const Vec3> slope,
-                               std::vector<Vec3>& g);
+/// cell counts from its own value; `boundary`, [n_faces - n_interior], is to work in. Collective.
+void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<double> boundary,
+                               std::span<const Vec3> slope, std::vector<Vec3>& g);
 
 }  // namespace snag
