@@ -44,7 +44,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       change_(workspace.face),
       given_(mesh.n_faces - mesh.n_interior),
       boundary_correction_(mesh.n_faces - mesh.n_interior) {
-  set_coefficients(boundary);
+  set_coefficients(boundary, 0);
 }
 
 void Continuity::start_pressure(Flow& flow, const BoundarySet& boundary) {
@@ -68,14 +68,14 @@ void Continuity::pressure_gradient(const std::vector<double>& pressure, const Bo
       given_[b] = boundary.pressure_side(static_cast<int>(p)) == Side::value ? fixed[b] : wall_slope[b];
     }
   facet_pressure_.resize(static_cast<std::size_t>(mesh_.n_interior - mesh_.first_facet));
-  squares_.gradient(mesh_.weight, pressure, given_, slope_);
+  squares_.gradient(pressure, given_, slope_);
   fill_boundary(mesh_, squares_, pressure, slope_, given_, at_boundary);
-  gauss_gradient(mesh_, squares_, mesh_.weight, pressure, at_boundary, slope_, gradient, facet_pressure_);
+  gauss_gradient(mesh_, squares_, pressure, at_boundary, slope_, gradient, facet_pressure_);
 }
 
 void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary) {
   squares_.update();
-  set_coefficients(boundary);
+  set_coefficients(boundary, mesh_.first_facet);
   start_pressure(flow, boundary);
 }
 
@@ -212,9 +212,10 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
   }
 }
 
-void Continuity::set_coefficients(const BoundarySet& boundary) {
+/// From face `first` on: turning does not change the others.
+void Continuity::set_coefficients(const BoundarySet& boundary, int first) {
   resize_with_room(coefficient_, static_cast<std::size_t>(mesh_.n_faces));
-  for (int f = 0; f < mesh_.n_interior; ++f) coefficient_[f] = conductance(mesh_.face_vector[f], mesh_.delta[f]);
+  for (int f = first; f < mesh_.n_interior; ++f) coefficient_[f] = conductance(mesh_.face_vector[f], mesh_.delta[f]);
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
@@ -245,9 +246,9 @@ ContinuityReport Continuity::solve(Flow& flow) {
   for (int k = 0; k <= settings_.n_non_orthogonal_correctors; ++k) {
     set_right_side();
     if (k > 0) {
-      squares_.gradient(mesh_.weight, correction_, given_, slope_);
+      squares_.gradient(correction_, given_, slope_);
       fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
-      gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_);
+      gauss_gradient(mesh_, squares_, correction_, boundary_correction_, slope_, gradient_);
       add_cross_flux();
     }
     const double tolerance = k == settings_.n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
@@ -313,10 +314,10 @@ void Continuity::correct_flux(std::vector<double>& flux, bool with_gradient) {
 }
 
 void Continuity::correct_cells(Flow& flow, bool with_pressure) {
-  squares_.gradient(mesh_.weight, correction_, given_, slope_);
+  squares_.gradient(correction_, given_, slope_);
   fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
   facet_correction_.resize(static_cast<std::size_t>(mesh_.n_interior - mesh_.first_facet));
-  gauss_gradient(mesh_, squares_, mesh_.weight, correction_, boundary_correction_, slope_, gradient_, facet_correction_);
+  gauss_gradient(mesh_, squares_, correction_, boundary_correction_, slope_, gradient_, facet_correction_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) flow.velocity[c] -= mobility_ * gradient_[c];
   if (!with_pressure) return;
   facet_pressure_.resize(facet_correction_.size());  // a resumed run without balances has none
@@ -327,7 +328,7 @@ void Continuity::correct_cells(Flow& flow, bool with_pressure) {
 
 void Continuity::restore(double preconditioner_angle, const BoundarySet& boundary, double fresh_cost, bool rebuild_due) {
   preconditioner_angle_ = preconditioner_angle;
-  set_coefficients(boundary);
+  set_coefficients(boundary, mesh_.first_facet);
   poisson_.restore(fresh_cost, rebuild_due);
 }
 

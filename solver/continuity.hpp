@@ -87,7 +87,7 @@ class Continuity {
   void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
-  void set_coefficients(const BoundarySet& boundary);
+  void set_coefficients(const BoundarySet& boundary, int first);
   struct Imbalance {
     double norm, rounding;  // of the cells' sums of fluxes; what round-off alone makes of it, m3/s
   };

@@ -232,20 +232,6 @@ void LeastSquares::gradient_of_changes(std::span<const double> change, std::vect
   finish<double, Vec3>(zero, change.subspan(static_cast<std::size_t>(mesh_.n_interior)), g);
 }
 
-void LeastSquares::gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary,
-                            std::vector<Vec3>& g) const {
-  std::fill(g.begin(), g.end(), Vec3{});
-  for_each_difference([&](int f, double owner_share, double neighbour_share) {
-    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const Vec3& d = mesh_.delta[f];
-    const double w = mesh_.weight[f];
-    const Vec3 e = (phi[N] - phi[P]) / norm_squared(d) * d;
-    g[P] += owner_share * (1 - weight[f]) / (1 - w) * e;
-    g[N] += neighbour_share * weight[f] / w * e;
-  });
-  finish<double, Vec3>(values_of(phi), boundary, g);
-}
-
 void LeastSquares::gradient(std::span<const Vec3> u, std::span<const Vec3> boundary, std::vector<Mat3>& g) const {
   add_interior<Vec3, Mat3>(u, g);
   finish<Vec3, Mat3>(values_of(u), boundary, g);
@@ -337,14 +323,11 @@ void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<cons
   fill_boundary_from(mesh, squares, values_of(phi), g, given, values);
 }
 
-void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
-                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets) {
-  const auto of_face = [&mesh, weight, phi, slope](int f) -> FaceValues {
+void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<double> boundary,
+                    std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets) {
+  const auto of_face = [&mesh, phi, slope](int f) -> FaceValues {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
-    const double w = weight[f];
-    // From the point on the line of centres that the weight stands for to the face centre.
-    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (1 - w) * mesh.delta[f];
-    const double phi_f = w * phi[P] + (1 - w) * phi[N] + dot(way, blend(w, slope[P], slope[N]));
+    const double w = mesh.weight[f], phi_f = w * phi[P] + (1 - w) * phi[N] + dot(skewness(mesh, f), blend(w, slope[P], slope[N]));
     return {phi_f, phi_f};
   };
   sum_over_faces(mesh, squares, of_face, boundary, slope, g, facets);

@@ -76,9 +76,6 @@ class LeastSquares {
   /// Again after the mesh has moved, and the moments. Collective.
   void update();
 
-  /// Gradient of a scalar by its values at the faces, w phi_P + (1 - w) phi_N with the weights of a piecewise linear phi that is steep in
-  /// some cells only.
-  void gradient(std::span<const double> weight, std::span<const double> phi, std::span<const double> boundary, std::vector<Vec3>& g) const;
   /// Gradient of a scalar that is given by its changes, [n_faces]: from owner to neighbour, from the cell to the face where the boundary
   /// knows the value, and its normal slope where that is known. Collective.
   void gradient_of_changes(std::span<const double> change, std::vector<Vec3>& g) const;
@@ -117,11 +114,10 @@ class LeastSquares {
 void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
                    std::span<const double> given, std::span<double> values);
 
-/// Gauss gradient from least-squares gradients `slope` and boundary values, which change at aslant faces; `weight` of the owner's value at
-/// interior faces (mesh.weight, or another); `slope`, `g` [n_all_cells], ghosts filled. `facets`, where it is given: the values at the
-/// facets, [n_interior - first_facet]. Collective.
-void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> weight, std::span<const double> phi,
-                    std::span<double> boundary, std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets = {});
+/// Gauss gradient from least-squares gradients `slope` and boundary values, which change at aslant faces; `slope`, `g` [n_all_cells],
+/// ghosts filled. `facets`, where it is given: the values at the facets, [n_interior - first_facet]. Collective.
+void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<double> boundary,
+                    std::span<const Vec3> slope, std::vector<Vec3>& g, std::span<double> facets = {});
 
 /// The same of a scalar that is given by its changes (LeastSquares::gradient_of_changes()), which need not be those of one scalar: each
 /// cell counts from its own value; `boundary`, [n_faces - n_interior], is to work in. Collective.
