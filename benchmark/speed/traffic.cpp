@@ -19,31 +19,28 @@ constexpr Bytes sweep_scalar{2 * 12, 4 + 8 + 8 + 16};
 // Least-squares gradients: d; phi, G cleared, added to, multiplied by the inverse matrix of 48 bytes.
 constexpr Bytes gradient_vector{8 + 24, 24 + 72 + 144 + 48 + 144};
 constexpr Bytes gradient_scalar{8 + 24, 8 + 24 + 48 + 48 + 48};
-// Of pressure: the same with weights, then the Gauss form with x_f, d, S, and x_P, p, slope, V.
-constexpr Bytes gradient_pressure = gradient_scalar + Bytes{16, 0} + Bytes{8 + 8 + 72, 24 + 8 + 24 + 24 + 48 + 48 + 8};
+// Of pressure: the same, then the Gauss form with x_f, d, S, and x_P, p, slope, V.
+constexpr Bytes gradient_pressure = gradient_scalar + Bytes{8 + 8 + 72, 24 + 8 + 24 + 24 + 48 + 48 + 8};
 
 constexpr Bytes limiter{8 + 8 + 24 + 24, 4 + 24 + 72 + 8 + 8 + 24};  // faces of cells, x_f, d; u, G, psi, V, x_P
 
 // Momentum
-constexpr Bytes momentum_guess = Bytes{24, 0} + limiter;  // fluxes; from the second corrector on
-constexpr Bytes momentum_rows{0, 8 + 8 + 24 + 24 + 48 + 48};
+constexpr Bytes momentum_guess = Bytes{24, 0} + limiter;                             // fluxes; from the second corrector on
+constexpr Bytes momentum_rows{0, 8 + 24 + 48 + 48};                                  // V, grad p, old velocities, diagonal and right side
 constexpr Bytes momentum_faces{8 + 72 + 8 + 8 + 8 + 8 + 16, 48 + 48 + 72 + 8 + 24};  // S, d, x_f, w, F, mu, places, entries
 constexpr Bytes momentum_assembly = momentum_rows + momentum_faces;
 
 // Pressure
-constexpr Bytes pressure_mobility{8 + 8 + 8 + 8, 8 + 8 + 8};
 constexpr Bytes pressure_flux{8 + 8 + 72 + 8 + 8 + 8, 24 + 72 + 24 + 8 + 8 + 24};
-constexpr Bytes pressure_coefficients{8 + 48 + 8 + 16, 0};
 constexpr Bytes pressure_imbalance{8 + 8, 8 + 16};
 constexpr Bytes pressure_right_side{0, 8 + 8};
 constexpr Bytes pressure_cross_flux{8 + 48 + 8 + 8, 16 + 24};  // not in the first solution
 constexpr Bytes pressure_new_flux{8 + 48 + 8 + 8 + 16, 8 + 8 + 24};
 constexpr Bytes pressure_new_cells{0, 48 + 8 + 24 + 16 + 8 + 48 + 24};
-constexpr Bytes pressure_once = pressure_mobility + pressure_flux + pressure_coefficients + pressure_imbalance + pressure_new_flux +
-                                gradient_pressure + pressure_new_cells;
-// A step of conjugate gradients: the operator face by face, and loops over vectors for r into the cycle, r.z, the direction, p.Ap, x and r.
+constexpr Bytes pressure_once = pressure_flux + pressure_imbalance + pressure_new_flux + gradient_pressure + pressure_new_cells;
+// A step of conjugate gradients: the operator face by face, and loops over vectors for r into the cycle, x and the direction, and r.
 constexpr Bytes pressure_operator{8 + 8, 8 + 8 + 16};
-constexpr Bytes pressure_vectors{0, (8 + 4) + (8 + 4) + (4 + 16) + 16 + (16 + 8 + 16 + 8)};
+constexpr Bytes pressure_vectors{0, (8 + 4) + (4 + 16 + 16) + (16 + 8)};
 // A cycle of multigrid, in single precision, passes twice over the matrix of each level: down with the residual, and up. Two entries a
 // face; row, b, 1/D, x, residual. Levels hold 1.6 times the entries of the finest (one level of aggressive coarsening); prolongation and
 // restriction one and a half entries a cell each.
@@ -57,9 +54,9 @@ constexpr Bytes turbulence_rate{16 + 8, 8 + 24};  // in the first corrector
 constexpr Bytes turbulence_guess{0, 32 + 24 + 72 + 8};
 constexpr Bytes turbulence_diffusivity{8 + 8 + 8, 8};
 constexpr Bytes turbulence_sources{0, 40};
-constexpr Bytes turbulence_rows{0, 8 + 16 + 16 + 24};
+constexpr Bytes turbulence_rows{0, 8 + 16 + 16 + 8 + 16};
 constexpr Bytes turbulence_faces{8 + 48 + 8 + 8 + 16 + 8 + 16, 8 + 24 + 16 + 16};
-constexpr Bytes turbulence_scaling{32, 8 + 16 + 16 + 8 + 4 + 16};
+constexpr Bytes turbulence_scaling{32, 8 + 16 + 16 + 4 + 16};
 constexpr Bytes turbulence_viscosity{8 + 8 + 8, 16 + 8 + 8};
 constexpr Bytes turbulence_once =
     turbulence_guess + turbulence_viscosity +

@@ -41,23 +41,20 @@ class Poisson::Preconditioner {
   virtual ~Preconditioner() = default;
   /// Finds z for r [n_cells] of this mean and rms value over all ranks; returns sums over this rank: of z, and of r z. Collective.
   virtual std::array<double, 2> apply(std::span<const double> r, double mean, double rms) = 0;
-  /// p = z - mean + beta p. Local.
-  virtual void turn(double mean, double beta, std::span<double> p) const = 0;
+  /// Goes along the direction and turns it: x += alpha p, then p = z - mean + beta p; one loop, because p is read only once so. Local.
+  virtual void go_and_turn(double alpha, double mean, double beta, std::span<double> x, std::span<double> p) const = 0;
 };
 
 class Poisson::OwnCycle final : public Preconditioner {
  public:
   OwnCycle(Mat matrix, PC hierarchy, bool singular) : cycle_(matrix, hierarchy, singular) {}
   std::array<double, 2> apply(std::span<const double> r, double mean, double rms) override {
-    cycle_.apply(r, mean, rms), rms_ = rms;
-    const std::span<const float> z = cycle_.solution();
-    std::array<double, 2> sums{};
-    for (std::size_t c = 0; c < z.size(); ++c) sums[0] += z[c], sums[1] += r[c] * z[c];
-    return {rms * sums[0], rms * sums[1]};
+    rms_ = rms;
+    return cycle_.apply(r, mean, rms);
   }
-  void turn(double mean, double beta, std::span<double> p) const override {
+  void go_and_turn(double alpha, double mean, double beta, std::span<double> x, std::span<double> p) const override {
     const std::span<const float> z = cycle_.solution();
-    for (std::size_t c = 0; c < z.size(); ++c) p[c] = rms_ * z[c] - mean + beta * p[c];
+    for (std::size_t c = 0; c < z.size(); ++c) x[c] += alpha * p[c], p[c] = rms_ * z[c] - mean + beta * p[c];
   }
 
  private:
@@ -93,11 +90,11 @@ class Poisson::Gamg final : public Preconditioner {
     });
     return sums;
   }
-  void turn(double mean, double beta, std::span<double> p) const override {
+  void go_and_turn(double alpha, double mean, double beta, std::span<double> x, std::span<double> p) const override {
     PetscInt n = 0;
     check_petsc(VecGetLocalSize(z_, &n), "VecGetLocalSize");
     read([&](const double* z) {
-      for (PetscInt c = 0; c < n; ++c) p[c] = z[c] - mean + beta * p[c];
+      for (PetscInt c = 0; c < n; ++c) x[c] += alpha * p[c], p[c] = z[c] - mean + beta * p[c];
     });
   }
 
@@ -185,16 +182,25 @@ Poisson::Poisson(const Mesh& mesh, Multigrid multigrid, bool singular, const Arr
 
 Poisson::~Poisson() = default;
 
-/// A x into Ap_, of x [n_all_cells] whose ghosts are up to date.
-void Poisson::apply(std::span<const double> x) {
+/// A x into Ap_, of x [n_all_cells] whose ghosts are up to date; returns the part of this rank in x.A x.
+double Poisson::apply(std::span<const double> x) {
   std::fill(Ap_.begin(), Ap_.end(), 0.0);
+  const int n = mesh_.n_cells;
+  double twice = 0;  // a face between ranks belongs to both in halves
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double flux = coefficient_[f] * (x[P] - x[N]);
+    const double change = x[P] - x[N], flux = coefficient_[f] * change;
     Ap_[P] += flux;
     Ap_[N] -= flux;
+    twice += ((P < n) + (N < n)) * (flux * change);
   }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) Ap_[mesh_.owner[f]] += coefficient_[f] * x[mesh_.owner[f]];
+  double product = 0.5 * twice;
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    const int P = mesh_.owner[f];
+    Ap_[P] += coefficient_[f] * x[P];
+    product += coefficient_[f] * x[P] * x[P];
+  }
+  return product;
 }
 
 void Poisson::set_up_preconditioner() {
@@ -240,18 +246,19 @@ void Poisson::remove_mean(std::span<double> x) const {
   for (double& value : x) value -= mean;
 }
 
-/// Conjugate gradients from the given x; returns what stopped them early, null if nothing did. Ghosts of x are up to date in front and
-/// behind.
+/// Conjugate gradients from the given x; returns what stopped them early, null if nothing did: x then lacks the last step. Ghosts of x are
+/// up to date in front and behind.
 const char* Poisson::iterate(std::span<const double> b, std::vector<double>& x, double target, PoissonReport& report) {
   const auto n = static_cast<double>(mesh_.n_cells_global);
   const std::span<const double> owned{residual_.data(), static_cast<std::size_t>(mesh_.n_cells)};
-  apply(x);
-  for (int c = 0; c < mesh_.n_cells; ++c) residual_[c] = b[c] - Ap_[c];
+  const bool starts_at_zero = std::all_of(x.begin(), x.end(), [](double value) { return value == 0; });
+  if (!starts_at_zero) apply(x);
+  for (int c = 0; c < mesh_.n_cells; ++c) residual_[c] = starts_at_zero ? b[c] : b[c] - Ap_[c];
   if (!singular_) fix_level(x);
   std::array<double, 2> of_residual{};  // sums of r and of r^2
   for (int c = 0; c < mesh_.n_cells; ++c) of_residual[0] += residual_[c], of_residual[1] += residual_[c] * residual_[c];
   std::fill(p_.begin(), p_.end(), 0.0);
-  double rho = 0;
+  double rho = 0, alpha = 0;
   for (int iteration = 0;; ++iteration) {
     MPI_Allreduce(MPI_IN_PLACE, of_residual.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     report.final = std::sqrt(of_residual[1]);
@@ -264,23 +271,22 @@ const char* Poisson::iterate(std::span<const double> b, std::vector<double>& x, 
     auto of_answer = preconditioner_->apply(owned, of_residual[0] / n, report.final / std::sqrt(n));  // sums of z and of r z
     MPI_Allreduce(MPI_IN_PLACE, of_answer.data(), 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     if (!(of_answer[1] > 0)) return "the preconditioner is not positive";
-    preconditioner_->turn(singular_ ? of_answer[0] / n : 0, iteration > 0 ? of_answer[1] / rho : 0, p_);
+    preconditioner_->go_and_turn(alpha, singular_ ? of_answer[0] / n : 0, iteration > 0 ? of_answer[1] / rho : 0, x, p_);
     rho = of_answer[1];
 
     mesh_.halo.exchange(p_);
-    apply(p_);
-    double curvature = 0;  // p.A p
-    for (int c = 0; c < mesh_.n_cells; ++c) curvature += p_[c] * Ap_[c];
+    double curvature = apply(p_);  // p.A p
     MPI_Allreduce(MPI_IN_PLACE, &curvature, 1, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     if (!(curvature > 0)) return "the matrix is not positive";
-    const double alpha = rho / curvature;
+    alpha = rho / curvature;
     of_residual = {};
     for (int c = 0; c < mesh_.n_cells; ++c) {
-      x[c] += alpha * p_[c], residual_[c] -= alpha * Ap_[c];
+      residual_[c] -= alpha * Ap_[c];
       of_residual[0] += residual_[c], of_residual[1] += residual_[c] * residual_[c];
     }
     ++report.iterations;
   }
+  for (int c = 0; c < mesh_.n_cells; ++c) x[c] += alpha * p_[c];
   if (singular_)
     remove_mean(x);
   else if (rho > 0)

@@ -53,7 +53,7 @@ class Poisson {
   class Preconditioner;
   class OwnCycle;
   class Gamg;
-  void apply(std::span<const double> x);
+  double apply(std::span<const double> x);
   void set_up_preconditioner();
   const char* iterate(std::span<const double> b, std::vector<double>& x, double target, PoissonReport& report);
   void fix_level(std::span<double> x);

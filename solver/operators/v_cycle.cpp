@@ -190,14 +190,16 @@ void VCycle::invert_coarsest(const GlobalRows& from) {
   }
 }
 
-void VCycle::apply(std::span<const double> r, double mean, double rms) {
+std::array<double, 2> VCycle::apply(std::span<const double> r, double mean, double rms) {
   Level& finest = levels_.front();
   const double taken_off = singular_ ? mean : 0, factor = 1 / rms;
   for (int i = 0; i < finest.n; ++i) finest.b[i] = static_cast<Value>((r[i] - taken_off) * factor);
-  descend(0);
+  const Sums sums = descend(0);
+  return {rms * sums.x, rms * (rms * sums.b_x + taken_off * sums.x)};
 }
 
-void VCycle::descend(std::size_t l) {
+/// Solves on a level and those below; returns the sums of x and of b x.
+VCycle::Sums VCycle::descend(std::size_t l) {
   if (l + 1 == levels_.size()) return solve_coarsest();
   Level &fine = levels_[l], &coarse = levels_[l + 1];
   sweep_forward(fine);
@@ -209,7 +211,7 @@ void VCycle::descend(std::size_t l) {
   coarse.halo.exchange(std::span(coarse.x));
   for (int i = 0; i < fine.n; ++i) fine.x[i] += fine.prolongation.product(i, coarse.x.data());
   fine.halo.exchange(std::span(fine.x));
-  sweep_backward(fine);
+  return sweep_backward(fine);
 }
 
 /// From x = 0, ghosts too. The residual lacks - G x.
@@ -229,11 +231,23 @@ void VCycle::complete_residual(Level& level) {
   for (const auto& [row, column, value] : level.ghost_matrix) level.residual[row] -= value * level.x[column];
 }
 
-void VCycle::sweep_backward(Level& level) {
-  for (int i = level.n - 1; i >= 0; --i) level.x[i] = (level.b[i] - level.matrix.product(i, level.x.data())) * level.over_diagonal[i];
+VCycle::Sums VCycle::sweep_backward(Level& level) {
+  Sums sums;
+  for (int i = level.n - 1; i >= 0; --i) {
+    const Value b = level.b[i], x = (b - level.matrix.product(i, level.x.data())) * level.over_diagonal[i];
+    level.x[i] = x;
+    sums.x += x, sums.b_x += static_cast<double>(b) * x;
+  }
+  return sums;
 }
 
-void VCycle::solve_coarsest() {
+VCycle::Sums VCycle::sums_of(const Level& level) {
+  Sums sums;
+  for (int i = 0; i < level.n; ++i) sums.x += level.x[i], sums.b_x += static_cast<double>(level.b[i]) * level.x[i];
+  return sums;
+}
+
+VCycle::Sums VCycle::solve_coarsest() {
   Level& level = levels_.back();
   if (coarsest_start_.empty()) {
     sweep_forward(level);
@@ -245,6 +259,7 @@ void VCycle::solve_coarsest() {
   MPI_Allgatherv(level.b.data(), level.n, MPI_FLOAT, b.data(), coarsest_count_.data(), coarsest_start_.data(), MPI_FLOAT, comm_);
   for (int i = 0; i < level.n; ++i)
     level.x[i] = static_cast<Value>(std::inner_product(b.begin(), b.end(), &coarsest_inverse_[static_cast<std::size_t>(i) * n_all], 0.0));
+  return sums_of(level);
 }
 
 }  // namespace snag

@@ -21,6 +21,7 @@
 // guesses nearly each end of them wrongly.
 #include <petscpc.h>
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,8 @@ class VCycle {
   /// `singular`: the constants are the null space. Collective.
   VCycle(Mat finest, PC hierarchy, bool singular);
   /// Solves for r [rows of this rank] with its mean (read where the constants are the null space) and its rms value over all ranks, above
-  /// 0: z_i = rms solution()[i]. Collective.
-  void apply(std::span<const double> r, double mean, double rms);
+  /// 0: z_i = rms solution()[i]. Returns the sums over this rank of z, and of r z (r in single precision). Collective.
+  std::array<double, 2> apply(std::span<const double> r, double mean, double rms);
   std::span<const float> solution() const { return {levels_.front().x.data(), static_cast<std::size_t>(levels_.front().n)}; }
   int n_levels() const { return static_cast<int>(levels_.size()); }
 
@@ -75,16 +76,20 @@ class VCycle {
     Halo halo;
     std::vector<Value> b, x, residual;  // [n], and ghosts of x and residual
   };
+  struct Sums {
+    double x = 0, b_x = 0;
+  };
   struct GlobalRows;
   class Numbering;
   void add_level(const GlobalRows& matrix, const GlobalRows* restriction, const GlobalRows* prolongation_of_last);
   static void fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from);
   void invert_coarsest(const GlobalRows& from);
-  void descend(std::size_t level);
-  void solve_coarsest();
+  Sums descend(std::size_t level);
+  Sums solve_coarsest();
   static void sweep_forward(Level& level);
   static void complete_residual(Level& level);
-  static void sweep_backward(Level& level);
+  static Sums sweep_backward(Level& level);
+  static Sums sums_of(const Level& level);
 
   MPI_Comm comm_;
   bool singular_;

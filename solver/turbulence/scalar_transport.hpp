@@ -63,6 +63,7 @@ class ScalarTransport {
   int max_sweeps = 1000;
 
  private:
+  struct FaceBlock;
   void start_rows(const ScalarHistory& history, const ScalarTerms& terms);
   void add_interior(std::span<const double> guess, std::span<const double> diffusivity);
   void add_boundary(const ScalarTerms& terms);

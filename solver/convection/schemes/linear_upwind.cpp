@@ -15,8 +15,8 @@ struct LinearUpwind final : FaceScheme<LinearUpwind> {
   bool is_bounded() const override { return true; }
   static Vec3 high_order_part(ConvectedVelocity velocity, int f, double F) {
     const Mesh& mesh = velocity.mesh;
-    const int P = mesh.owner[f], C = F > 0 ? P : mesh.neighbour[f];
-    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - (F > 0 ? 0.0 : 1.0) * mesh.delta[f];
+    const auto [C, to_centre] = upwind(mesh, f, F);
+    const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[mesh.owner[f]] - to_centre * mesh.delta[f];
     return scaled(velocity.psi[C], velocity.G[C] * way);
   }
 };
