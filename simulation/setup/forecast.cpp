@@ -27,8 +27,10 @@ constexpr double good_turn = 5;  // degrees a step, for the remedies
 constexpr double advised_courant = 100;  // of the median cell without a rotor
 constexpr double friction_speed = 0.05;  // u_tau/U
 constexpr double viscous_layer = 11;     // y+ below which the wall function takes a cell for one at the edge of the log layer
-// Orders of magnitude on one core of a present workstation; timing.csv of a run has those of this machine.
-constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 6e3, bytes_per_particle = 2e3,
+// Orders of magnitude on one core of a present workstation; timing.csv of a run has those of this machine. Bytes of a cell: what the set-up
+// of a pump of a million tetrahedra with k-epsilon takes at its peak, 1.7 kB on one rank, 2.0 kB on two (snag bench flow --level fine); a
+// step takes 1.4 and 1.6 kB. Thin layers and other cells have more faces.
+constexpr double seconds_per_cell_step = 4e-6, seconds_per_particle_step = 1e-7, bytes_per_cell = 2e3, bytes_per_particle = 2e3,
                  bytes_of_program = 1e8;
 
 double degrees_a_step(const FlowSolver& water, double step) {
