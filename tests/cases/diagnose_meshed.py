@@ -99,7 +99,7 @@ class MeshedDiagnosis(harness.CaseTest):
         (self.work / "A.toml").write_text(text.replace(mesh, f'[mesh]\ngeometry = "channel"\nset = [{geometry}]\n'))
         (self.work / "data.csv").write_text("point,replicate,t_s,observable,value\n" + "".join(f"A,{r},{t},x,{x}\n" for t, x in ((0.01, 0.0851), (0.02, 0.0902)) for r in (1, 2)))
         file = self.work / "DIAGNOSIS.toml"
-        point = '[[point]]\nid = "A"\ncase = "A.toml"\ninput_u = {{ "mesh.set.{input}" = 0.05 }}\n'
+        point = '[[point]]\nid = "A"\ncase = "A.toml"\ninput_u = {{ "mesh.set.{input}" = 0.01 }}\n'
         candidate = '[[candidate]]\nname = "height"\nkey = "mesh.set.height_mm"\nunit = "mm"\nmean = -5\nsd = 5\nminimum = -10\nmaximum = 15\n'
         head = f'[experiment]\nname = "geometry"\ndata = "data.csv"\n[[observable]]\nid = "x"\nunit = "m"\nnoise_u = {NOISE["x"]}\n'
         tail = candidate + '[model]\ncandidates = ["height"]\npairs = false\n[budget]\nmax_runs = 30\n'

@@ -1,15 +1,16 @@
 # labels: long
 # timeout: 3600
 # processors: 2
-"""Requirement: rag_in_pump.py, twice as long, on 1, 2, 3 and 5 ranks, and with the whole rag of the demo."""
+"""Requirement: rag_in_pump.py, over more steps, on 1, 2, 3 and 5 ranks, and with the whole rag of the demo. The water of a pump that starts multiplies round-off by 15 to 30 in ten steps from about the 40th on, whether
+rags act on it or not, until pressures differ by 0.1 %: longer runs cannot agree to 1e-6."""
 import harness
 import rag_in_pump
 from rag_in_pump import MONITORS
 
 
 class LongRagInPump(rag_in_pump.RagInPump):
-    n_steps, n_steps_before_last_rag = 50, 20
-    settings = {"end_ms": 5, "height_m": 0.1, "speed_m_s": 5, "insert_ms": 2, "picture_ms": 2.5}
+    n_steps, n_steps_before_last_rag = 40, 20
+    settings = {"end_ms": 4, "height_m": 0.1, "speed_m_s": 5, "insert_ms": 2, "picture_ms": 2}
     ranks = {"gaussian": (2, 3, 5), "cell": (2, 3)}
 
     def test_cell_kernel_on_any_number_of_ranks(self):
