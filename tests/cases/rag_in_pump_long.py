@@ -10,7 +10,7 @@ from rag_in_pump import MONITORS
 
 class LongRagInPump(rag_in_pump.RagInPump):
     n_steps, n_steps_before_last_rag = 40, 20
-    settings = {"end_ms": 4, "height_m": 0.1, "speed_m_s": 5, "insert_ms": 2, "picture_ms": 2}
+    settings = {"end_ms": 4, "height_m": 0.095, "speed_m_s": 5, "insert_ms": 2, "picture_ms": 2}
     ranks = {"gaussian": (2, 3, 5), "cell": (2, 3)}
 
     def test_cell_kernel_on_any_number_of_ranks(self):
