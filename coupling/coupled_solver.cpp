@@ -69,13 +69,13 @@ void CoupledSolver::step(double dt) {
   });
 }
 
-CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double)> advance_flow)
+CoupledSolver::CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double)> advance_flow, KnownFactors* known)
     : coupling_(std::move(coupling)), rags_(rags), flow_(&flow), advance_flow_(std::move(advance_flow)) {
   const bool turbulent = has_turbulence(flow);
   require_turbulence(coupling_.forces, turbulent);
   if (size_of(rags.comm()) > 1) owner_ = std::make_unique<CellOwner>(flow.mesh);
   const double width = coupling_.kernel_width(rags.rags());
-  kernel_ = std::make_unique<Kernel>(*coupling_.shape, width, flow.mesh);
+  kernel_ = std::make_unique<Kernel>(*coupling_.shape, width, flow.mesh, known);
   prediction_ = std::make_unique<WaterPrediction>(flow, coupling_.shape->has_width() ? width : 0);
   kernel_field_ = std::make_unique<KernelField>(flow, *kernel_, rags.rags(), *prediction_, coupling_.settings.two_way());
   load_ = std::make_unique<FluidLoad>(coupling_.forces, *kernel_field_, rags.rags());

@@ -35,9 +35,9 @@ struct CouplingSeconds {
 
 class CoupledSolver {
  public:
-  /// `advance_flow` takes the water from t to t + dt with flow.reaction. Arguments by reference must outlive the solver.
-  /// Collective.
-  CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double dt)> advance_flow);
+  /// `advance_flow` takes the water from t to t + dt with flow.reaction. Arguments by reference must outlive the solver. `known`: of the
+  /// mesh of the flow (Kernel), for this call. Collective.
+  CoupledSolver(Coupling coupling, RagSystem& rags, Flow& flow, std::function<void(double dt)> advance_flow, KnownFactors* known = nullptr);
   /// Rags in a prescribed flow, one-way.
   CoupledSolver(Coupling coupling, RagSystem& rags, const PrescribedFlow& flow);
 

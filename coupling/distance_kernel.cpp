@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "coupling/cell_weights.hpp"
 #include "coupling/cells_around.hpp"
@@ -64,7 +63,8 @@ class DistanceWeights final : public CellWeights {
     announced.router.back(search(announced), 2, answers);
     announced.router.forward(settle(announced, answers), 1, factors);
     for (std::size_t i = 0; i < factors.size(); ++i)
-      for (int s = rows_.start[i]; s < rows_.start[i + 1]; ++s) rows_.weight[s] *= factors[i];
+      if (factors[i] != 1)  // other ranks have cells too
+        for (int s = rows_.start[i]; s < rows_.start[i + 1]; ++s) rows_.weight[s] *= factors[i];
   }
 
  private:
@@ -73,7 +73,8 @@ class DistanceWeights final : public CellWeights {
     whole_ = integral(kernel_, width_, radius);
   }
 
-  /// Cells of this rank around the announced particles: weights shifted by the nearest of them, and their sums.
+  /// Cells of this rank around the announced particles: weights as if there were no others, with the shift by the nearest of them and the
+  /// sums.
   std::vector<double> search(const Announcement& announced) {
     CellsAround cells_around(mesh_, locator_, cell_weight_, support_);
     std::vector<double> answers(2 * announced.places.size()), cell_weight;
@@ -94,7 +95,7 @@ class DistanceWeights final : public CellWeights {
     return answers;
   }
 
-  /// Squared distances become V_c d_c g_c exp(-exponent).
+  /// Squared distances become V_c d_c g_c exp(-exponent) over the sum of these.
   void set_weights(std::span<double> weights, const double* cell_weight, Answer& answer) const {
     kernel_.log_weights(weights, width_);
     double* w = weights.data();
@@ -104,12 +105,19 @@ class DistanceWeights final : public CellWeights {
     for (std::size_t s = 0; s < n; ++s) largest = std::max(largest, w[s]);
     answer.exponent = largest;
     if (largest == none) return;
+    double sum = 0;
+#pragma omp simd reduction(+ : sum)
+    for (std::size_t s = 0; s < n; ++s) {
+      w[s] = cell_weight[s] * exp(w[s] - largest);
+      sum += w[s];
+    }
+    answer.sum = sum;
+    const double factor = 1 / sum;
 #pragma omp simd
-    for (std::size_t s = 0; s < n; ++s) w[s] = cell_weight[s] * exp(w[s] - largest);
-    answer.sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t s = 0; s < n; ++s) w[s] *= factor;
   }
 
-  /// From the answers of all ranks about one particle: the factor that normalises the weights on each of them.
+  /// From the answers of all ranks about one particle: the share of each of them in the weights.
   std::vector<double> settle(const Announcement& announced, std::span<const double> answers) {
     const auto& router = announced.router;
     const std::size_t n_particles = announced.holder_rank.size(), n_entries = router.n_entries();
@@ -122,8 +130,8 @@ class DistanceWeights final : public CellWeights {
       const Answer answer = Answer::read(answers, e);
       if (answer.exponent == none) continue;
       const int b = router.particle(static_cast<int>(e));
-      factors[e] = std::exp(answer.exponent - exponent[b]);
-      total[b] += answer.sum * factors[e];
+      factors[e] = answer.sum * std::exp(answer.exponent - exponent[b]);
+      total[b] += factors[e];
     }
     inside_.resize(n_particles);
     unresolved_.clear();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "base/flat.hpp"
 #include "coupling/cells_around.hpp"
@@ -26,7 +27,7 @@ void sort_out(std::vector<int>& cells) {
 
 }  // namespace
 
-Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
+Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh, KnownFactors* known)
     : shape_(shape),
       width_(width),
       mesh_(mesh),
@@ -35,12 +36,21 @@ Kernel::Kernel(const KernelShape& shape, double width, const Mesh& mesh)
       around_(mesh.comm),
       to_nearest_(mesh.comm) {
   mesh_moved();
-  weigh_cells();
+  KnownFactors own;
+  weigh_cells(known ? *known : own);
 }
 
-/// Factors of cells near boundaries: rounds of (eq. 2) with the kernels of the cells themselves. Cells of a turning zone keep them.
-void Kernel::weigh_cells() {
+/// Gives the cells their factors. Those of a turning zone keep them.
+void Kernel::weigh_cells(KnownFactors& known) {
   if (!weights_->start_balancing()) return;
+  const std::vector<double>* factors = known.find(shape_, width_);
+  weights_->set_cell_factors(factors ? *factors : known.keep(shape_, width_, find_factors()));
+  weights_->end_balancing();
+  holder_cell_.clear(), holder_rank_.clear();
+}
+
+/// Factors of cells near boundaries: rounds of (eq. 2) with the kernels of the cells themselves.
+std::vector<double> Kernel::find_factors() {
   std::vector<int> at_boundary(mesh_.owner.begin() + mesh_.n_interior, mesh_.owner.begin() + mesh_.n_faces), near;
   sort_out(at_boundary);
   locate_in_parts(at_boundary, [&](std::size_t, std::size_t) {
@@ -64,8 +74,7 @@ void Kernel::weigh_cells() {
     missing = maximum(mesh_.comm, missing);
     weights_->set_cell_factors(factor = next);
   }
-  weights_->end_balancing();
-  holder_cell_.clear(), holder_rank_.clear();
+  return factor;
 }
 
 /// Locates the centres of these cells, some at a time: weights of all together would take too much memory. `use(first, n)` is called after
@@ -225,6 +234,7 @@ void for_columns(int stride, const Act& act) {
   if (stride == 1) return act(0, std::integral_constant<int, 1>());
   if (stride == 4) return act(0, std::integral_constant<int, 4>());
   int first = 0;
+  for (; first + 32 <= stride; first += 32) act(first, std::integral_constant<int, 32>());
   for (; first + 24 <= stride; first += 24) act(first, std::integral_constant<int, 24>());
   for (; first + 16 <= stride; first += 16) act(first, std::integral_constant<int, 16>());
   for (; first < stride; first += 8) act(first, std::integral_constant<int, 8>());
@@ -245,24 +255,36 @@ void pack(const WeightRows& rows, std::span<const CellField> fields, int stride,
   }
 }
 
+/// sum_s weight_s value_s of the entries of a row, m columns from the first one. Two sums, as the next addition to one of them has to wait
+/// for the last.
+template <int m>
+std::array<double, m> row_average(const WeightRows& rows, int row, const double* values, int stride) {
+  std::array<double, m> sum{}, other{};
+  const auto add = [&](std::array<double, m>& to, int s) {
+    const double* value = values + static_cast<std::size_t>(rows.place[s]) * stride;
+    const double weight = rows.weight[s];
+    for (int j = 0; j < m; ++j) to[j] += weight * value[j];
+  };
+  int s = rows.start[row];
+  for (; s + 2 <= rows.start[row + 1]; s += 2) add(sum, s), add(other, s + 1);
+  if (s < rows.start[row + 1]) add(sum, s);
+  for (int j = 0; j < m; ++j) sum[j] += other[j];
+  return sum;
+}
+
 /// Adds the averages of the rows to the values of the particles, [n_particles][components]: each row is averaged once.
 void add_averages(const ParticleRouter& router, const WeightRows& rows, std::span<const CellField> fields, KernelScratch& scratch,
                   std::vector<double>& values) {
   const int components = total_components(fields), stride = padded(components);
   const auto width = static_cast<std::size_t>(components);
-  std::vector<double>&of_cells = scratch.of_cells, &of_row = scratch.of_row;
+  auto& [of_cells, of_row, answers, entries] = scratch;
   pack(rows, fields, stride, of_cells);
   of_row.resize(static_cast<std::size_t>(stride) * rows.n_rows());
-  std::vector<double> answers(width * rows.row.size()), entries;
+  answers.resize(width * rows.row.size());
   for (int r = 0; r < rows.n_rows(); ++r)
     for_columns(stride, [&](int first, auto m) {
-      std::array<double, m> sum{};
-      for (int s = rows.start[r]; s < rows.start[r + 1]; ++s) {
-        const double* value = of_cells.data() + static_cast<std::size_t>(rows.place[s]) * stride + first;
-        const double weight = rows.weight[s];
-        for (int j = 0; j < m; ++j) sum[j] += weight * value[j];
-      }
-      std::copy_n(sum.data(), static_cast<int>(m), of_row.data() + static_cast<std::size_t>(r) * stride + first);
+      const std::array<double, m> average = row_average<m>(rows, r, of_cells.data() + first, stride);
+      std::copy_n(average.data(), static_cast<int>(m), of_row.data() + static_cast<std::size_t>(r) * stride + first);
     });
   for (std::size_t i = 0; i < rows.row.size(); ++i)
     std::copy_n(of_row.data() + static_cast<std::size_t>(rows.row[i]) * stride, width, answers.data() + i * width);

@@ -28,6 +28,7 @@
 
 #include "coupling/cell_weights.hpp"
 #include "coupling/kernel_shape.hpp"
+#include "coupling/known_factors.hpp"
 #include "mesh/locator.hpp"
 #include "mesh/mesh.hpp"
 
@@ -47,13 +48,14 @@ struct CellSums {
 
 /// What a transfer works with, kept from one to the next: to allocate as much each time costs as much as the work.
 struct KernelScratch {
-  std::vector<double> of_cells, of_row;
+  std::vector<double> of_cells, of_row, answers, entries;
 };
 
 class Kernel {
  public:
-  /// `shape` and `mesh` must outlive the kernel. `width`: delta, m; any positive number for the cell kernel.
-  Kernel(const KernelShape& shape, double width, const Mesh& mesh);
+  /// `shape` and `mesh` must outlive the kernel. `width`: delta, m; any positive number for the cell kernel. `known`: of this mesh, with
+  /// what kernels before it have found; the same on all ranks. Collective.
+  Kernel(const KernelShape& shape, double width, const Mesh& mesh, KnownFactors* known = nullptr);
 
   /// Cells have moved (a turning zone). Collective.
   void mesh_moved();
@@ -84,7 +86,8 @@ class Kernel {
   std::array<double, 2> width_over_cell_size() const;
 
  private:
-  void weigh_cells();
+  void weigh_cells(KnownFactors& known);
+  std::vector<double> find_factors();
   void locate_in_parts(const std::vector<int>& cells, const std::function<void(std::size_t, std::size_t)>& use);
   void plan_by_boxes(std::span<const Vec3> points);
   void find_holders(std::span<const Vec3> points);

@@ -137,15 +137,21 @@ CellLocator::CellLocator(const Mesh& mesh) : mesh_(mesh), at_interface_(static_c
   for (const bool turns : {false, true}) {
     auto group = std::make_unique<Group>();
     group->turns = turns;
-    std::vector<CellBox> boxes;
+    std::vector<int> cells;
+    std::vector<Vec3> centres;
     for (int c = 0; c < mesh.n_cells; ++c) {
       const bool cell_turns = mesh.turning.zone >= 0 && mesh.cell_zone[c] == mesh.turning.zone;
       if (cell_turns != turns) continue;
-      group->cell.push_back(c);
-      group->centre.push_back(group->in_file(mesh, mesh.cell_centre[c]));
-      boxes.push_back(box_of(c, turns));
+      cells.push_back(c);
+      centres.push_back(group->in_file(mesh, mesh.cell_centre[c]));
     }
-    if (group->cell.empty()) continue;
+    if (cells.empty()) continue;
+    const PointTree unsorted(centres);
+    std::vector<CellBox> boxes;
+    for (const unsigned i : unsorted.order_of_leaves()) {  // so that a search reads cells one after another
+      group->cell.push_back(cells[i]), group->centre.push_back(centres[i]);
+      boxes.push_back(box_of(cells[i], turns));
+    }
     group->tree = std::make_unique<PointTree>(group->centre);
     group->fill_bins(boxes);
     groups_.push_back(std::move(group));

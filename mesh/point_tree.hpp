@@ -29,6 +29,8 @@ class PointTree {
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3>;
   /// The library's searches.
   const Tree* operator->() const { return &tree_; }
+  /// Numbers of the points, those of a leaf after each other.
+  const std::vector<unsigned>& order_of_leaves() const { return tree_.vAcc; }
 
  private:
   Points points_;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "coupling/known_factors.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/quality.hpp"
 #include "solver/flow_solver.hpp"
@@ -15,6 +16,7 @@ namespace snag {
 struct CachedMesh {
   std::shared_ptr<Mesh> mesh;  // null: not read yet
   MeshQuality quality;
+  KnownFactors kernel_factors;  // of its cells
 };
 
 struct CachedFlow {

@@ -85,7 +85,7 @@ void Simulation::read_mesh(const CaseFile& file) {
       path = file.path(mesh_settings_.file);
     else
       path = meshes.file(comm_, mesh_settings_.geometry, parameters, mesh_settings_.set);
-    CachedMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}};
+    CachedMesh fresh{.mesh = std::make_shared<Mesh>(import_mesh(path, comm_, options)), .quality = {}, .kernel_factors = {}};
     fresh.quality = quality(*fresh.mesh);
     if (!fresh.quality.failures.empty()) throw Error(ExitCode::mesh, path.string() + ": " + fresh.quality.failures.front());
     mesh = fresh.mesh, mesh_quality = fresh.quality;
@@ -179,7 +179,9 @@ std::unique_ptr<CoupledSolver> Simulation::coupling_of(const CaseFile& file) {
       throw Error(
           ExitCode::usage,
           "[initial_flow] frozen = true with [coupling] mode = \"two_way\": frozen flow allows one-way coupling only; use \"one_way\"");
-    solver = std::make_unique<CoupledSolver>(std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); });
+    KnownFactors* known = store_ && frozen ? &store_->meshes[mesh_key_].kernel_factors : nullptr;
+    solver = std::make_unique<CoupledSolver>(
+        std::move(coupling), *rags, water->flow, [this](double dt) { move_water(dt); }, known);
   } else if (prescribed_) {
     solver = std::make_unique<CoupledSolver>(read_coupling(file.root(), false), *rags, *prescribed_);
   }
