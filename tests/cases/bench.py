@@ -19,10 +19,15 @@ class Bench(harness.CaseTest):
         self.assertEqual(run.code, code, run.tail())
         return run
 
-    def test_flow(self):
-        mesh = self.work / "bench" / "pump_coarse.msh"  # there already; test_coupling makes its own
+    def pump_mesh(self):
+        """The mesh of the coarse pump, there already; the duct of test_coupling is made."""
+        mesh = self.work / "bench" / "pump_coarse.msh"
         mesh.parent.mkdir()
         shutil.copy(harness.SOURCE_DIR / "cases" / "meshes" / mesh.name, mesh)
+        return mesh
+
+    def test_flow(self):
+        mesh = self.pump_mesh()
         made = mesh.stat().st_mtime_ns
         run = self.bench("flow", "--level", "coarse", "--steps", "2", ranks=2)
         records = json.loads((run.folder / "bench.json").read_text())
@@ -72,7 +77,8 @@ class Bench(harness.CaseTest):
         self.assertEqual(len(json.loads((run.folder / "peer" / "peer.json").read_text())["wall_s"]), 2)
 
     def test_coupling(self):
-        """Each kernel: the parts make up the step, and the exchange loses nothing."""
+        """Each kernel: the parts make up the step, and the exchange loses nothing. The transfers by themselves."""
+        self.pump_mesh()
         run = self.bench("coupling", "--quick", "--steps", "8", ranks=2)
         records = json.loads((run.folder / "bench.json").read_text())
         values = {record["name"]: record["value"] for record in records}
@@ -84,6 +90,9 @@ class Bench(harness.CaseTest):
             self.assertAlmostEqual(values[f"coupling.{kernel}_share"], coupling / step)
             self.assertLess(values[f"coupling.{kernel}_exchange"], 1e-10)
         self.assertGreater(values["coupling.rag_in_prescribed_flow"], 0)
+        transfers = [values[f"coupling.transfers_{part}"] for part in ("locate", "average", "spread")]
+        self.assertGreater(min(transfers), 0)
+        self.assertAlmostEqual(values["coupling.transfers"], 2 * sum(transfers), msg="of both ranks")
 
     def test_dem(self):
         """The cases on one rank, the same sheet on both, and the limits."""
