@@ -16,7 +16,7 @@ namespace snag {
 
 namespace {
 
-constexpr int largest_inverse = 256;       // rows of a coarsest level that is inverted
+constexpr int largest_inverse = 256;       // rows of a level that is inverted and so the coarsest
 constexpr double null_eigenvalue = 1e-12;  // of the largest: nothing but round-off
 
 MPI_Comm comm_of(Mat matrix) { return PetscObjectComm(reinterpret_cast<PetscObject>(matrix)); }
@@ -84,19 +84,53 @@ class VCycle::Numbering {
     }
     return {comm, static_cast<int>(n_), owner_rank, owner_index};
   }
-  template <int block>
-  void fill(Rows<block>& rows, const GlobalRows& from) const {
-    for (std::size_t i = 0; i + 1 < from.start.size(); ++i) {
-      for (int e = from.start[i]; e < from.start[i + 1]; ++e) rows.add(place(from.column[e]), from.value[e]);
-      rows.end_row();
-    }
-    rows.fit();
-  }
 
  private:
   PetscInt first_, n_;
   std::vector<PetscInt> ghosts_, ranges_;
 };
+
+template <int block>
+void VCycle::SortedRows<block>::fill(const GlobalRows& from, const Numbering& numbers) {
+  const auto blocks = [&](int i) { return (from.start[i + 1] - from.start[i] + block - 1) / block; };
+  row_.resize(from.start.size() - 1);
+  std::iota(row_.begin(), row_.end(), 0);
+  std::stable_sort(row_.begin(), row_.end(), [&](int a, int b) { return blocks(a) < blocks(b); });
+  for (const int i : row_) {
+    const int length = blocks(i) * block;
+    if (run_.empty() || run_.back().length != length) run_.push_back({length, 0});
+    ++run_.back().n_rows;
+    for (int e = from.start[i]; e < from.start[i + 1]; ++e)
+      column_.push_back(numbers.place(from.column[e])), value_.push_back(static_cast<Value>(from.value[e]));
+    for (int e = from.start[i + 1] - from.start[i]; e < length; ++e) column_.push_back(column_.back()), value_.push_back(0);
+  }
+  run_.shrink_to_fit(), column_.shrink_to_fit(), value_.shrink_to_fit();
+}
+
+template <int block>
+template <class Act>
+void VCycle::SortedRows<block>::multiply(const Value* x, const Act& act) const {
+  const int *row = row_.data(), *column = column_.data();
+  const Value* value = value_.data();
+  const auto multiply_run = [&](int n_rows, auto length) {
+    for (const int* const end = row + n_rows; row != end; ++row, column += length, value += length) {
+      std::array<Value, block> part{};
+      for (int e = 0; e < length; e += block)
+        for (int k = 0; k < block; ++k) part[k] += value[e + k] * x[column[e + k]];
+      for (int half = block / 2; half > 0; half /= 2)
+        for (int k = 0; k < half; ++k) part[k] += part[k + half];
+      act(*row, part[0]);
+    }
+  };
+  for (const Run& run : run_) {
+    if (run.length == 1)
+      multiply_run(run.n_rows, std::integral_constant<int, 1>{});
+    else if (run.length == 2)
+      multiply_run(run.n_rows, std::integral_constant<int, 2>{});
+    else
+      multiply_run(run.n_rows, run.length);
+  }
+}
 
 VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest)), singular_(singular) {
   PetscInt n_levels = 0;
@@ -105,20 +139,24 @@ VCycle::VCycle(Mat finest, PC hierarchy, bool singular) : comm_(comm_of(finest))
   check_petsc(PCGetCoarseOperators(hierarchy, &n_levels, &coarse), "PCGetCoarseOperators");
   std::optional<GlobalRows> prolongation, of_last;
   for (PetscInt l = 0; l < n_levels; ++l) {
-    const GlobalRows matrix(l == 0 ? finest : coarse[n_levels - 1 - l]);
+    const bool is_in_use = coarsest_start_.empty();  // no small one is above it
+    std::optional<GlobalRows> matrix, restriction;
+    if (is_in_use) matrix.emplace(l == 0 ? finest : coarse[n_levels - 1 - l]);
     if (l > 0) check_petsc(MatDestroy(&coarse[n_levels - 1 - l]), "MatDestroy");
     of_last = std::exchange(prolongation, std::nullopt);
-    std::optional<GlobalRows> restriction;
+    const bool is_small = is_in_use && matrix->row_ranges.back() <= largest_inverse;
     if (l + 1 < n_levels) {
       Mat &interpolation = interpolations[n_levels - 2 - l], transposed = nullptr;
-      prolongation.emplace(interpolation);
-      check_petsc(MatTranspose(interpolation, MAT_INITIAL_MATRIX, &transposed), "MatTranspose");
+      if (is_in_use && !is_small) {
+        prolongation.emplace(interpolation);
+        check_petsc(MatTranspose(interpolation, MAT_INITIAL_MATRIX, &transposed), "MatTranspose");
+      }
       check_petsc(MatDestroy(&interpolation), "MatDestroy");
-      restriction.emplace(transposed);
+      if (transposed) restriction.emplace(transposed);
       check_petsc(MatDestroy(&transposed), "MatDestroy");
     }
-    add_level(matrix, restriction ? &*restriction : nullptr, of_last ? &*of_last : nullptr);
-    if (l + 1 == n_levels && matrix.row_ranges.back() <= largest_inverse) invert_coarsest(matrix);
+    if (is_in_use) add_level(*matrix, restriction ? &*restriction : nullptr, of_last ? &*of_last : nullptr);
+    if (is_small) invert_coarsest(*matrix);
   }
   check_petsc(PetscFree(interpolations), "PetscFree");
   check_petsc(PetscFree(coarse), "PetscFree");
@@ -130,14 +168,14 @@ void VCycle::add_level(const GlobalRows& matrix, const GlobalRows* restriction, 
   for (const GlobalRows* rows : {&matrix, restriction, prolongation_of_last})
     if (rows) rows->add_ghosts(ghosts);
   const Numbering numbers(matrix, std::move(ghosts));
-  if (prolongation_of_last) numbers.fill(levels_.back().prolongation, *prolongation_of_last);
+  if (prolongation_of_last) levels_.back().prolongation.fill(*prolongation_of_last, numbers);
   Level& level = levels_.emplace_back();
   level.n = static_cast<int>(matrix.n_rows);
   level.halo = numbers.halo(comm_);
   level.b.assign(static_cast<std::size_t>(level.n), 0);
   for (auto* vector : {&level.x, &level.residual}) vector->assign(numbers.n_all(), 0);
   fill_matrix(level, numbers, matrix);
-  if (restriction) numbers.fill(level.restriction, *restriction);
+  if (restriction) level.restriction.fill(*restriction, numbers);
 }
 
 void VCycle::fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from) {
@@ -206,10 +244,10 @@ VCycle::Sums VCycle::descend(std::size_t l) {
   fine.halo.exchange(std::span(fine.x));
   complete_residual(fine);
   fine.halo.exchange(std::span(fine.residual));
-  for (int i = 0; i < coarse.n; ++i) coarse.b[i] = fine.restriction.product(i, fine.residual.data());
+  fine.restriction.multiply(fine.residual.data(), [b = coarse.b.data()](int i, Value sum) { b[i] = sum; });
   descend(l + 1);
   coarse.halo.exchange(std::span(coarse.x));
-  for (int i = 0; i < fine.n; ++i) fine.x[i] += fine.prolongation.product(i, coarse.x.data());
+  fine.prolongation.multiply(coarse.x.data(), [x = fine.x.data()](int i, Value sum) { x[i] += sum; });
   fine.halo.exchange(std::span(fine.x));
   return sweep_backward(fine);
 }
@@ -223,7 +261,8 @@ void VCycle::sweep_forward(Level& level) {
     const Value rest = level.b[i] + residual[i], x = rest * level.over_diagonal[i];
     level.x[i] = x;
     residual[i] = level.over_diagonal[i] > 0 ? 0 : rest;
-    for (int e = start[i]; e < start[i + 1]; ++e) residual[column[e]] -= value[e] * x;
+    for (int e = start[i], end = start[i + 1]; e < end; e += 4)
+      for (int k = 0; k < 4; ++k) residual[column[e + k]] -= value[e + k] * x;
   }
 }
 

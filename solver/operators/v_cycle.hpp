@@ -13,12 +13,13 @@
 // In front r is divided by its rms value, and z multiplied by it, for the range of single precision; where the constants are the null space
 // of A the mean of r is taken off, which the cycle would answer with its round-off, of either sign.
 //
-// M is symmetric and positive where A is, as conjugate gradients want: the backward sweep is the transpose of the forward one. The coarsest
-// level is solved by the inverse of its matrix without the null space where it is small, else by a sweep forward and one backward.
+// M is symmetric and positive where A is, as conjugate gradients want: the backward sweep is the transpose of the forward one. The first
+// level that is small is the coarsest: it is solved by the inverse of its matrix without the null space. Without a small one the coarsest
+// has a sweep forward and one backward.
 //
 // Rows are padded with zeros to a multiple of a few entries: the length of a row is then nearly always the same, four on tetrahedra. Loops
 // over the entries below the diagonal alone, whose number is as good as random, read half as much and take longer, because the processor
-// guesses nearly each end of them wrongly.
+// guesses nearly each end of them wrongly. Rows of restriction and prolongation differ in length: they are sorted by it.
 #include <petscpc.h>
 
 #include <array>
@@ -42,6 +43,8 @@ class VCycle {
 
  private:
   using Value = float;
+  struct GlobalRows;
+  class Numbering;
   template <int block>
   struct Rows {  // compressed, each a multiple of `block` long; columns are owned entries of a vector, then its ghosts
     std::vector<int> start{0}, column;
@@ -62,6 +65,25 @@ class VCycle {
       return sum;
     }
   };
+  /// Rows of a product with a vector of another level, sorted by length, each padded to a multiple of `block`; n rows of one length follow
+  /// each other without a jump that the processor could not foresee.
+  template <int block>
+  class SortedRows {
+   public:
+    /// Columns by `place`, of their global number.
+    void fill(const GlobalRows& from, const Numbering& place);
+    /// act(i, sum_j a_ij x_j) for all rows i.
+    template <class Act>
+    void multiply(const Value* x, const Act& act) const;
+
+   private:
+    struct Run {
+      int length = 0, n_rows = 0;
+    };
+    std::vector<Run> run_;
+    std::vector<int> row_, column_;
+    std::vector<Value> value_;
+  };
   struct GhostEntry {
     int row, column;
     Value value;
@@ -70,8 +92,8 @@ class VCycle {
     int n = 0;                             // rows of this rank
     Rows<4> matrix;                        // without the diagonal
     std::vector<GhostEntry> ghost_matrix;  // of it those of other ranks' columns once more
-    Rows<4> restriction;                   // from this level to the next coarser one
-    Rows<2> prolongation;                  // from that to this
+    SortedRows<4> restriction;             // from this level to the next coarser one
+    SortedRows<1> prolongation;            // from that to this
     std::vector<Value> over_diagonal;      // [n] 1/D, 0 where D is not positive
     Halo halo;
     std::vector<Value> b, x, residual;  // [n], and ghosts of x and residual
@@ -79,8 +101,6 @@ class VCycle {
   struct Sums {
     double x = 0, b_x = 0;
   };
-  struct GlobalRows;
-  class Numbering;
   void add_level(const GlobalRows& matrix, const GlobalRows* restriction, const GlobalRows* prolongation_of_last);
   static void fill_matrix(Level& level, const Numbering& numbers, const GlobalRows& from);
   void invert_coarsest(const GlobalRows& from);

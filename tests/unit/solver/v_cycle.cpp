@@ -85,8 +85,7 @@ class BoxEquation {
     return y;
   }
   /// Factor of the residual in one of several cycles x += M^-1 (b - A x).
-  double convergence() const {
-    constexpr int n_cycles = 6;
+  double convergence(int n_cycles = 6) const {
     VCycle cycle = this->cycle();
     const std::vector<double> b = random_vector(1);
     std::vector<double> x(b.size(), 0.0), residual = b;
@@ -146,6 +145,13 @@ TEST_P(VCycles, SmallNumbersAndConstants) {
 // Requirement: a cycle takes four fifths off the residual, whatever the number of cells, with and without a fixed value.
 TEST_P(VCycles, ConvergesAlikeOnAllMeshes) {
   for (const int n : {8, 16, 24}) EXPECT_LT(BoxEquation(n, GetParam()).convergence(), 0.2) << n << " cells a side";
+}
+
+// Requirement: the cycle ends at the first level that is small enough to be inverted; where that is the finest, it is the inverse.
+TEST_P(VCycles, EndsAtTheFirstSmallLevel) {
+  const BoxEquation small(6, GetParam());
+  EXPECT_EQ(small.cycle().n_levels(), 1);
+  EXPECT_LT(small.convergence(1), 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Walls, VCycles, testing::Bool(), [](const auto& one) { return one.param ? "closed" : "fixed"; });
