@@ -96,11 +96,11 @@ void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double s
 double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
   const double r = time.ratio;
   guess_flux(flow, history, 0);
-  set_rates(flow);
+  set_convection_rate(), set_diffusion_rate(flow);
   const double share = flux_share(flow, time);
   if (share > 0) {
     guess_flux(flow, history, r * share);
-    set_rates(flow);
+    set_convection_rate();
   }
   mesh_.halo.exchange(convection_rate_), mesh_.halo.exchange(diffusion_rate_);
   for (int c = 0; c < mesh_.n_all_cells(); ++c) {
@@ -115,19 +115,25 @@ double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, cons
   return share;
 }
 
-/// Rates of the owned cells from flux_ and the viscosity.
-void Momentum::set_rates(const Flow& flow) {
-  const auto convection = convection_rate_, diffusion = diffusion_rate_;
-  std::fill(convection.begin(), convection.end(), 0.0), std::fill(diffusion.begin(), diffusion.end(), 0.0);
+/// Of the owned cells, from flux_.
+void Momentum::set_convection_rate() {
+  const auto rate = convection_rate_;
+  std::fill(rate.begin(), rate.end(), 0.0);
   for (int f = 0; f < mesh_.n_interior; ++f) {
-    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double c = conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
-    convection[P] += std::max(flux_[f], 0.0), diffusion[P] += c;
-    convection[N] += std::max(-flux_[f], 0.0), diffusion[N] += c;
+    rate[mesh_.owner[f]] += std::max(flux_[f], 0.0);
+    rate[mesh_.neighbour[f]] += std::max(-flux_[f], 0.0);
   }
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
-    convection[mesh_.owner[f]] += std::max(flux_[f], 0.0);
-    diffusion[mesh_.owner[f]] += conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) rate[mesh_.owner[f]] += std::max(flux_[f], 0.0);
+}
+
+/// Of the owned cells, from the viscosity.
+void Momentum::set_diffusion_rate(const Flow& flow) {
+  const auto rate = diffusion_rate_;
+  std::fill(rate.begin(), rate.end(), 0.0);
+  for (int f = 0; f < mesh_.n_faces; ++f) {
+    const double c = conductance(mesh_.face_vector[f], mesh_.delta[f]) * flow.face_viscosity[f] / flow.density;
+    rate[mesh_.owner[f]] += c;
+    if (f < mesh_.n_interior) rate[mesh_.neighbour[f]] += c;
   }
 }
 

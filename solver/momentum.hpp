@@ -64,7 +64,8 @@ class Momentum {
  private:
   struct BoundaryFace;  // coefficients of one boundary face
   void guess_flux(const Flow& flow, const FluxHistory& history, double share);
-  void set_rates(const Flow& flow);
+  void set_convection_rate();
+  void set_diffusion_rate(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
   FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi) const;

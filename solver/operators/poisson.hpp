@@ -9,6 +9,7 @@
 //
 // The operator is applied face by face, so that it follows a turning mesh at no cost; a matrix is assembled for the set-up of the
 // preconditioner only, which is repeated when iterations grow beyond 1.8 times those of a fresh one.
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -54,8 +55,10 @@ class Poisson {
   class OwnCycle;
   class Gamg;
   double apply(std::span<const double> x);
+  std::array<double, 2> shorten_residual(double alpha);
   void set_up_preconditioner();
   const char* iterate(std::span<const double> b, std::vector<double>& x, double target, PoissonReport& report);
+  double local_sum(std::span<const double> x) const;
   void fix_level(std::span<double> x);
   void remove_mean(std::span<double> x) const;
   const Mesh& mesh_;
