@@ -277,7 +277,7 @@ void add_averages(const ParticleRouter& router, const WeightRows& rows, std::spa
                   std::vector<double>& values) {
   const int components = total_components(fields), stride = padded(components);
   const auto width = static_cast<std::size_t>(components);
-  auto& [of_cells, of_row, answers, entries] = scratch;
+  std::vector<double>&of_cells = scratch.of_cells, &of_row = scratch.of_row, &answers = scratch.answers, &entries = scratch.entries;
   pack(rows, fields, stride, of_cells);
   of_row.resize(static_cast<std::size_t>(stride) * rows.n_rows());
   answers.resize(width * rows.row.size());

@@ -19,7 +19,8 @@ const std::vector<double>* KnownFactors::find(const KernelShape& shape, double w
 
 const std::vector<double>& KnownFactors::keep(const KernelShape& shape, double width, std::vector<double> factors) {
   if (entries_.size() == most) entries_.pop_front();
-  return entries_.emplace_back(shape.equation(), width, std::move(factors)).factors;
+  entries_.push_back({.equation = shape.equation(), .width = width, .factors = std::move(factors)});
+  return entries_.back().factors;
 }
 
 }  // namespace snag
