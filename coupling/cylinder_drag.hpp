@@ -49,6 +49,25 @@ inline Creeping creeping(double length_over_diameter) {
           2 * std::numbers::pi / (slender - 0.207 + 0.980 / p - 0.133 / (p * p))};
 }
 
+/// Which law holds along the axis beyond creeping flow.
+enum class Along { cable, swept };
+
+/// Force and its slope, the larger of mu l f_n and mu l f_t.
+struct Drag {
+  Vec3 force;
+  double slope;
+};
+/// Of a length whose axis has the direction t, with mu l; its slip w has the Reynolds number `per_speed` |w|, and its f_n and f_t are not
+/// below `least`. Without an axis (t = 0) all slip is across.
+template <Along law>
+inline Drag drag(const Vec3& w, const Vec3& t, double per_speed, double mu_l, const Creeping& least) {
+  const Vec3 w_t = dot(w, t) * t, w_n = w - w_t;
+  const double Re = per_speed * std::sqrt(norm_squared(w)), Re_n = per_speed * std::sqrt(norm_squared(w_n));
+  const double K_n = mu_l * std::max(across(Re_n), least.across);
+  const double K_t = mu_l * std::max(law == Along::cable ? along_cable(Re) : along_swept(Re_n), least.along);
+  return {K_n * w_n + K_t * w_t, std::max(K_n, K_t)};
+}
+
 /// Measured drag across the flow, of a particle that stands for the length of its diameter.
 inline std::vector<ReferenceCase> measured_across() {
   std::vector<ReferenceCase> cases;

@@ -34,11 +34,10 @@ struct CylinderSegments final : FluidForce {
     const LatticeDirections lattice(particles);
 #pragma omp simd
     for (int p = particles.begin; p < particles.end; ++p) {
-      const Vec3 t = direction(lattice.along(p)), w = u[p] - v[p], w_t = dot(w, t) * t, w_n = w - w_t;
-      const double Re = per_speed * std::sqrt(norm_squared(w)), Re_n = per_speed * std::sqrt(norm_squared(w_n));
-      const double K_n = factor * cylinder::across(Re_n), K_t = factor * cylinder::along_cable(Re);
-      force.x[p] += K_n * w_n.x + K_t * w_t.x, force.y[p] += K_n * w_n.y + K_t * w_t.y, force.z[p] += K_n * w_n.z + K_t * w_t.z;
-      slope[p] += std::max(K_n, K_t);
+      const cylinder::Drag drag =
+          cylinder::drag<cylinder::Along::cable>(u[p] - v[p], direction(lattice.along(p)), per_speed, factor, {0, 0});
+      force.x[p] += drag.force.x, force.y[p] += drag.force.y, force.z[p] += drag.force.z;
+      slope[p] += drag.slope;
     }
   }
   std::vector<ReferenceCase> reference_cases() const override { return cylinder::measured_across(); }

@@ -21,7 +21,7 @@ namespace {
 struct FibreDrag final : FluidForce {
   static constexpr const char* name = "fibre_drag";
   double share = 1;
-  enum class Form { cable, swept };
+  using Form = cylinder::Along;
   Choice<Form> form{Form::cable, {"cable", "swept"}};
 
   ForceDescription description() const override {
@@ -47,34 +47,31 @@ struct FibreDrag final : FluidForce {
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const override {
     if (share == 0) return;
     if (form == Form::cable)
-      add<true>(fluid, particles, forces);
+      add<Form::cable>(fluid, particles, forces);
     else
-      add<false>(fluid, particles, forces);
+      add<Form::swept>(fluid, particles, forces);
   }
 
  private:
-  template <bool is_cable>
+  template <Form law>
   void add(const FluidSamples& fluid, const Particles& particles, const Forces& forces) const {
     const double mu = fluid.dynamic_viscosity, per_speed = fluid.density * particles.diameter / mu, l = 2 * particles.rag.radius;
-    const auto [slow_across, slow_along] = cylinder::creeping(static_cast<double>(particles.rag.n_particles) * l / particles.diameter);
-    const double K = mu * l, slow_n = slow_across, slow_t = slow_along, theta = share;
+    const cylinder::Creeping slow = cylinder::creeping(static_cast<double>(particles.rag.n_particles) * l / particles.diameter);
+    const double mu_l = mu * l, theta = share;
     const VectorArray u = fluid.velocity, v = particles.velocity;
     const VectorSum force = forces.force;
     double* slope = forces.slope;
     const LatticeDirections lattice(particles);
 #pragma omp simd
     for (int p = particles.begin; p < particles.end; ++p) {
-      const Vec3 row = lattice.along(p), column = lattice.across(p), w = u[p] - v[p];
+      const Vec3 row = lattice.along(p), column = lattice.across(p);
       const double has_row = norm_squared(row) > 0 ? 1 : 0, has_column = norm_squared(column) > 0 ? 1 : 0;
-      const Vec3 t = direction(row + column), w_t = dot(w, t) * t, w_n = w - w_t;
-      const double Re = per_speed * std::sqrt(norm_squared(w)), Re_n = per_speed * std::sqrt(norm_squared(w_n));
-      const double K_n = K * std::max(cylinder::across(Re_n), slow_n);
-      const double K_t = K * std::max(is_cable ? cylinder::along_cable(Re) : cylinder::along_swept(Re_n), slow_t);
+      const cylinder::Drag drag = cylinder::drag<law>(u[p] - v[p], direction(row + column), per_speed, mu_l, slow);
       const double here = has_row + has_column == 1 ? theta : 0, rest = 1 - here;
-      force.x[p] = rest * force.x[p] + here * (K_n * w_n.x + K_t * w_t.x);
-      force.y[p] = rest * force.y[p] + here * (K_n * w_n.y + K_t * w_t.y);
-      force.z[p] = rest * force.z[p] + here * (K_n * w_n.z + K_t * w_t.z);
-      slope[p] = rest * slope[p] + here * std::max(K_n, K_t);
+      force.x[p] = rest * force.x[p] + here * drag.force.x;
+      force.y[p] = rest * force.y[p] + here * drag.force.y;
+      force.z[p] = rest * force.z[p] + here * drag.force.z;
+      slope[p] = rest * slope[p] + here * drag.slope;
     }
   }
 
