@@ -278,16 +278,22 @@ RunResult CaseSimulator::run_collective(const Job& job) const {
   const std::string name = numbered("run", job.request->point) + "_" + sha256(point.of_case + job.settings).substr(0, 16);
   std::vector<std::string> overrides = point.base.from_elsewhere(job.change.overrides);
   if (job.request->step_factor != 1) overrides.push_back(point.base.with_step_factor(job.request->step_factor));
-  RunResult result;
+  const auto failed = [&](const Error& failure) {
+    return RunResult{std::vector<double>(point.slots.size(), std::numeric_limits<double>::quiet_NaN()), failure.what()};
+  };
   try {
     run_in_folder(point.base.resolved(), overrides, folder_ / "runs" / name, prepared_);
-    result.values = read_observables(folder_ / "runs" / name, point.asked);
   } catch (const Error& failure) {
-    if (failure.code == ExitCode::stopped || failure.code == ExitCode::usage) throw;
-    result.values.assign(point.slots.size(), std::numeric_limits<double>::quiet_NaN());
-    result.failure = failure.what();
+    // A case that is refused for what was changed of it, such as a piece that its mesh has no room for, is one more run that failed.
+    if (failure.code == ExitCode::stopped) throw;
+    return failed(failure);
   }
-  return result;
+  try {
+    return {.values = read_observables(folder_ / "runs" / name, point.asked), .failure = {}};
+  } catch (const Error& failure) {
+    if (failure.code == ExitCode::usage) throw;
+    return failed(failure);
+  }
 }
 
 RunResult CaseSimulator::as_observed(const RunRequest& request, const CaseChange& change, RunResult raw) const {
@@ -362,6 +368,7 @@ std::vector<RunResult> CaseSimulator::run(std::span<const RunRequest> requests) 
     if (const std::size_t n = slots(job.request->point).size(); kept.values.size() != n)
       throw Error(ExitCode::io, "table of runs: \"" + shortened(job.key) + "\" has " + std::to_string(kept.values.size()) +
                                     " values, its point has " + std::to_string(n) + "; remove the line; the run is then repeated");
+    if (!kept.failure.empty() && failed_keys_.insert(job.key).second && failed_.n++ == 0) failed_.why = kept.failure;
     results.push_back(as_observed(*job.request, job.change, kept));
   }
   return results;

@@ -38,6 +38,7 @@ class CaseSimulator final : public Simulator {
   int n_runs() const override { return n_runs_; }
   int n_used() const override { return static_cast<int>(used_.size()); }
   int n_imported() const override;
+  FailedRuns failed() const override { return failed_; }
   /// What a run changes of the base case of its point. Throws Error(usage) for a seed that is one of another point.
   CaseChange change_of(const RunRequest& request) const;
   /// The case of a run with all its keys and its time step, to be read from any folder. Collective over all ranks; throws Error.
@@ -84,7 +85,9 @@ class CaseSimulator final : public Simulator {
   std::unordered_map<std::string, RunResult> cached_;
   std::unordered_set<std::string> used_;      // keys of the runs that were asked for
   std::unordered_set<std::string> imported_;  // of those of the table that the experiment names
-  OpenFile cache_;                            // open on rank 0
+  std::unordered_set<std::string> failed_keys_;
+  FailedRuns failed_;
+  OpenFile cache_;  // open on rank 0
   int n_runs_ = 0;
 };
 

@@ -167,6 +167,9 @@ Verdict diagnose(const Experiment& given, Simulator& simulator, const DiagnosisO
   if (verdict.verdict == VerdictKind::tie) verdict.identifiability.new_conditions = new_conditions(model, attribution);
   judge_origins(model, fitter, verdict.where);  // last: with what the budget has left
   verdict.runs = simulator.n_runs();
+  if (const FailedRuns failed = simulator.failed(); failed.n > 0)
+    verdict.notes.push_back(counted(failed.n, "run") + " failed, and no fit goes to where " + (failed.n > 1 ? "they are" : "it is") +
+                            ". The first: " + failed.why);
   if (const int taken = simulator.n_imported(); taken > 0)
     verdict.notes.push_back(std::to_string(taken) + " runs were not made for this verdict but taken from [budget] runs_table = \"" +
                             experiment.runs.filename().string() + "\".");

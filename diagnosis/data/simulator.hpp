@@ -83,6 +83,12 @@ struct RunResult {
   std::string failure;         // empty: it ran
 };
 
+/// Runs that did not come to their end.
+struct FailedRuns {
+  int n = 0;
+  std::string why{};  // the first one did not
+};
+
 /// Collective over the ranks of the program; the same answers on every rank.
 class Simulator {
  public:
@@ -104,6 +110,8 @@ class Simulator {
   virtual int n_used() const { return n_runs(); }
   /// Those of them that were taken from a table of runs of whatever program.
   virtual int n_imported() const { return 0; }
+  /// Of those that were used.
+  virtual FailedRuns failed() const { return {}; }
 };
 
 }  // namespace snag

@@ -103,6 +103,8 @@ class Fitter {
   Eigen::MatrixXd columns(const Linearization& at, const std::vector<std::vector<Response>>& moved, const Whitening& whitening) const;
   State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
   Linearization start_from_base(const State& state);
+  void mirror_failed_inputs(const State& leading, const std::vector<Response>& lead, const std::vector<Responses::Request>& requests,
+                            std::vector<Response>& responses);
   void add_shares(Linearization& at);
   /// States near a linearization: the leading forms are run, what the shares of the others add is taken from it, in proportion to the
   /// strength. Saves a run a form.

@@ -34,7 +34,8 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
     without.effects[e].second = 0;
     for (const int p : training) requests.push_back({without, p});
   }
-  const auto responses = model_.run(requests);
+  auto responses = model_.run(requests);
+  mirror_failed_inputs(leading, lead, requests, responses);
   std::size_t next = 0;
   for (std::size_t j = 0; j < model_.nuisances().size(); ++j) {
     at.by_nuisance.emplace_back(training.size());
@@ -48,6 +49,27 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
   add_shares(at);
   at.numerical_error = numerical_error(model_, leading, training, lead);
   return at;
+}
+
+// Where a run with an input moved up fails, what one with it moved down says of it; where that fails too, the input changes nothing.
+void Fitter::mirror_failed_inputs(const State& leading, const std::vector<Response>& lead, const std::vector<Responses::Request>& requests,
+                                  std::vector<Response>& responses) {
+  const auto& training = model_.training();
+  std::vector<Responses::Request> mirrored;
+  std::vector<std::size_t> failed;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (responses[i].failure.empty() || requests[i].state.nuisances == leading.nuisances) continue;
+    failed.push_back(i), mirrored.push_back(requests[i]);
+    mirrored.back().state.nuisances = 2 * leading.nuisances - requests[i].state.nuisances;
+  }
+  if (failed.empty()) return;
+  const auto down = model_.run(mirrored);
+  for (std::size_t i = 0; i < failed.size(); ++i) {
+    const auto p = std::find(training.begin(), training.end(), requests[failed[i]].point) - training.begin();
+    Response& response = responses[failed[i]];
+    response = lead[static_cast<std::size_t>(p)];
+    if (down[i].failure.empty()) response.value += response.value - down[i].value;
+  }
 }
 
 void Fitter::add_shares(Linearization& at) {

@@ -99,12 +99,14 @@ class MeshedDiagnosis(harness.CaseTest):
         (self.work / "A.toml").write_text(text.replace(mesh, f'[mesh]\ngeometry = "channel"\nset = [{geometry}]\n'))
         (self.work / "data.csv").write_text("point,replicate,t_s,observable,value\n" + "".join(f"A,{r},{t},x,{x}\n" for t, x in ((0.01, 0.0851), (0.02, 0.0902)) for r in (1, 2)))
         file = self.work / "DIAGNOSIS.toml"
-        point = '[[point]]\nid = "A"\ncase = "A.toml"\ninput_u = {{ "mesh.set.{input}" = 0.01 }}\n'
+        point = '[[point]]\nid = "A"\ncase = "A.toml"\ninput_u = {{ "mesh.set.{input}" = 0.05 }}\n'
         candidate = '[[candidate]]\nname = "height"\nkey = "mesh.set.height_mm"\nunit = "mm"\nmean = -5\nsd = 5\nminimum = -10\nmaximum = 15\n'
         head = f'[experiment]\nname = "geometry"\ndata = "data.csv"\n[[observable]]\nid = "x"\nunit = "m"\nnoise_u = {NOISE["x"]}\n'
         tail = candidate + '[model]\ncandidates = ["height"]\npairs = false\n[budget]\nmax_runs = 30\n'
         file.write_text(head + point.format(input="width_mm") + tail)
-        self.diagnosed(file, 1)
+        failed = [note for note in self.diagnosed(file, 1)["notes"] if " failed" in note]
+        self.assertEqual(len(failed), 1, "a fit tries channels that are too narrow for the rag")
+        self.assertIn("outside the mesh", failed[0])
         sizes = set()
         for run in (self.work / "out" / "runs").glob("run*/case.resolved.toml"):
             values = [value for value in run.read_text().splitlines() if value.startswith("set = ")][0]

@@ -1,0 +1,58 @@
+// Runs that fail on the way of a fit.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+#include "diagnosis/fitting/fit.hpp"
+#include "diagnosis/fitting/response.hpp"
+
+namespace snag {
+namespace {
+
+/// 3 + 20 times the relative deviation of a length, which has no room beyond `most`, nor below `least`.
+class Narrow final : public Simulator {
+ public:
+  Narrow(double least, double most) : least_(least), most_(most) {}
+  const std::vector<Effect>& effects() const override { return effects_; }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  const std::vector<Slot>& slots(int) const override { return slots_; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    std::vector<RunResult> results;
+    for (const RunRequest& request : requests) {
+      const auto length = request.nuisances.find("length");
+      const double deviation = length == request.nuisances.end() ? 0 : length->second;
+      if (deviation >= least_ && deviation <= most_)
+        results.push_back({{3 + 20 * deviation}, ""});
+      else
+        results.push_back({{std::numeric_limits<double>::quiet_NaN()}, "no room"});
+    }
+    return results;
+  }
+  int n_runs() const override { return 0; }
+
+ private:
+  double least_, most_;
+  std::vector<Effect> effects_;
+  std::vector<Nuisance> nuisances_{{"length", 0.05, {0}}};
+  std::vector<Slot> slots_{{}};
+};
+
+/// Requirement: where a run with an input moved up fails, the derivative is that of the other side; where that fails too there is none.
+TEST(FailedRuns, DerivativesAreThoseOfTheOtherSide) {
+  Experiment experiment;
+  experiment.observables = {{.id = "x", .unit = "m", .noise_u = 0.1, .calibration_group = "", .numerics_u = 0}};
+  experiment.points = {{.id = "A", .case_file = {}}};
+  experiment.data = {{.value = 3}};
+  for (const auto& [least, most, moved] :
+       {std::array{-1.0, 1.0, 3.5}, std::array{-1.0, 0.0, 3.5}, std::array{0.0, 1.0, 3.5}, std::array{0.0, 0.0, 3.0}}) {
+    Narrow simulator(least, most);
+    Responses responses(experiment, simulator);
+    const Linearization base = Fitter(responses).base();
+    ASSERT_EQ(base.by_nuisance.size(), 1u);
+    EXPECT_NEAR(base.by_nuisance[0][0].value[0], moved, 1e-12) << least << " to " << most;
+  }
+}
+
+}  // namespace
+}  // namespace snag
