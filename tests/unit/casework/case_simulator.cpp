@@ -1,4 +1,4 @@
-// The simulator of a diagnosis over real runs: what an effect, an uncertain input and a calibration do to a run, and that runs are kept.
+// The simulator of a diagnosis over real runs: what an effect, an uncertain input and a calibration do to a run.
 // ranks: 1 3
 // long ranks: 2
 #include <gtest/gtest.h>
@@ -6,83 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <set>
 
-#include "base/atomic_file.hpp"
 #include "base/error.hpp"
-#include "casework/case_simulator.hpp"
 #include "diagnosis/statistics/statistics.hpp"
-#include "parallel/session.hpp"
+#include "tests/unit/casework/swung_sphere.hpp"
 
 namespace snag {
 namespace {
-
-constexpr const char* swung_sphere = R"(
-[time]
-end_s = 0.1
-[gravity]
-acceleration_m_s2 = [0, 0, -9.81]
-[flow]
-kind = "prescribed"
-density_kg_m3 = 1000
-kinematic_viscosity_m2_s = 1e-5
-velocity_m_s = [0.1, 0, 0]
-amplitude_m_s = [0.2, 0, 0]
-angular_frequency_rad_s = [20, 0, 0]
-[[particle]]
-diameter_m = 5e-3
-density_kg_m3 = 1150
-position_m = [0.5, 0, 0]
-[coupling]
-mode = "one_way"
-forces = ["schiller_naumann"]
-)";
-
-RunRequest with(const std::string& effect, double theta) {
-  RunRequest request;
-  request.effects[effect] = theta;
-  return request;
-}
-
-RunRequest with_input(const std::string& nuisance, double deviation) {
-  RunRequest request;
-  request.nuisances[nuisance] = deviation;
-  return request;
-}
-
-/// Two points of one case; x at three times.
-class CaseSimulatorTest : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("snag-simulator-" + std::to_string(size_of(MPI_COMM_WORLD)));
-    if (rank_of(MPI_COMM_WORLD) == 0) {
-      std::filesystem::create_directories(folder_);
-      std::ofstream(folder_ / "case.toml") << swung_sphere;
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
-    experiment_.observables = {{.id = "x", .unit = "m", .noise_u = 1e-4, .bias_u = 1e-3, .calibration_group = "camera"}};
-    for (const char* id : {"A", "B"})
-      experiment_.points.push_back(
-          {.id = id,
-           .case_file = folder_ / "case.toml",
-           .input_u = {{"flow.amplitude", 0.05}, {"particle.density_kg_m3", 0.01}, {"drag_law_uncertainty", 0.05}}});
-    for (const int point : {0, 1})
-      for (const double t : {0.02, 0.05, 0.1}) experiment_.data.push_back({.point = point, .time = t});
-  }
-  void TearDown() override {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_of(MPI_COMM_WORLD) == 0) std::filesystem::remove_all(folder_);
-  }
-  std::vector<double> values(CaseSimulator& simulator, const RunRequest& request) {
-    const auto results = simulator.run(std::vector<RunRequest>{request});
-    EXPECT_EQ(results[0].failure, "");
-    return results[0].values;
-  }
-  std::filesystem::path folder_;
-  Experiment experiment_;
-};
 
 /// Requirement: every fixed name of the candidates that this build has is listed once, with the reason where it cannot be seen.
 TEST_F(CaseSimulatorTest, ListsTheLibrary) {
@@ -235,88 +167,6 @@ TEST_F(CaseSimulatorTest, TellsOwnFromSharedErrorOfTheDragLaw) {
             values(simulator, with_input("drag_law_uncertainty", 0.1)));
 }
 
-/// Requirement: all ranks have the same answers; equal requests run once; a new start with the same folder runs nothing again.
-TEST_F(CaseSimulatorTest, KeepsRuns) {
-  const auto cache = folder_ / "kept";
-  std::vector<RunRequest> requests;
-  for (const double theta : {0.1, 0.2, 0.3, 0.1, 0.0}) requests.push_back(with("added_mass", theta));
-  std::vector<std::vector<double>> first;
-  {
-    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, cache);
-    for (const RunResult& result : simulator.run(requests)) first.push_back(result.values);
-    EXPECT_EQ(simulator.n_runs(), 4);
-    simulator.run(requests);
-    EXPECT_EQ(simulator.n_runs(), 4);
-  }
-  EXPECT_EQ(first[0], first[3]);
-  std::vector<double> mine = first[2], theirs = first[2];
-  MPI_Bcast(theirs.data(), static_cast<int>(theirs.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
-  EXPECT_EQ(mine, theirs);
-  MPI_Barrier(MPI_COMM_WORLD);
-  CaseSimulator again(MPI_COMM_WORLD, experiment_, cache);
-  const auto results = again.run(requests);
-  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
-  EXPECT_EQ(again.n_runs(), 0);
-  EXPECT_EQ(again.n_used(), 4);
-}
-
-/// Requirement: runs of a table that the experiment names are not made again, whatever program made them; without a table of that name the
-/// diagnosis does not begin.
-TEST_F(CaseSimulatorTest, TakesRunsThatWereMadeElsewhere) {
-  const std::vector<RunRequest> requests{with("added_mass", 0.1), with("added_mass", 0.2)};
-  std::vector<std::vector<double>> first;
-  {
-    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, folder_ / "here");
-    for (const RunResult& result : simulator.run(requests)) first.push_back(result.values);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  experiment_.runs = folder_ / "elsewhere.tsv";
-  EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
-  if (rank_of(MPI_COMM_WORLD) == 0) {
-    std::string text = file_text(folder_ / "here" / "runs.tsv").value();
-    for (std::size_t line = 0; line < text.size(); line = text.find('\n', line) + 1) text.replace(line, 16, "another program!");
-    write_atomically(experiment_.runs, text + "a line that was cut o");
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  CaseSimulator simulator(MPI_COMM_WORLD, experiment_);
-  const auto results = simulator.run(requests);
-  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(results[i].values, first[i]);
-  EXPECT_EQ(simulator.n_runs(), 0);
-  EXPECT_EQ(simulator.n_imported(), 2);
-}
-
-/// Requirement: a damaged table of runs is never taken for runs: the message names file and line, or the run that has too few values.
-TEST_F(CaseSimulatorTest, DamagedTablesAreRefused) {
-  {
-    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, folder_ / "sound");
-    simulator.run(std::vector{with("added_mass", 0.1)});
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  const std::string sound = file_text(folder_ / "sound" / "runs.tsv").value();
-  experiment_.runs = folder_ / "damaged.tsv";
-  const auto message_of = [&](const std::string& text) -> std::string {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (rank_of(MPI_COMM_WORLD) == 0) write_atomically(experiment_.runs, text);
-    MPI_Barrier(MPI_COMM_WORLD);
-    try {
-      CaseSimulator(MPI_COMM_WORLD, experiment_).run(std::vector{with("added_mass", 0.1)});
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::io);
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(message_of(sound), "");
-  const std::size_t values = sound.find('\t', sound.find('\t') + 1) + 1, second = sound.find(',', values) + 1;
-  std::string damaged = sound;
-  damaged.replace(values, 1, "x");
-  EXPECT_NE(message_of(sound + damaged).find("damaged.tsv:2: "), std::string::npos);
-  EXPECT_NE(message_of(sound + "half a line\n").find("damaged.tsv:2: "), std::string::npos);
-  damaged = sound;
-  damaged.erase(values, second - values);
-  EXPECT_NE(message_of(damaged).find("remove the line"), std::string::npos);
-}
-
 /// Requirement: two changes of one number multiply, whichever effect and input they come from.
 TEST_F(CaseSimulatorTest, ChangesOfOneNumberMultiply) {
   for (auto& point : experiment_.points) point.input_u.emplace_back("flow.velocity_m_s", 0.05);
@@ -370,22 +220,6 @@ TEST_F(CaseSimulatorTest, ReadsFormerNamesOfInputs) {
   EXPECT_FALSE(names.contains("drag_form") || names.contains("flow.omega_per_s"));
   experiment_.points[0].input_u.emplace_back("drag_law_uncertainty", 0.05);
   EXPECT_THROW(CaseSimulator(MPI_COMM_WORLD, experiment_), Error);
-}
-
-/// Requirement: a table of runs names keys by their first names, so that runs of an earlier version are found; an alternative may state
-/// either name.
-TEST_F(CaseSimulatorTest, TablesOfRunsHaveTheFirstNames) {
-  const auto key_of = [&](const std::string& override_text, const std::filesystem::path& cache) {
-    experiment_.alternatives = {{.effect = "operating_point", .meaning = "another frequency", .set = {override_text}, .at = {}}};
-    CaseSimulator simulator(MPI_COMM_WORLD, experiment_, cache);
-    values(simulator, with("operating_point", 1));
-    MPI_Barrier(MPI_COMM_WORLD);
-    return file_text(cache / "runs.tsv").value();
-  };
-  const std::string former = key_of("flow.omega_per_s=[30, 0, 0]", folder_ / "former"),
-                    present = key_of("flow.angular_frequency_rad_s=[30, 0, 0]", folder_ / "present");
-  EXPECT_NE(former.find("flow.omega_per_s=[30, 0, 0];"), std::string::npos) << former;
-  EXPECT_EQ(present, former);
 }
 
 /// Requirement: an uncertain drag law acts on the drag of a sheet, too, where that stands in for the drag of its particles: as the
