@@ -40,9 +40,10 @@ struct Prior {
 struct Candidate {
   std::string name;
   Prior prior;
-  bool is_relative = false;         // the value of the case times 1 + theta; else theta is added to it
-  std::string of_force = {};        // whose number it is; empty: of no force
-  std::vector<std::string> with{};  // other values of the case that it takes, "section.key=value"
+  bool is_relative = false;               // the value of the case times 1 + theta; else theta is added to it
+  std::string of_force = {};              // whose number it is; empty: of no force
+  std::vector<std::string> with{};        // other values of the case that it takes, "section.key=value"
+  std::vector<std::string> other_keys{};  // of theta, where the effect is written in other forms; that of the prior is the first form
 };
 
 }  // namespace snag

@@ -123,7 +123,7 @@ std::vector<std::string> CatalogueEffect::overrides(double theta, int form, std:
     return all;
   }
   std::vector<std::string> all;
-  for (const std::string& key : added_to) {
+  for (const std::string& key : form == 0 ? added_to : std::vector{setting.other_keys.at(static_cast<std::size_t>(form - 1))}) {
     double before = 0;
     const std::string text = base(key);
     if (text.empty() && setting.with.empty()) continue;  // no such piece
@@ -153,7 +153,7 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
                             : !of_force.empty() && !holds(of_force) ? "the base case has no " + of_force
                                                                     : reason_against(p, facts),
                    // The mean of random runs is no mixture of their forms.
-                   .n_forms = p.random ? 1 : std::max(1, static_cast<int>(effect.forms.size())),
+                   .n_forms = p.random ? 1 : effect.n_forms(),
                    .may_be_local = effect.is_force && facts.prescribed && !p.random});
   }
   for (const std::string& name : effect_models().names()) all.push_back(effect_models().make(name, "diagnosis")->effect(facts));

@@ -1,5 +1,6 @@
 #pragma once
 // The candidates that are values of a case: forces by the priors on their descriptions, and settings of the particles.
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -18,6 +19,7 @@ struct CatalogueEffect {
   std::vector<std::string> added_to{};  // of a setting: keys whose value in the base case theta changes; empty: theta is the value
   Candidate setting{};                  // how it changes them
 
+  int n_forms() const { return static_cast<int>(std::max({std::size_t{1}, forms.size(), 1 + setting.other_keys.size()})); }
   /// Keys and values of a run with a form by its index; `base` gives the value of a key of the base case.
   std::vector<std::string> overrides(double theta, int form, std::uint64_t seed,
                                      const std::function<std::string(const std::string&)>& base) const;

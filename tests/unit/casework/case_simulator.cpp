@@ -79,6 +79,11 @@ bend_angle_rad = 1.5707963267948966
     }
   }
   for (const char* name : {"averaging_length", "crumple_size"}) EXPECT_NE(effects.at(name)->blind, "") << name;
+  RunRequest turbulent = with("flow_profile", 0.3);
+  turbulent.forms = {{"flow_profile", 1}};
+  EXPECT_EQ(effects.at("flow_profile")->n_forms, 2);
+  EXPECT_EQ(simulator.change_of(with("flow_profile", 0.3)).overrides, std::vector<std::string>{"pipe_flow.profile=0.3"});
+  EXPECT_EQ(simulator.change_of(turbulent).overrides, std::vector<std::string>{"pipe_flow.profile_power_law=0.3"});
   EXPECT_EQ(simulator.change_of(with("swirl", -0.2)).overrides, std::vector<std::string>{"pipe_flow.swirl=-0.2"});
   RunRequest both = with("start_offset", 0.01);
   both.effects["start_x"] = 0.02;

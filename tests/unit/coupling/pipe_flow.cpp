@@ -47,7 +47,7 @@ PipeFlow with(double PipeFlow::*mode, double strength) {
   return pipe;
 }
 
-const std::array modes{&PipeFlow::swirl, &PipeFlow::profile, &PipeFlow::vortices};
+const std::array modes{&PipeFlow::swirl, &PipeFlow::profile, &PipeFlow::profile_power_law, &PipeFlow::vortices};
 
 // Requirement: no mode has a divergence, in the straight parts and in the bend.
 TEST(PipeFlow, ModesAreFreeOfDivergence) {
@@ -62,7 +62,7 @@ TEST(PipeFlow, ModesAreFreeOfDivergence) {
   }
 }
 
-// Requirement: no mode changes the flow rate through a section, and none but the profile, which slips, moves water along or through the
+// Requirement: no mode changes the flow rate through a section, and none but the profiles, which slip, moves water along or through the
 // wall.
 TEST(PipeFlow, FlowRateAndWallStay) {
   for (double PipeFlow::*mode : modes) {
@@ -70,12 +70,14 @@ TEST(PipeFlow, FlowRateAndWallStay) {
     for (const double s : ways) {
       const CrossSection section(pipe, s);
       double rate = 0, moved = 0;
-      constexpr int n_r = 400, n_angle = 24;
+      constexpr int n_r = 1000, n_angle = 24;
       for (int i = 0; i < n_r; ++i)
         for (int j = 0; j < n_angle; ++j) {
-          const double r = (i + 0.5) * R / n_r, angle = (j + 0.5) * 2 * std::numbers::pi / n_angle;
+          // By s, 1 - r/R = s^7, in which the power law of 1/7 is smooth.
+          const double s7 = (i + 0.5) / n_r, r = R * (1 - std::pow(s7, 7)), angle = (j + 0.5) * 2 * std::numbers::pi / n_angle;
+          const double area = 7 * std::pow(s7, 6) * r / (n_r * n_angle);
           const Vec3 u = pipe.velocity(section.at(r, angle), U);
-          rate += dot(u, section.tangent) * r / (n_r * n_angle), moved += norm(u) * r / (n_r * n_angle);
+          rate += dot(u, section.tangent) * area, moved += norm(u) * area;
         }
       if (moved > 0) {
         EXPECT_NEAR(rate / moved, 0, 2e-5) << s;
@@ -89,16 +91,22 @@ TEST(PipeFlow, FlowRateAndWallStay) {
   }
 }
 
-// Requirement: the strengths are what the manual says: speed about the axis at the wall, Poiseuille's profile less the flat one, speed on
-// the axis towards the outside of the bend, half of it in the middle of the bend and none before it.
+// Requirement: the strengths are what the manual says: speed about the axis at the wall, Poiseuille's profile and the power law of 1/7 less
+// the flat one, speed on the axis towards the outside of the bend, half of it in the middle of the bend and none before it.
 TEST(PipeFlow, StrengthsAreSpeedsOverTheMean) {
   for (const double s : {-0.7, 0.3}) {
     const PipeFlow swirl = with(&PipeFlow::swirl, 0.2), profile = with(&PipeFlow::profile, 1);
     const CrossSection section(swirl, s);
     const Vec3 u = swirl.velocity(section.at(0.999999 * R, 0), U);
     EXPECT_NEAR(dot(u, section.binormal), 0.2 * U, 1e-5);  // right-handed: from c towards t x c
-    for (const double r : {0.0, 0.03, 0.08})
+    const PipeFlow turbulent = with(&PipeFlow::profile_power_law, 11.0 / 49);
+    for (const double r : {0.0, 0.03, 0.08}) {
       EXPECT_NEAR(U + dot(profile.velocity(section.at(r, 1), U), section.tangent), 2 * U * (1 - r * r / (R * R)), 1e-12);
+      EXPECT_NEAR(U + dot(turbulent.velocity(section.at(r, 1), U), section.tangent), 60.0 / 49 * U * std::pow(1 - r / R, 1.0 / 7), 1e-12);
+    }
+    const Vec3 at_wall = turbulent.velocity(section.at(R * (1 - 1e-9), 1), U);
+    EXPECT_NEAR(dot(at_wall, section.tangent), U * (60.0 / 49 * std::pow(1e-9, 1.0 / 7) - 1),
+                1e-6 * U);  // of U nothing is left at the wall
   }
   const PipeFlow pair = with(&PipeFlow::vortices, 0.2);
   const double bend = pair.bend_radius * pair.bend_angle;
@@ -112,7 +120,7 @@ TEST(PipeFlow, StrengthsAreSpeedsOverTheMean) {
 // Requirement: gradients are those of the velocities.
 TEST(PipeFlow, GradientsFit) {
   PipeFlow pipe = bent();
-  pipe.swirl = 0.1, pipe.profile = -0.3, pipe.vortices = 0.2;
+  pipe.swirl = 0.1, pipe.profile = -0.3, pipe.profile_power_law = 0.1, pipe.vortices = 0.2;
   constexpr double step = 1e-5;
   for (const double s : {-0.7, -0.2, 0.3}) {
     const Vec3 x = CrossSection(pipe, s).at(0.05, 0.7);
