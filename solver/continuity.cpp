@@ -43,6 +43,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       settings_(settings),
       squares_(mesh, workspace.moments, boundary.pressure_sides()),
       poisson_(mesh, settings.multigrid, !boundary.fixes_pressure(), working_arrays(workspace)),
+      skew_share_(squares_.skew_faces().size(), 1.0),
       coefficient_(mesh.n_faces),
       correction_(workspace.scalar[0]),
       imbalance_(workspace.scalar[1]),
@@ -93,6 +94,17 @@ void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vec
   std::fill(given_.begin(), given_.end(), 0.0);
   solve(flow);
   correct_cells(flow, false);
+}
+
+void Continuity::begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
+                            const TimeScheme& time) {
+  history.begin_step(convection, diffusion, mesh_flux, time);
+  const auto rate_of = [&](int c) { return (convection[c] + diffusion[c]) / mesh_.cell_volume[c]; };
+  for (std::size_t i = 0; i < skew_share_.size(); ++i) {
+    const int f = squares_.skew_faces()[i];
+    const double kappa = 0.5 * (rate_of(mesh_.owner[f]) + rate_of(mesh_.neighbour[f]));
+    skew_share_[i] = time.now / (time.now + kappa * time.dt);
+  }
 }
 
 ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient) {
@@ -183,19 +195,23 @@ void Continuity::find_held_by_pressure() {
 void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
   const auto& u = flow.velocity;
   const auto& g = flow.pressure_gradient;
-  for (int f = 0; f < mesh_.n_interior; ++f) {
+  // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
+  const auto damping = [&](int f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double w = mesh_.weight[f];
-    double flux = interpolated_flux(mesh_, f, blend(w, u[P], u[N]), gradient);
-    if (with_pressure) {
-      const Vec3& d = mesh_.delta[f];
-      // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
-      flux += mobility_ * coefficient_[f] * (dot(blend(w, g[P], g[N]), d) - (flow.pressure[N] - flow.pressure[P])) +
-              one_over_a0_ * history.inherited()[f];
-      if (!reaction_excess_.empty()) flux += mobility_ * reaction_excess_[f];
-    }
+    double difference = coefficient_[f] * (dot(blend(mesh_.weight[f], g[P], g[N]), mesh_.delta[f]) - (flow.pressure[N] - flow.pressure[P]));
+    if (!reaction_excess_.empty()) difference += reaction_excess_[f];
+    return mobility_ * difference;
+  };
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    double flux = interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), gradient);
+    if (with_pressure) flux += damping(f) + one_over_a0_ * history.inherited()[f];
     flow.flux[f] = flux;
   }
+  if (with_pressure)
+    for (std::size_t i = 0; i < skew_share_.size(); ++i) {
+      const int f = squares_.skew_faces()[i];
+      flow.flux[f] -= (1 - skew_share_[i]) * damping(f);
+    }
   boundary_flux(flow, boundary, gradient, with_pressure);
 }
 

@@ -5,9 +5,22 @@
 //   m div(grad p') = div(flux~),    flux = flux~ - m (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
 //
 // [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference damps pressure that alternates from cell
-// to cell, and it is formed from cell values alone, so that a face needs no history. Cell gradients of pressure are of the Gauss form: the
-// sum of V grad p over the cells is the pressure on the boundary. Fluxes and velocities share p', so that u balances momentum with the new
-// pressure exactly.
+// to cell, and it is formed from cell values alone, so that a face needs no history. Across a skew face (mesh/skewness.hpp) the difference
+// counts with the share
+//
+//   sigma = 1/(1 + kappa dt/a0)        kappa: rate of convection and diffusion through its cells; sigma m is then the inverse of the
+//                                      diagonal of the momentum equation
+//
+// Let R multiply an error of the pressure when the compact Laplacian is solved for the divergence of its interpolated cell gradients, and b
+// an error of the velocity in the momentum equation. A correction multiplies the error by the roots of
+//
+//   x^2 - (1 + b - 2 b R + sigma (R - 1)) x + b (1 - R) (1 - sigma)            1 - b and b (1 - R) for sigma = b
+//
+// On prisms round an axis R reaches 4/3: Gauss' gradient along the ring takes the pressures of two thirds of the radius for those in the
+// middle of the faces, at half of it. With sigma = 1 the larger root is R where b is small: such cells ran away in long steps, and swung
+// from step to step in shorter ones. Cell gradients of pressure are of the Gauss form:
+// the sum of V grad p over the cells is the pressure on the boundary. Fluxes and velocities share p', so that u balances momentum with the
+// new pressure exactly.
 //
 // f is the reaction of the rags. It changes from cell to cell across a sheet, and the pressure that holds it has other gradients in the
 // cells than f, which would move water. f~ takes its place in the cells: with the changes of such a pressure from cell to cell, and to the
@@ -24,6 +37,8 @@
 // tetrahedra. Sources: balanced forces, Francois et al. (2006), J. Comput. Phys. 213, 141-173; for screens and actuator discs, Rethore and
 // Sorensen (2012), Wind Energy 15, 915-926.
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "solver/boundaries/boundary.hpp"
 #include "solver/flux_history.hpp"
@@ -57,6 +72,9 @@ class Continuity {
   void mesh_turned(Flow& flow, const BoundarySet& boundary);
   /// Before the corrections of a step, with the mesh where it is then: f~ takes the place of f in flow.reaction. Collective.
   void balance_reaction(Flow& flow);
+  /// What the corrections of a step need of the step before; see FluxHistory::begin_step. Collective.
+  void begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
+                  const TimeScheme& time);
   /// One pressure correction; `gradient` of velocity, for skewness. Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
 
@@ -106,6 +124,7 @@ class Continuity {
   LeastSquares squares_;
   Poisson poisson_;
   double mobility_ = 1, one_over_a0_ = 1;  // m; 1/a0
+  std::vector<double> skew_share_;         // sigma of squares_.skew_faces()
   std::vector<double> coefficient_;        // c, [n_faces]; 0 where the boundary gives no pressure
   // f, N/m3, [n_all_cells], and [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty without a reaction
   std::vector<Vec3> reaction_;

@@ -172,7 +172,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     continuity_.close(momentum_.guessed_flux(), flow, time);
     report.seconds_pressure += seconds() - guessed;
   }
-  continuity_.history.begin_step(momentum_.convection_rate(), momentum_.diffusion_rate(), flow.mesh_flux, time);
+  continuity_.begin_step(momentum_.convection_rate(), momentum_.diffusion_rate(), flow.mesh_flux, time);
 }
 
 void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, StepReport& report) {
