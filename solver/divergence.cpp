@@ -151,7 +151,8 @@ DivergenceWatch::Finding DivergenceWatch::worst(const Flow& flow, double dt, con
   std::array<double, 3> range{-infinite, -infinite, -infinite};  // p, -p, -V
   Finding extreme{.ratio = -1};                                  // of pressure: the largest magnitude
   const auto see = [&](Bound bound, int c, double value, double limit) {
-    found.see({ratio(value, limit), mesh_.cell_id[c], bound, c, found.rank, value, limit, mesh_.cell_centre[c]});
+    const double share = ratio(value, limit);
+    if (share >= found.ratio) found.see({share, mesh_.cell_id[c], bound, c, found.rank, value, limit, mesh_.cell_centre[c]});
   };
   for (int c = 0; c < mesh_.n_cells; ++c) {
     see(velocity, c, norm(flow.velocity[c]), fastest);
@@ -160,7 +161,8 @@ DivergenceWatch::Finding DivergenceWatch::worst(const Flow& flow, double dt, con
     if (fluxes) see(lost_volume, c, std::abs(fluxes->net[c]) * dt / mesh_.cell_volume[c], DivergenceBounds::lost_volume);
     const double p = flow.pressure[c];
     range = {std::max(range[0], p), std::max(range[1], -p), std::max(range[2], -mesh_.cell_volume[c])};
-    extreme.see({ratio(std::abs(p), 1), mesh_.cell_id[c], pressure, c, found.rank, 0, 0, mesh_.cell_centre[c]});
+    if (const double size = ratio(std::abs(p), 1); size >= extreme.ratio)
+      extreme.see({size, mesh_.cell_id[c], pressure, c, found.rank, 0, 0, mesh_.cell_centre[c]});
   }
   MPI_Allreduce(MPI_IN_PLACE, range.data(), 3, MPI_DOUBLE, MPI_MAX, mesh_.comm);
   const double least_size = std::cbrt(-range[2]);

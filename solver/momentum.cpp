@@ -45,6 +45,9 @@ inline double extrapolation_share(double courant, double diffusion) {
   return std::min(std::clamp(1.25 - 0.5 * courant, 0.5, 1.0), std::clamp(1.25 - 0.5 * diffusion, 0.0, 1.0));
 }
 
+/// The zone whose faces turn, -1: none.
+int sliding_zone(const Flow& flow) { return flow.rotating_zone && flow.rotating_zone->slides() ? flow.rotating_zone->zone() : -1; }
+
 }  // namespace
 
 TimeScheme bdf(double dt, double dt_old) {
@@ -71,35 +74,43 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
   in_corner_.assign(corner.begin(), corner.end());
 }
 
-/// Fluxes with a share of their extrapolation. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are,
-/// so that the flux is that of the face as it lies now; facets have no psi.
-void Momentum::guess_flux(const Flow& flow, const FluxHistory& history, double share) {
-  const auto &u = flow.velocity_old, &before = flow.velocity_older;
-  const auto& G = flow.velocity_gradient;
-  const auto& psi = history.deviation;
-  const int turning = flow.rotating_zone && flow.rotating_zone->slides() ? flow.rotating_zone->zone() : -1;
+/// Fluxes as they were. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are, so that the flux is
+/// that of the face as it lies now; facets have no psi.
+void Momentum::guess_flux(const Flow& flow, const FluxHistory& history) {
+  const auto& u = flow.velocity_old;
+  const int turning = sliding_zone(flow);
   const auto of_cells = [&](int f) {
+    return interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), flow.velocity_gradient);
+  };
+  for (int f = 0; f < mesh_.first_facet; ++f)
+    flux_[f] = (mesh_.cell_zone[mesh_.owner[f]] == turning ? of_cells(f) + history.deviation[f] : flow.flux_old[f]) - flow.mesh_flux[f];
+  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] = of_cells(f);
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = flow.flux_old[f] - flow.mesh_flux[f];
+}
+
+/// Adds a share of what the last step changed; of the gradients that count for skewness it does not.
+void Momentum::extrapolate_flux(const Flow& flow, const FluxHistory& history, double share) {
+  const auto &u = flow.velocity_old, &before = flow.velocity_older;
+  const int turning = sliding_zone(flow);
+  const auto change_of_cells = [&](int f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    const double w = mesh_.weight[f];
-    return interpolated_flux(mesh_, f, (1 + share) * blend(w, u[P], u[N]) - share * blend(w, before[P], before[N]), G);
+    return dot(blend(mesh_.weight[f], u[P] - before[P], u[N] - before[N]), mesh_.face_vector[f]);
   };
   // flow.flux holds flux^(n-1) until it is corrected
-  const auto extrapolated = [&](int f) { return flow.flux_old[f] + share * (flow.flux_old[f] - flow.flux[f]); };
-  for (int f = 0; f < mesh_.first_facet; ++f) {
-    const bool turns = mesh_.cell_zone[mesh_.owner[f]] == turning;
-    flux_[f] = (turns ? of_cells(f) + psi[f] + share * (psi[f] - history.deviation_old[f]) : extrapolated(f)) - flow.mesh_flux[f];
-  }
-  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] = of_cells(f);
-  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] = extrapolated(f) - flow.mesh_flux[f];
+  const auto change = [&](int f) { return flow.flux_old[f] - flow.flux[f]; };
+  for (int f = 0; f < mesh_.first_facet; ++f)
+    flux_[f] += share * (mesh_.cell_zone[mesh_.owner[f]] == turning ? change_of_cells(f) + (history.deviation[f] - history.deviation_old[f]) : change(f));
+  for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] += share * change_of_cells(f);
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] += share * change(f);
 }
 
 double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, const TimeScheme& time) {
   const double r = time.ratio;
-  guess_flux(flow, history, 0);
+  guess_flux(flow, history);
   set_convection_rate(), set_diffusion_rate(flow);
   const double share = flux_share(flow, time);
   if (share > 0) {
-    guess_flux(flow, history, r * share);
+    extrapolate_flux(flow, history, r * share);
     set_convection_rate();
   }
   mesh_.halo.exchange(convection_rate_), mesh_.halo.exchange(diffusion_rate_);

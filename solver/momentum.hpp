@@ -63,7 +63,8 @@ class Momentum {
 
  private:
   struct BoundaryFace;  // coefficients of one boundary face
-  void guess_flux(const Flow& flow, const FluxHistory& history, double share);
+  void guess_flux(const Flow& flow, const FluxHistory& history);
+  void extrapolate_flux(const Flow& flow, const FluxHistory& history, double share);
   void set_convection_rate();
   void set_diffusion_rate(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;

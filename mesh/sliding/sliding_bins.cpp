@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace snag {
 
@@ -68,17 +69,17 @@ SlidingBins::SlidingBins(const RevolvedSurface& surface)
     : cylinders_(surface.radii.size()), discs_(surface.levels.size()), radii_(surface.radii) {
   const RevolvedSide& side = surface.stator;
   for (const RevolvedNode& node : side.node) plane_.push_back(node.plane_position());
-  std::vector<Box> boxes;
+  last_search_.resize(side.face.size());
   for (const RevolvedFace& face : side.face) {
     const int first = face.node[0];
     const FlatFace flat =
         face.is_disc ? flat_disc_face(face, plane_, plane_[first]) : flat_cylinder_face(side, face, 0, side.node[first].angle);
-    boxes.push_back(box_of(face, flat, plane_[first], side.node[first].angle));
+    box_.push_back(box_of(face, flat, plane_[first], side.node[first].angle));
   }
-  size_bins(side.face, boxes);
-  for (std::size_t f = 0; f < boxes.size(); ++f) {
+  size_bins(side.face, box_);
+  for (std::size_t f = 0; f < box_.size(); ++f) {
     Part& part = part_of(side.face[f]);
-    part.for_each_bin(boxes[f], [&](std::size_t bin) { ++part.start[bin + 1]; });
+    part.for_each_bin(box_[f], [&](std::size_t bin) { ++part.start[bin + 1]; });
   }
   for (auto* parts : {&cylinders_, &discs_})
     for (Part& part : *parts) {
@@ -86,20 +87,31 @@ SlidingBins::SlidingBins(const RevolvedSurface& surface)
       part.face.resize(part.start.empty() ? 0 : static_cast<std::size_t>(part.start.back()));
       part.next = part.start;
     }
-  for (std::size_t f = 0; f < boxes.size(); ++f) {
+  for (std::size_t f = 0; f < box_.size(); ++f) {
     Part& part = part_of(side.face[f]);
-    part.for_each_bin(boxes[f], [&](std::size_t bin) { part.face[part.next[bin]++] = static_cast<int>(f); });
+    part.for_each_bin(box_[f], [&](std::size_t bin) { part.face[part.next[bin]++] = static_cast<int>(f); });
   }
 }
 
-void SlidingBins::near(const RevolvedFace& face, const FlatFace& flat, Point2 base, Angle base_angle, std::vector<int>& candidates) const {
+void SlidingBins::near(const RevolvedFace& face, const FlatFace& flat, Point2 base, Angle base_angle, std::vector<int>& candidates) {
   candidates.clear();
+  ++search_;
   const Part& part = part_of(face);
-  part.for_each_bin(box_of(face, flat, base, base_angle), [&](std::size_t bin) {
-    candidates.insert(candidates.end(), part.face.begin() + part.start[bin], part.face.begin() + part.start[bin + 1]);
+  const Box box = box_of(face, flat, base, base_angle);
+  const Point2 hair = 1e-6 * part.width;
+  part.for_each_bin(box, [&](std::size_t bin) {
+    for (int k = part.start[bin]; k < part.start[bin + 1]; ++k) {
+      const int other = part.face[k];
+      if (std::exchange(last_search_[other], search_) == search_) continue;
+      const Box& there = box_[other];
+      // Twice the way between the middles, and the room that both boxes take of it.
+      Point2 way = (there.lower + there.upper) - (box.lower + box.upper);
+      const Point2 room = (there.upper - there.lower) + (box.upper - box.lower) + 2 * hair;
+      if (part.wraps && std::abs(way.x) > 2 * std::numbers::pi) way.x -= std::copysign(4 * std::numbers::pi, way.x);
+      if (std::abs(way.x) <= room.x && std::abs(way.y) <= room.y) candidates.push_back(other);
+    }
   });
   std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
 }
 
 }  // namespace snag

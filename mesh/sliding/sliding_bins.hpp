@@ -9,8 +9,9 @@ namespace snag {
 class SlidingBins {
  public:
   explicit SlidingBins(const RevolvedSurface& surface);
-  /// Stator faces of the same part whose bins the face meets, rising, in `candidates`. `flat`: the face about its base.
-  void near(const RevolvedFace& face, const FlatFace& flat, Point2 base, Angle base_angle, std::vector<int>& candidates) const;
+  /// Stator faces of the same part whose box, a hair wider, the box of the face meets, rising, in `candidates`. `flat`: the face about its
+  /// base.
+  void near(const RevolvedFace& face, const FlatFace& flat, Point2 base, Angle base_angle, std::vector<int>& candidates);
   /// Positions of the stator's nodes in the axis frame.
   const std::vector<Point2>& plane() const { return plane_; }
 
@@ -20,7 +21,7 @@ class SlidingBins {
   };
   /// Bins of one part; where it `wraps`, the first coordinate is an angle and the bins go once around.
   struct Part {
-    Point2 lower, width;
+    Point2 lower{}, width{};
     int n_x = 0, n_y = 0;
     bool wraps = false;
     std::vector<int> start, face;  // compressed rows
@@ -34,6 +35,9 @@ class SlidingBins {
   void size_bins(const std::vector<RevolvedFace>& faces, const std::vector<Box>& boxes);
 
   std::vector<Part> cylinders_, discs_;
+  std::vector<Box> box_;          // of each stator face
+  std::vector<int> last_search_;  // in which each of them was seen
+  int search_ = 0;
   std::vector<Point2> plane_;
   std::vector<double> radii_;  // m
 };

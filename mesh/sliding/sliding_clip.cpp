@@ -70,26 +70,28 @@ void walk(RoundBorder& border, Point2 a, Point2 b, bool a_in, bool b_in) {
 }  // namespace
 
 Polygon intersection(const Polygon& subject, const Polygon& other) {
-  Polygon result = subject, cut;
+  std::array<Polygon, 2> pieces;
+  const Polygon* result = &subject;
   std::array<double, Polygon::capacity> side;
-  for (int e = 0; e < other.n && result.n > 0; ++e) {
+  for (int e = 0; e < other.n && result->n > 0; ++e) {
     const Point2 p = other[e], along = other.after(e) - p;
     if (along.x == 0 && along.y == 0) continue;
     bool is_cut = false;
-    for (int i = 0; i < result.n; ++i) {
-      side[static_cast<std::size_t>(i)] = cross(along, result[i] - p);
+    for (int i = 0; i < result->n; ++i) {
+      side[static_cast<std::size_t>(i)] = cross(along, (*result)[i] - p);
       is_cut |= side[static_cast<std::size_t>(i)] < 0;
     }
     if (!is_cut) continue;
+    Polygon& cut = pieces[result == &pieces[0] ? 1 : 0];
     cut.n = 0;
-    for (int i = 0; i < result.n; ++i) {
-      const double here = side[static_cast<std::size_t>(i)], next = side[static_cast<std::size_t>(i + 1 < result.n ? i + 1 : 0)];
-      if (here >= 0) cut.add(result[i]);
-      if ((here >= 0) != (next >= 0)) cut.add(result[i] + here / (here - next) * (result.after(i) - result[i]));
+    for (int i = 0; i < result->n; ++i) {
+      const double here = side[static_cast<std::size_t>(i)], next = side[static_cast<std::size_t>(i + 1 < result->n ? i + 1 : 0)];
+      if (here >= 0) cut.add((*result)[i]);
+      if ((here >= 0) != (next >= 0)) cut.add((*result)[i] + here / (here - next) * (result->after(i) - (*result)[i]));
     }
-    result = cut;
+    result = &cut;
   }
-  return result;
+  return *result;
 }
 
 Moments moments(const Polygon& polygon) {
@@ -105,7 +107,7 @@ Moments moments(const Polygon& polygon) {
 
 Point2 middle(const Polygon& polygon) {
   double total = 0;
-  Point2 offset, mean;
+  Point2 offset{}, mean{};
   for (int i = 0; i < polygon.n; ++i) {
     const Point2 p = polygon[i] - polygon[0], q = polygon.after(i) - polygon[0];
     const double area = std::max(0.0, cross(p, q));

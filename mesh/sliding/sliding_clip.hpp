@@ -1,11 +1,13 @@
 #pragma once
 // Intersections of faces in the plane of an interface part: convex polygons, and circles at the rims of discs.
 #include <array>
+#include <cstddef>
 
 namespace snag {
 
+/// Without a first value: a polygon has room for many.
 struct Point2 {
-  double x = 0, y = 0;
+  double x, y;
 };
 constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
 constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
@@ -19,6 +21,14 @@ struct Polygon {
   static constexpr int capacity = 24;
   int n = 0;
   std::array<Point2, capacity> point;
+  Polygon() {}
+  Polygon(const Polygon& other) { *this = other; }
+  /// Only the places that are in use.
+  Polygon& operator=(const Polygon& other) {
+    n = other.n;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) point[i] = other.point[i];
+    return *this;
+  }
   void add(Point2 x) { point[static_cast<std::size_t>(n++)] = x; }
   const Point2& operator[](int i) const { return point[static_cast<std::size_t>(i)]; }
   const Point2& after(int i) const { return point[static_cast<std::size_t>(i + 1 < n ? i + 1 : 0)]; }
@@ -27,7 +37,7 @@ struct Polygon {
 /// Area and first moment of a piece of the plane, in the unit of the coordinates.
 struct Moments {
   double area = 0;
-  Point2 first;
+  Point2 first{};
 };
 
 /// The part of `subject` left of all edges of `other` (Sutherland and Hodgman 1974). A wrong side by round-off changes areas by round-off.

@@ -20,7 +20,7 @@ double reduced(double angle) { return std::remainder(angle, 2 * std::numbers::pi
 /// One angle's facets.
 class FacetCutter {
  public:
-  FacetCutter(const RevolvedSurface& surface, const SlidingBins& bins, int rank, Angle turn)
+  FacetCutter(const RevolvedSurface& surface, SlidingBins& bins, int rank, Angle turn)
       : surface_(surface),
         bins_(bins),
         rank_(rank),
@@ -90,7 +90,7 @@ class FacetCutter {
   }
 
   const RevolvedSurface& surface_;
-  const SlidingBins& bins_;
+  SlidingBins& bins_;
   int rank_;
   Angle turn_;
   std::vector<Point2> rotor_plane_;  // of the nodes, in the axis frame, at this angle

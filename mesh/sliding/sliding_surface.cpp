@@ -327,7 +327,8 @@ FlatFace flat_cylinder_face(const RevolvedSide& side, const RevolvedFace& face, 
 }
 
 FlatFace flat_disc_face(const RevolvedFace& face, const std::vector<Point2>& plane, Point2 base) {
-  FlatFace flat{{}, face.outer_rim, face.inner_rim};
+  FlatFace flat;
+  flat.outer_rim = face.outer_rim, flat.inner_rim = face.inner_rim;
   for (std::size_t i = 0, n = static_cast<std::size_t>(face.n_nodes); i < n; ++i) {
     const Point2 a = plane[static_cast<std::size_t>(face.node[i])], b = plane[static_cast<std::size_t>(face.node[(i + 1) % n])];
     flat.polygon.add(a - base);
