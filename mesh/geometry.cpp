@@ -82,7 +82,7 @@ void fill_geometry(Mesh& mesh, const std::vector<Vec3>& shift) {
     mesh.weight[f] = dot(S, x_N - x_f) / dot(S, mesh.delta[f]);
   }
   mesh.skew_share.clear();
-  for (int f = 0; f < mesh.n_interior; ++f) mesh.skew_share.push_back(skew_share(mesh, f));
+  for (int f = 0; f < mesh.n_interior; ++f) mesh.skew_share.push_back(static_cast<float>(skew_share(mesh, f)));
 }
 
 }  // namespace snag

@@ -29,6 +29,14 @@ struct CellGeometry {
 /// `nodes` in VTK order.
 CellGeometry cell_geometry(CellShape shape, std::span<const Vec3> nodes);
 
+/// What the centres of the cells of an interior face lack of `delta`: its way across a period, m; zero elsewhere.
+inline Vec3 period(const Mesh& mesh, int f) {
+  constexpr double round_off = 1e-12;  // of the square of the way between the centres
+  const Vec3& d = mesh.delta[f];
+  const Vec3 lack = d - (mesh.cell_centre[mesh.neighbour[f]] - mesh.cell_centre[mesh.owner[f]]);
+  return norm_squared(lack) > round_off * norm_squared(d) ? lack : Vec3{};
+}
+
 /// Positions of a row of node numbers, at most 8, in `points`.
 inline std::span<const Vec3> positions(const std::vector<Vec3>& node, std::span<const int> row, std::array<Vec3, 8>& points) {
   for (std::size_t i = 0; i < row.size(); ++i) points[i] = node[static_cast<std::size_t>(row[i])];

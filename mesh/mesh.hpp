@@ -80,8 +80,8 @@ struct Mesh {
   std::vector<Vec3> face_vector;      // S, m2
   std::vector<Vec3> face_centre;      // m (of the owner's side for a periodic face)
   std::vector<Vec3> delta;            // owner centre -> neighbour centre; on the boundary -> face centre, m
-  std::vector<double> weight;      // linear interpolation: field_f = weight field_owner + (1 - weight) field_neighbour; 1 on the boundary
-  std::vector<double> skew_share;  // of interior faces without facets: the share of its skewness that counts (mesh/skewness.hpp)
+  std::vector<double> weight;     // linear interpolation: field_f = weight field_owner + (1 - weight) field_neighbour; 1 on the boundary
+  std::vector<float> skew_share;  // of interior faces without facets: the share of its skewness that counts (mesh/skewness.hpp)
   std::vector<Patch> patches;
   // of facets, [n_interior - first_facet]: their area over that of the face that they are a part of, on the owner's and the neighbour's
   // side

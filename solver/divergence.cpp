@@ -61,7 +61,7 @@ struct DivergenceWatch::Finding {
 DivergenceWatch::DivergenceWatch(const Mesh& mesh, const FlowSettings& settings)
     : mesh_(mesh), settings_(settings), area_(static_cast<std::size_t>(mesh.n_all_cells())) {
   for (int f = 0; f < mesh.n_faces; ++f) {
-    const double area = norm(mesh.face_vector[f]);
+    const auto area = static_cast<float>(norm(mesh.face_vector[f]));
     area_[mesh.owner[f]] += area;
     if (mesh.neighbour[f] >= 0) area_[mesh.neighbour[f]] += area;
   }

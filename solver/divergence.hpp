@@ -83,11 +83,11 @@ class DivergenceWatch {
 
   const Mesh& mesh_;
   FlowSettings settings_;
-  std::vector<double> area_;  // of all faces of a cell, [n_all_cells], m2
-  double length_ = 0;         // L, m
-  double tip_radius_ = 0;     // of the turning zone, m
-  double speed_ = 0;          // U, m/s
-  double gained_speed_ = 0;   // by forces, m/s
+  std::vector<float> area_;  // of all faces of a cell, [n_all_cells], m2
+  double length_ = 0;        // L, m
+  double tip_radius_ = 0;    // of the turning zone, m
+  double speed_ = 0;         // U, m/s
+  double gained_speed_ = 0;  // by forces, m/s
   std::string source_ = "nothing moves";
   double largest_ratio_ = 0;
   int unsolved_ = 0, most_unsolved_ = 0, unsolved_turbulence_ = 0;

@@ -8,7 +8,6 @@
 #include "benchmark/speed/flow.hpp"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -109,11 +108,13 @@ double processor_seconds() {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-/// Memory that all ranks hold now, bytes. Collective.
+/// Memory that all ranks hold now, bytes; pages that they share, of libraries, count once. Collective.
 double memory_held() {
-  double total_pages = 0, pages = 0;
-  std::ifstream("/proc/self/statm") >> total_pages >> pages;
-  return sum(world, pages * static_cast<double>(sysconf(_SC_PAGESIZE)));
+  std::ifstream pages("/proc/self/smaps_rollup");
+  double held = 0;  // kB
+  for (std::string word; pages >> word;)
+    if (word == "Pss:") pages >> held;
+  return sum(world, 1024 * held);
 }
 
 struct Timed {

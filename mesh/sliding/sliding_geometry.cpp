@@ -141,10 +141,7 @@ class CurvedMesh {
   }
 
   /// From the neighbour's side of a face to the owner's where they are a period apart.
-  Vec3 period(int f) const {
-    const Vec3 shift = mesh_.delta[f] - (mesh_.cell_centre[mesh_.neighbour[f]] - mesh_.cell_centre[mesh_.owner[f]]);
-    return norm_squared(shift) > 1e-12 * norm_squared(mesh_.delta[f]) ? surface_.frame.components(shift) : Vec3{};
-  }
+  Vec3 period(int f) const { return surface_.frame.components(snag::period(mesh_, f)); }
 
   void fill_patches(const RevolvedSide& side) {
     std::vector<Point2> plane;

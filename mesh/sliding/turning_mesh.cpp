@@ -204,12 +204,13 @@ void TurningMesh::keep_reference() {
     if (node_turns[n]) r.node.push_back(static_cast<int>(n));
   unit_mesh_flux_ = taken(unit_mesh_flux_, r.face);
   r.cell_centre = taken(mesh_.cell_centre, r.cell), r.node_position = taken(mesh_.node, r.node);
-  for (const auto& [kept, all] :
-       {std::pair{&r.face_vector, &mesh_.face_vector}, std::pair{&r.face_centre, &mesh_.face_centre}, std::pair{&r.delta, &mesh_.delta}}) {
+  for (const auto& [kept, all] : {std::pair{&r.face_vector, &mesh_.face_vector}, std::pair{&r.face_centre, &mesh_.face_centre}}) {
     kept->reserve(r.face.size() + r.boundary_face.size());
     for (const int f : r.face) kept->push_back((*all)[f]);
     for (const int b : r.boundary_face) kept->push_back((*all)[mesh_.n_interior + b]);
   }
+  for (const int f : r.face)
+    if (const Vec3 across = period(mesh_, f); across != Vec3{}) r.period.emplace_back(f, across);
   for (auto* list : {&r.cell, &r.face, &r.boundary_face, &r.node}) list->shrink_to_fit();
 }
 
@@ -233,8 +234,9 @@ void TurningMesh::turn_geometry() {
     const int f = i < n_interior ? r.face[i] : mesh_.n_interior + r.boundary_face[i - n_interior];
     mesh_.face_vector[f] = rotation * r.face_vector[i];
     mesh_.face_centre[f] = interface_.turned_point(rotation, r.face_centre[i]);
-    mesh_.delta[f] = rotation * r.delta[i];
+    mesh_.delta[f] = (i < n_interior ? mesh_.cell_centre[mesh_.neighbour[f]] : mesh_.face_centre[f]) - mesh_.cell_centre[mesh_.owner[f]];
   }
+  for (const auto& [f, across] : r.period) mesh_.delta[f] += rotation * across;
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) {
     const Vec3 &x_P = mesh_.cell_centre[mesh_.owner[f]], &x_N = mesh_.cell_centre[mesh_.neighbour[f]], &S = mesh_.face_vector[f];
     mesh_.delta[f] = x_N - x_P;

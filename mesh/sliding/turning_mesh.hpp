@@ -53,7 +53,8 @@ class TurningMesh {
   // of what turns, at angle 0
   struct Turning {
     std::vector<int> cell, face, boundary_face, node;  // boundary_face: f - n_interior
-    std::vector<Vec3> cell_centre, face_vector, face_centre, delta, node_position;
+    std::vector<Vec3> cell_centre, face_vector, face_centre, node_position;
+    std::vector<std::pair<int, Vec3>> period;  // of faces joined across one: of delta what the centres lack
   };
   Turning reference_;
   std::vector<double> unit_mesh_flux_, unit_boundary_mesh_flux_;  // at omega = 1 of Turning::face, of boundary faces
