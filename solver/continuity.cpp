@@ -90,7 +90,7 @@ void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary) {
 
 void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient) {
   mobility_ = 1;
-  predict_flux(flow, boundary, gradient, false);
+  predict_flux(flow, boundary, gradient, Purpose::projection);
   std::fill(given_.begin(), given_.end(), 0.0);
   solve(flow);
   correct_cells(flow, false);
@@ -107,10 +107,11 @@ void Continuity::begin_step(std::span<const double> convection, std::span<const 
   }
 }
 
-ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient) {
+ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient,
+                                     bool is_last) {
   mobility_ = time.dt / (time.now * flow.density);
   one_over_a0_ = 1 / time.now;
-  predict_flux(flow, boundary, gradient, true);
+  predict_flux(flow, boundary, gradient, is_last ? Purpose::last_correction : Purpose::correction);
   set_boundary_of_correction(flow, boundary);
   const ContinuityReport report = solve(flow);
   correct_cells(flow, true);
@@ -192,20 +193,24 @@ void Continuity::find_held_by_pressure() {
   mesh_.halo.exchange(held);
 }
 
-void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
+void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose) {
+  const bool with_pressure = purpose != Purpose::projection, for_history = purpose != Purpose::correction;
   const auto& u = flow.velocity;
   const auto& g = flow.pressure_gradient;
   // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
   const auto damping = [&](int f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    double difference = coefficient_[f] * (dot(blend(mesh_.weight[f], g[P], g[N]), mesh_.delta[f]) - (flow.pressure[N] - flow.pressure[P]));
+    const double w = mesh_.weight[f];
+    double difference = coefficient_[f] * (dot(blend(w, g[P], g[N]), mesh_.delta[f]) - (flow.pressure[N] - flow.pressure[P]));
     if (!reaction_excess_.empty()) difference += reaction_excess_[f];
     return mobility_ * difference;
   };
   for (int f = 0; f < mesh_.n_interior; ++f) {
-    double flux = interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), gradient);
+    const double by_skewness = skewness_flux(mesh_, f, gradient);
+    double flux = dot(blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), mesh_.face_vector[f]) + by_skewness;
     if (with_pressure) flux += damping(f) + one_over_a0_ * history.inherited()[f];
     flow.flux[f] = flux;
+    if (for_history) history.take_skewness_flux(f, by_skewness);
   }
   if (with_pressure)
     for (std::size_t i = 0; i < skew_share_.size(); ++i) {

@@ -75,8 +75,10 @@ class Continuity {
   /// What the corrections of a step need of the step before; see FluxHistory::begin_step. Collective.
   void begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
                   const TimeScheme& time);
-  /// One pressure correction; `gradient` of velocity, for skewness. Collective.
-  ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient);
+  /// One pressure correction; `gradient` of velocity, for skewness; `is_last`: of a step, whose history it leaves ready for its end.
+  /// Collective.
+  ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient,
+                           bool is_last);
 
   /// Take the divergence out of a guessed flux, [n_faces], relative to the mesh, to the intermediate tolerance. Collective.
   void close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time);
@@ -103,7 +105,9 @@ class Continuity {
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
   void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);
-  void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
+  /// What fluxes are predicted for: a projection has no pressure; it and the last correction of a step leave the history ready for its end.
+  enum class Purpose { projection, correction, last_correction };
+  void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
   void set_coefficients(const BoundarySet& boundary, int first);
   struct Imbalance {

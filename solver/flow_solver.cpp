@@ -120,7 +120,7 @@ void FlowSolver::balance_body_force() {
   const auto values = boundary_.exchange_for_rest_state();
   for (int k = 0; k < static_correctors; ++k) {
     for (std::size_t c = 0; c < velocity.size(); ++c) flow.velocity[c] = flow.body_force - flow.pressure_gradient[c];
-    continuity_.correct(flow, boundary_, unit_step, no_gradient);
+    continuity_.correct(flow, boundary_, unit_step, no_gradient, false);
   }
   boundary_.restore(values);
   flow.velocity = velocity, flow.reaction = reaction;
@@ -189,7 +189,7 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
                  " sweeps, wanted " + scientific(settings_.momentum_tolerance) + "; take smaller steps");
   const double predicted = seconds();
   try {
-    did.continuity = continuity_.correct(flow, boundary_, time, flow.velocity_gradient);
+    did.continuity = continuity_.correct(flow, boundary_, time, flow.velocity_gradient, is_last);
   } catch (const Error& error) {
     if (error.code == ExitCode::diverged) watch_.fail(flow, boundary_, time.dt, error.what());
     throw;

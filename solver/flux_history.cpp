@@ -45,7 +45,7 @@ void FluxHistory::end_step(const Flow& flow, const std::vector<Mat3>& gradient) 
   const auto& u = flow.velocity;
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
-    deviation[f] = flow.flux[f] - interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[P], u[N]), gradient);
+    deviation[f] = flow.flux[f] - dot(blend(mesh_.weight[f], u[P], u[N]), mesh_.face_vector[f]) - deviation[f];
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     const int P = mesh_.owner[f];

@@ -30,14 +30,17 @@ class FluxHistory {
   /// [n_all_cells], m3/s; `mesh_flux` of the faces, m3/s. Collective.
   void begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
                   const TimeScheme& time);
+  /// In the last correction of a step, when the face has inherited: what gradients add to its flux (skewness_flux()), for the end of the
+  /// step. Local.
+  void take_skewness_flux(int f, double flux) { deviation_old[f] = flux; }
   /// Keep psi of the step just done. `gradient` of velocity: that which its flux was formed with, else psi would gather the difference step
-  /// by step.
+  /// by step; of interior faces what it gave was taken. Local.
   void end_step(const Flow& flow, const std::vector<Mat3>& gradient);
 
-  /// [n_faces], m3/s, times a0; from the begin of a step to its end.
+  /// [n_faces], m3/s, times a0; from the begin of a step to its last correction.
   const std::vector<double>& inherited() const { return deviation_old; }
   std::vector<double> deviation, deviation_old;  // psi, [n_faces], m3/s; kept in the checkpoint. Within a step, from its begin to its end,
-                                                 // what is inherited has the place of the old one
+                                                 // what is inherited has the place of the old one, then what gradients add
 
  private:
   const Mesh& mesh_;

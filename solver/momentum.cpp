@@ -25,6 +25,7 @@
 
 #include <algorithm>
 
+#include "mesh/geometry.hpp"
 #include "mesh/skewness.hpp"
 #include "parallel/sum.hpp"
 #include "solver/convection/convection.hpp"
@@ -72,6 +73,7 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
   for (const int c : corner_cells(mesh)) corner[c] = 1;
   mesh.halo.exchange(corner);
   in_corner_.assign(corner.begin(), corner.end());
+  for (int f = 0; f < mesh.first_facet; ++f) has_periods_ = has_periods_ || norm_squared(period(mesh, f)) > 0;
 }
 
 /// Fluxes as they were. Those that stand are taken as they are: free of divergence. Where faces turn, u and psi are, so that the flux is
@@ -99,7 +101,8 @@ void Momentum::extrapolate_flux(const Flow& flow, const FluxHistory& history, do
   // flow.flux holds flux^(n-1) until it is corrected
   const auto change = [&](int f) { return flow.flux_old[f] - flow.flux[f]; };
   for (int f = 0; f < mesh_.first_facet; ++f)
-    flux_[f] += share * (mesh_.cell_zone[mesh_.owner[f]] == turning ? change_of_cells(f) + (history.deviation[f] - history.deviation_old[f]) : change(f));
+    flux_[f] += share * (mesh_.cell_zone[mesh_.owner[f]] == turning ? change_of_cells(f) + (history.deviation[f] - history.deviation_old[f])
+                                                                    : change(f));
   for (int f = mesh_.first_facet; f < mesh_.n_interior; ++f) flux_[f] += share * change_of_cells(f);
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) flux_[f] += share * change(f);
 }
@@ -167,7 +170,7 @@ void Momentum::limit(const Flow& flow) {
   if (!scheme_->is_limited()) return;
   double speed2 = 0;
   for (int c = 0; c < mesh_.n_cells; ++c) speed2 = std::max(speed2, norm_squared(flow.velocity[c]));
-  limiter_->limit(mesh_, flow.velocity, flow.velocity_gradient, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
+  limiter_->limit(mesh_, has_periods_, flow.velocity, flow.velocity_gradient, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {

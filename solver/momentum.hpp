@@ -84,6 +84,7 @@ class Momentum {
   std::span<double> convection_rate_, diffusion_rate_;
   std::vector<double>& flux_;            // F, relative to the mesh, [n_faces], m3/s
   std::vector<std::uint8_t> in_corner_;  // [n_all_cells] 1 for cells in a corner
+  bool has_periods_ = false;             // faces of this rank are joined across a period
 };
 
 }  // namespace snag

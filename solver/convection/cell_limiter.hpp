@@ -25,10 +25,29 @@ inline FourValues largest(const FourValues& a, const FourValues& b) { return a <
 template <class Law>
 class CellLimiter : public Limiter {
  public:
-  void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
+  void limit(const Mesh& mesh, bool has_periods, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
              std::vector<Vec3>& psi) const final {
-    const FourValues one{1, 1, 1, 1};
     const double per_volume = threshold(mesh, reference_speed);
+    if (has_periods)
+      limit_cells(mesh, u, G, per_volume, psi, [&mesh](int c, int f) {
+        const int P = mesh.owner[f];
+        return mesh.face_centre[f] - mesh.cell_centre[P] - static_cast<double>(P != c) * mesh.delta[f];
+      });
+    else
+      limit_cells(mesh, u, G, per_volume, psi, [&mesh](int c, int f) { return mesh.face_centre[f] - mesh.cell_centre[c]; });
+    mesh.halo.exchange(psi);
+  }
+
+ protected:
+  /// Square of the variation that a limiter leaves alone, over the volume of a cell, m2/s2 over m3. Collective.
+  virtual double threshold(const Mesh&, double /*reference_speed*/) const { return 0; }
+
+ private:
+  /// `way_of(c, f)`: from the centre of cell c to that of its face f. Across a period it needs the other cell, which takes half the time.
+  template <class Way>
+  static void limit_cells(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double per_volume, std::vector<Vec3>& psi,
+                          const Way& way_of) {
+    const FourValues one{1, 1, 1, 1};
     for (int c = 0; c < mesh.n_cells; ++c) {
       const FourValues here = four(u[c]);
       FourValues highest = here, lowest = here;
@@ -48,8 +67,7 @@ class CellLimiter : public Limiter {
       for (int k = first; k < last; ++k) {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
-        const int P = mesh.owner[f];
-        const Vec3 way = mesh.face_centre[f] - mesh.cell_centre[P] - static_cast<double>(P != c) * mesh.delta[f];
+        const Vec3 way = way_of(c, f);
         const FourValues a = way.x * along_x + way.y * along_y + way.z * along_z, b = a > 0 ? above : below;
         FourValues psi_f = a != 0 ? least(one, Law::factor(a, b, e2)) : one;
         if (f >= mesh.first_facet) psi_f = 1 - say(mesh, f, c) * (1 - psi_f);
@@ -57,14 +75,8 @@ class CellLimiter : public Limiter {
       }
       psi[c] = {smallest[0], smallest[1], smallest[2]};
     }
-    mesh.halo.exchange(psi);
   }
 
- protected:
-  /// Square of the variation that a limiter leaves alone, over the volume of a cell, m2/s2 over m3. Collective.
-  virtual double threshold(const Mesh&, double /*reference_speed*/) const { return 0; }
-
- private:
   /// Weight of a facet in cell c: 1 from a quarter of the cell's face on, 0 when it is a sliver that comes or goes.
   static double say(const Mesh& mesh, int f, int c) { return std::min(1.0, 4 * share_of_face(mesh, f, mesh.owner[f] == c)); }
 };

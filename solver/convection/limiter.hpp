@@ -23,8 +23,8 @@ class Limiter {
   /// True if the values at the face centres stay between those of the cell and its neighbours.
   virtual bool bounds() const { return true; }
   /// Factor in [0, 1] of each row of the gradient G of u, `psi` [n_all_cells], ghosts filled. `reference_speed`, m/s: a limiter may leave
-  /// alone variations far below it on the scale of a cell. Collective.
-  virtual void limit(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
+  /// alone variations far below it on the scale of a cell. `has_periods`: faces of this rank are joined across a period. Collective.
+  virtual void limit(const Mesh& mesh, bool has_periods, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
                      std::vector<Vec3>& psi) const = 0;
 };
 

@@ -36,12 +36,16 @@ void CellMatrix::build(const Mesh& mesh) {
   };
   std::vector<int> next(static_cast<std::size_t>(mesh.n_cells)), n_facets(next.size());
   count(0, mesh.first_facet, next), count(mesh.first_facet, mesh.n_interior, n_facets);
+  // A row keeps the room that it had: else one of thousands lacks some at nearly every angle.
+  std::vector<int> room(next.size());
+  for (const auto& [row, first] : facet_rows_) room[row] = row_start[row + 1] - first;
   row_start.assign(1, 0), facet_rows_.clear();
   row_start.reserve(next.size() + 1);
   for (int c = 0; c < mesh.n_cells; ++c) {
     const int begin = row_start.back(), facets = begin + next[c];
-    if (n_facets[c] > 0) facet_rows_.push_back({c, facets});
-    const int length = next[c] + (n_facets[c] > 0 ? n_facets[c] + spare_facets : 0);
+    if (n_facets[c] > 0 || room[c] > 0) facet_rows_.push_back({c, facets});
+    if (n_facets[c] > room[c]) room[c] = n_facets[c] + spare_facets;
+    const int length = next[c] + room[c];
     row_start.push_back(begin + (length + 1) / 2 * 2);
     next[c] = begin;
   }

@@ -21,7 +21,8 @@ struct Venkatakrishnan final : CellLimiter<Venkatakrishnan> {
             "Venkatakrishnan 1995"};
   }
   static FourValues factor(const FourValues& a, const FourValues& b, double e2) {
-    return (b * b + e2 + 2 * a * b) / (b * b + 2 * a * a + a * b + e2);
+    const FourValues b2 = b * b + e2, ab = a * b;
+    return (b2 + 2 * ab) / (b2 + 2 * a * a + ab);
   }
 
  protected:

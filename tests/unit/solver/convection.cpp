@@ -126,7 +126,7 @@ TEST(ConvectionSchemes, Bounded) {
   Guess guess = rough(mesh);
   for_each(convection_schemes(), [&](const ConvectionScheme& scheme) {
     if (!scheme.is_bounded()) return;
-    if (scheme.is_limited()) limiters().make("barth_jespersen", "test")->limit(mesh, guess.u, guess.G, 0, guess.psi);
+    if (scheme.is_limited()) limiters().make("barth_jespersen", "test")->limit(mesh, false, guess.u, guess.G, 0, guess.psi);
     for (int f = 0; f < mesh.first_facet; ++f)
       for (const double flux : {0.3, -0.7}) {
         const Vec3 value = value_at_face(scheme, mesh, guess, f, flux);
@@ -154,9 +154,12 @@ TEST(Limiters, Bounds) {
   const Guess guess = rough(mesh);
   for_each(limiters(), [&](const Limiter& limiter) {
     std::vector<Vec3> psi(guess.u.size(), Vec3{-1, -1, -1});
-    limiter.limit(mesh, guess.u, std::vector<Mat3>(guess.u.size()), 1, psi);
+    limiter.limit(mesh, false, guess.u, std::vector<Mat3>(guess.u.size()), 1, psi);
     for (const Vec3& factor : psi) EXPECT_EQ(norm(factor - Vec3{1, 1, 1}), 0);
-    limiter.limit(mesh, guess.u, guess.G, 0, psi);
+    std::vector<Vec3> across_periods(psi);
+    limiter.limit(mesh, true, guess.u, guess.G, 0, across_periods);
+    limiter.limit(mesh, false, guess.u, guess.G, 0, psi);
+    for (std::size_t c = 0; c < psi.size(); ++c) EXPECT_LT(norm(psi[c] - across_periods[c]), 1e-12);
     double beyond = 0;
     for (int c = 0; c < mesh.n_cells; ++c) {
       Vec3 low = guess.u[c], high = guess.u[c];
@@ -197,7 +200,7 @@ TEST(Limiters, PublishedFactors) {
   }();
   const auto factor = [&](const char* name, double y) {
     guess.G[middle] = {Vec3{2 / y, 0, 0}, {}, {}};  // the change to a neighbour is 1 m/s, that to the face 1/y
-    limiters().make(name, "test")->limit(mesh, guess.u, guess.G, 0, guess.psi);
+    limiters().make(name, "test")->limit(mesh, false, guess.u, guess.G, 0, guess.psi);
     return guess.psi[middle].x;
   };
   for (const double y : {0.25, 0.75, 1.25, 1.5, 4.0}) {
