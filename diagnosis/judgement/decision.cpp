@@ -216,6 +216,7 @@ class Judge {
     const bool several_points = model_.training().size() > 1;
     if (discrepancy_leads_by_ > 0) {
       tie({a_.names[first], "outside"});
+      note_weak_second(first);
     } else if (p < suspected) {
       tie(shared_verdict(a_));
     } else if (const int twin = equal_rival(first); twin >= 0) {

@@ -82,6 +82,19 @@ TEST(Decision, EffectLessThanTwoDeviationsClearIsRefused) {
   }
 }
 
+TEST(Decision, TieWithOutsideSaysThatAPairIsLikelier) {
+  for (const double of_pair : {-9.0, 9.0}) {
+    const Verdict verdict = judged_after([&](Attribution& a) {
+      const double own = a.log_evidence(a.first());
+      a.discrepancy.log_evidence = own + 3;  // less than the rule
+      a.not_fitted["lift+unheard"] = {own + of_pair, 0};
+    });
+    EXPECT_EQ(verdict.verdict, VerdictKind::tie);
+    EXPECT_EQ(verdict.tie, (std::vector<std::string>{"lift", "outside"}));
+    EXPECT_EQ(has_note(verdict, "Likelier than lift alone"), of_pair > 0) << of_pair;
+  }
+}
+
 TEST(Decision, CheckThatFailsIsNotedAndDecidesNothing) {
   const Verdict sound = judged_after([](Attribution&) {});
   const Verdict failing = judged_after([](Attribution& a) { a.fits[static_cast<std::size_t>(a.first())].residual[3] += 9; });
