@@ -12,6 +12,7 @@
 
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
+#include "base/known_key.hpp"
 #include "base/log.hpp"
 #include "base/quotation.hpp"
 #include "base/sha256.hpp"
@@ -88,6 +89,15 @@ void check_inputs(const PointCase& base, const OperatingPoint& point) {
     if (!is_first)
       throw Error(ExitCode::usage,
                   point.where + " input_u has " + before->second + " and " + key + ", which are one input; keep one of them");
+  }
+}
+
+/// Throws Error(usage) for an override of a key that no case has. A value that a run refuses, such as a mesh that has no room for the
+/// piece, is found out by that run alone.
+void check_keys(const PointCase& base, const std::vector<std::string>& overrides, const std::string& where) {
+  for (const std::string& text : overrides) {
+    const std::string key = text.substr(0, text.find('='));  // a number of the geometry is a key of its list
+    if (base.value_of(key).empty()) check_override_key(text, where);
   }
 }
 
@@ -173,8 +183,11 @@ CaseSimulator::CaseSimulator(MPI_Comm comm, const Experiment& experiment, const 
       asked.push_back({id, slot.time});
       fingerprint += asked.back().observable + "@" + text_of({{"t", slot.time + 1}});
     }
-    for (const Alternative& alternative : experiment.alternatives)
-      base.set_alternative(alternative.effect, overrides_at(alternative, experiment.points[p].id));
+    for (const Alternative& alternative : experiment.alternatives) {
+      const std::vector<std::string> overrides = overrides_at(alternative, point.id);
+      check_keys(base, overrides, point.where + " [[alternative]] " + alternative.effect);
+      base.set_alternative(alternative.effect, overrides);
+    }
     for (const OwnCandidate& candidate : experiment.own_candidates) base.set_own_candidate(candidate);
     points_.push_back({std::move(base), std::move(slots), std::move(asked), of_case, sha256(fingerprint)});
   }

@@ -91,6 +91,19 @@ class MeshedDiagnosis(harness.CaseTest):
         self.assertEqual({file: file.stat().st_mtime_ns for file in runs}, made, "no run is made twice")
         self.assertEqual(again["probability"], verdict["probability"])
 
+    def test_misspelt_key_of_an_alternative_is_refused(self):
+        """At once, by its file and key; a mesh that is refused is a run that failed, see above."""
+        file = self.prepare()
+        text = file.read_text()
+        for key, near in (("mesh.fil", "file"), ("mesch.file", "mesh"), ("mesh.set.heigth_mm", None)):
+            file.write_text(text.replace("mesh.file=absent.msh", f"{key}=1"))
+            run = harness.snag(["diagnose", file, "--out", self.work / "refused"], 1, self.work / "refused")
+            self.assertEqual(run.code, 2, run.tail())
+            self.assertIn('DIAGNOSIS.toml', run.stderr)
+            self.assertIn(f'[[alternative]] inlet "{key}=1": unknown', run.stderr)
+            if near:
+                self.assertIn(f'did you mean "{near}"?', run.stderr)
+
     def test_geometry_is_a_candidate_and_an_uncertain_input(self):
         """Numbers of a generated mesh: the runs of the candidate have meshes with another height, and what changes them is their length."""
         geometry = ", ".join(f"'{value}'" for value in MESH[1:]).replace("=100", "=100.0")
