@@ -33,6 +33,7 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
     }
   }
   // Effects that are already there are moved by half a standard deviation.
+  const std::size_t n_added = requests.size();
   for (std::size_t e = 0; e < around_.state.effects.size(); ++e) {
     State state = around_.state;
     const Effect& effect = model.effects()[state.effects[e].first];
@@ -40,9 +41,11 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
     theta = theta + 0.5 * effect.sd <= effect.maximum ? theta + 0.5 * effect.sd : std::max(effect.minimum, theta - 0.5 * effect.sd);
     for (const int p : training) requests.push_back({state, p});
   }
-  const auto responses = model.run(requests);
+  auto responses = model.run(requests);
   // An emulated fit has no runs of these seeds: of them the signature is the difference, not of the draws of chance.
   if (model.base_is_random()) around_.responses = model.run(around_.state, training);
+  fitter.mirror_failed(around_.state, around_.responses, std::span(requests).subspan(n_added), std::span(responses).subspan(n_added),
+                       [&](const auto& down) { return model.run(down); });
   whitening_ = fitter.whiten(around_);
   weak_form_.emplace(model, whitening_);
   rho_ = fitter.residual(around_.responses, whitening_);

@@ -10,6 +10,8 @@
 // C = data + numerics (from two time steps) + scatter of the runs/N + form error of each effect; the last three at the fitted state.
 #include <Eigen/Dense>
 #include <array>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -94,6 +96,11 @@ class Fitter {
   int runs_of_fit(int n_effects) const;
   /// Runs that [budget] still allows, those for the gap before and after at the withheld points aside.
   int runs_left() const;
+  using Runs = std::function<std::vector<Response>(const std::vector<Responses::Request>&)>;
+  /// Where a run with an input or a strength moved from `origin` fails, what one with it moved to the other side, as far as its range goes,
+  /// says of it; where that fails too, it changes nothing. `run` as the responses were made.
+  void mirror_failed(const State& origin, const std::vector<Response>& at_origin, std::span<const Responses::Request> requests,
+                     std::span<Response> responses, const Runs& run) const;
   /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
   /// share it takes the lead, and the better of the two fits is kept, as far as the budget goes.
   Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
@@ -103,8 +110,6 @@ class Fitter {
   Eigen::MatrixXd columns(const Linearization& at, const std::vector<std::vector<Response>>& moved, const Whitening& whitening) const;
   State state_of(const Fit& fit, const Eigen::VectorXd& x) const;
   Linearization start_from_base(const State& state);
-  void mirror_failed_inputs(const State& leading, const std::vector<Response>& lead, const std::vector<Responses::Request>& requests,
-                            std::vector<Response>& responses);
   void add_shares(Linearization& at);
   /// States near a linearization: the leading forms are run, what the shares of the others add is taken from it, in proportion to the
   /// strength. Saves a run a form.

@@ -29,13 +29,15 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
     for (const int p : training)
       if (model_.acts_at(static_cast<int>(j), p)) requests.push_back({moved, p});
   }
+  const std::size_t n_moved = requests.size();
   for (std::size_t e = 0; e < hypothesis.effects.size(); ++e) {
     State without = leading;
     without.effects[e].second = 0;
     for (const int p : training) requests.push_back({without, p});
   }
   auto responses = model_.run(requests);
-  mirror_failed_inputs(leading, lead, requests, responses);
+  mirror_failed(leading, lead, std::span(requests).first(n_moved), std::span(responses).first(n_moved),
+                [this](const auto& down) { return model_.run(down); });
   std::size_t next = 0;
   for (std::size_t j = 0; j < model_.nuisances().size(); ++j) {
     at.by_nuisance.emplace_back(training.size());
@@ -51,24 +53,32 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
   return at;
 }
 
-// Where a run with an input moved up fails, what one with it moved down says of it; where that fails too, the input changes nothing.
-void Fitter::mirror_failed_inputs(const State& leading, const std::vector<Response>& lead, const std::vector<Responses::Request>& requests,
-                                  std::vector<Response>& responses) {
+void Fitter::mirror_failed(const State& origin, const std::vector<Response>& at_origin, std::span<const Responses::Request> requests,
+                           std::span<Response> responses, const Runs& run) const {
   const auto& training = model_.training();
   std::vector<Responses::Request> mirrored;
-  std::vector<std::size_t> failed;
+  std::vector<std::pair<std::size_t, double>> failed;  // its response, and its step over that of the request
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (responses[i].failure.empty() || requests[i].state.nuisances == leading.nuisances) continue;
-    failed.push_back(i), mirrored.push_back(requests[i]);
-    mirrored.back().state.nuisances = 2 * leading.nuisances - requests[i].state.nuisances;
+    if (responses[i].failure.empty()) continue;
+    Responses::Request down = requests[i];
+    down.state.nuisances = 2 * origin.nuisances - down.state.nuisances;
+    double reach = 1;
+    for (std::size_t e = 0; e < down.state.effects.size(); ++e) {
+      auto& [k, theta] = down.state.effects[e];
+      const Effect& effect = model_.effects()[k];
+      const double from = origin.effects[e].second, step = theta - from;
+      if (step == 0) continue;
+      theta = std::clamp(from - step, effect.minimum, effect.maximum), reach = (from - theta) / step;
+    }
+    const auto p = std::find(training.begin(), training.end(), down.point) - training.begin();
+    responses[i] = at_origin[static_cast<std::size_t>(p)];
+    if (reach > 0) failed.emplace_back(i, reach), mirrored.push_back(std::move(down));
   }
   if (failed.empty()) return;
-  const auto down = model_.run(mirrored);
+  const auto down = run(mirrored);
   for (std::size_t i = 0; i < failed.size(); ++i) {
-    const auto p = std::find(training.begin(), training.end(), requests[failed[i]].point) - training.begin();
-    Response& response = responses[failed[i]];
-    response = lead[static_cast<std::size_t>(p)];
-    if (down[i].failure.empty()) response.value += response.value - down[i].value;
+    Response& response = responses[failed[i].first];
+    if (down[i].failure.empty()) response.value += (response.value - down[i].value) / failed[i].second;
   }
 }
 
@@ -172,7 +182,8 @@ Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const Linea
     steps.push_back((moved.effects[e].second - state.effects[e].second) / effect.sd);
     for (const int p : training) requests.push_back({moved, p});
   }
-  const auto moved = run_near(at, requests);
+  auto moved = run_near(at, requests);
+  mirror_failed(state, at.responses, requests, moved, [&](const auto& down) { return run_near(at, down); });
   const Eigen::VectorXd rho = residual(at.responses, whitening);
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rho.size(), static_cast<Eigen::Index>(steps.size()));
   auto next = moved.begin();

@@ -10,7 +10,7 @@
 namespace snag {
 namespace {
 
-/// 3 + 20 times the relative deviation of a length, which has no room beyond `most`, nor below `least`.
+/// 3 + 20 times the relative deviation of a length, which has no room beyond `most`, nor below `least`. The effect is that deviation, too.
 class Narrow final : public Simulator {
  public:
   Narrow(double least, double most) : least_(least), most_(most) {}
@@ -21,7 +21,9 @@ class Narrow final : public Simulator {
     std::vector<RunResult> results;
     for (const RunRequest& request : requests) {
       const auto length = request.nuisances.find("length");
-      const double deviation = length == request.nuisances.end() ? 0 : length->second;
+      const auto effect = request.effects.find("longer");
+      const double deviation =
+          (length == request.nuisances.end() ? 0 : length->second) + (effect == request.effects.end() ? 0 : effect->second);
       if (deviation >= least_ && deviation <= most_)
         results.push_back({{3 + 20 * deviation}, ""});
       else
@@ -33,7 +35,7 @@ class Narrow final : public Simulator {
 
  private:
   double least_, most_;
-  std::vector<Effect> effects_;
+  std::vector<Effect> effects_{{.name = "longer", .minimum = -1}};
   std::vector<Nuisance> nuisances_{{"length", 0.05, {0}}};
   std::vector<Slot> slots_{{}};
 };
@@ -51,6 +53,22 @@ TEST(FailedRuns, DerivativesAreThoseOfTheOtherSide) {
     const Linearization base = Fitter(responses).base();
     ASSERT_EQ(base.by_nuisance.size(), 1u);
     EXPECT_NEAR(base.by_nuisance[0][0].value[0], moved, 1e-12) << least << " to " << most;
+  }
+}
+
+/// Requirement: the same of the strength of an effect.
+TEST(FailedRuns, DerivativesByStrengthsAreThoseOfTheOtherSide) {
+  Experiment experiment;
+  experiment.observables = {{.id = "x", .unit = "m", .noise_u = 0.1, .calibration_group = "", .numerics_u = 0}};
+  experiment.points = {{.id = "A", .case_file = {}}};
+  experiment.data = {{.value = 7}};
+  Narrow wide(-1, 1), narrow(-1, 0.21);
+  for (Narrow* simulator : {&wide, &narrow}) {
+    Responses responses(experiment, *simulator);
+    Fitter fitter(responses);
+    const Fit fit = fitter.fit({{0}}, Eigen::VectorXd::Constant(1, 0.2));
+    EXPECT_NEAR(fit.theta[0], 0.2, 0.02);
+    EXPECT_NEAR(fit.linear.J(0, 0) / fit.linear.J(0, 1), 20 / (20 * 0.05), 1e-6);
   }
 }
 
