@@ -55,21 +55,23 @@ std::string ids(std::int64_t first, std::int64_t last) { return std::to_string(f
 
 std::vector<BondCount> RagSystem::check() const {
   const std::size_t n_rags = rags_.size();
-  std::vector<std::int64_t> count(n_counts * n_rags + owner_.size(), 0);
-  std::int64_t bad = none, first_bad = none;
+  std::vector<std::int64_t> count(n_counts * n_rags + owner_.size() + 1, 0);
+  std::int64_t bad = none;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     add_counts(tiles_[i], &count[n_counts * tiles_[i].rag]);
     count[n_counts * n_rags + numbers_[i]] += 1;
     bad = std::min(bad, first_not_finite(tiles_[i], rags_[tiles_[i].rag]));
   }
   for (std::size_t r = 0; r < n_rags; ++r) count[n_counts * r + broken] = broken_[r];
+  count.back() = bad != none;
   MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, comm_);
-  MPI_Allreduce(&bad, &first_bad, 1, MPI_INT64_T, MPI_MIN, comm_);
 
-  if (first_bad != none)
-    throw Error(ExitCode::diverged, "rags: particle " + std::to_string(first_bad) +
+  if (count.back() > 0) {
+    MPI_Allreduce(MPI_IN_PLACE, &bad, 1, MPI_INT64_T, MPI_MIN, comm_);
+    throw Error(ExitCode::diverged, "rags: particle " + std::to_string(bad) +
                                         " has a position or velocity that is not a number at t = " + number_text(time_) +
                                         " s; use a shorter [time] step or a softer force, or [dem] step or safety where contacts throw it");
+  }
   for (std::size_t t = 0; t < owner_.size(); ++t) {
     if (count[n_counts * n_rags + t] == (owner_[t] >= 0 ? 1 : 0)) continue;
     const Tile tile = tile_at_birth(static_cast<int>(t));
@@ -88,16 +90,17 @@ std::vector<BondCount> RagSystem::check() const {
     const Rag& rag = rags_[r];
     const std::int64_t* c = &count[n_counts * r];
     bonds[r] = {c[whole], c[broken]};
-    const std::string where =
-        "rags: " + rag.name + " (particles " + ids(rag.first_particle, rag.first_particle + rag.n_columns * rag.n_rows - 1) + ")";
+    const auto where = [&] {
+      return "rags: " + rag.name + " (particles " + ids(rag.first_particle, rag.first_particle + rag.n_columns * rag.n_rows - 1) + ")";
+    };
     if (c[particles] != rag.n_particles)
       throw Error(ExitCode::invariant,
-                  where + " has " + std::to_string(c[particles]) + " particles, must be " + std::to_string(rag.n_particles));
+                  where() + " has " + std::to_string(c[particles]) + " particles, must be " + std::to_string(rag.n_particles));
     if (c[whole] + c[broken] != rag.n_bonds)
-      throw Error(ExitCode::invariant, where + " has " + std::to_string(c[whole]) + " whole and " + std::to_string(c[broken]) +
+      throw Error(ExitCode::invariant, where() + " has " + std::to_string(c[whole]) + " whole and " + std::to_string(c[broken]) +
                                            " broken bonds, together must be " + std::to_string(rag.n_bonds));
     if (c[seen_by_first] != c[seen_by_second])
-      throw Error(ExitCode::invariant, where + ": " + std::to_string(c[seen_by_first]) +
+      throw Error(ExitCode::invariant, where() + ": " + std::to_string(c[seen_by_first]) +
                                            " whole bonds between tiles seen by their first tile, " + std::to_string(c[seen_by_second]) +
                                            " by their second, must be equal");
   }
