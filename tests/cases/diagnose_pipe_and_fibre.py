@@ -1,5 +1,5 @@
 # timeout: 900
-# cost: 110
+# cost: 80
 """Requirement: swirl and profile of the water in a pipe, and drag of fibres by their axis, are found where they are what the data of other
 programs (tests/other_programs) hold, and are not named where something else is.
 
@@ -113,12 +113,10 @@ class OtherProgram(harness.CaseTest):
             self.assertEqual(verdict["effects"], ["start_place"])
 
     def test_drag_of_fibres(self):
+        """That it is not named where something else is: diagnose_fibres.py."""
         cylinders = with_effects(fibre, fibre_drag=0.8)
         right = self.names(cylinders, "single", range(N_FIBRE), SEED)
-        wrong = self.names(fibre, "single", range(N_FIBRE), SEED + 1) + self.names(cylinders, "null", range(N_FIBRE), SEED + 1)
-        self.assertGreaterEqual(sum(row["right"] for row, _, _ in right), N_FIBRE - 1)
-        for row, _, _ in wrong:
-            self.assertNotIn("fibre_drag", row["said"].split("+"), row)
+        self.assertGreaterEqual(sum(row["right"] for row, _, _ in right), N_FIBRE)
 
 
 SEED, N_PIPE, N_FIBRE = 40, 2, 1

@@ -209,11 +209,16 @@ def measures(rows):
             ("Brier score, sets that can be distinguished", brier(some), len(some), None)]
 
 
+def is_least(target):
+    """Whether a target is a least share; a negative one is a largest share."""
+    return math.copysign(1, target) > 0
+
+
 def judged(target, value):
-    """The target in words, and whether it is met; a negative one is a largest share."""
+    """The target in words, and whether it is met."""
     if target is None:
         return "", ""
-    at_most = math.copysign(1, target) < 0
+    at_most = not is_least(target)
     return f"{'<=' if at_most else '>='} {abs(target):g}", "met" if (value <= -target if at_most else value >= target) else "missed"
 
 
