@@ -110,7 +110,7 @@ class MeshedDiagnosis(harness.CaseTest):
         text = self.channel("once", 0.5).read_text()
         mesh = text[text.index("[mesh]") : text.index("[time]")]
         (self.work / "A.toml").write_text(text.replace(mesh, f'[mesh]\ngeometry = "channel"\nset = [{geometry}]\n'))
-        (self.work / "data.csv").write_text("point,replicate,t_s,observable,value\n" + "".join(f"A,{r},{t},x,{x}\n" for t, x in ((0.01, 0.0851), (0.02, 0.0902)) for r in (1, 2)))
+        (self.work / "data.csv").write_text("point,replicate,t_s,observable,value\n" + "".join(f"A,{r},{t},x,{x}\n" for t, x in ((0.01, 0.0861), (0.02, 0.0922)) for r in (1, 2)))
         file = self.work / "DIAGNOSIS.toml"
         point = '[[point]]\nid = "A"\ncase = "A.toml"\ninput_u = {{ "mesh.set.{input}" = 0.05 }}\n'
         candidate = '[[candidate]]\nname = "height"\nkey = "mesh.set.height_mm"\nunit = "mm"\nmean = -5\nsd = 5\nminimum = -10\nmaximum = 15\n'
