@@ -22,7 +22,7 @@ constexpr Bytes gradient_scalar{8 + 24, 8 + 24 + 48 + 48 + 48};
 // Of pressure: the same, then the Gauss form with x_f, d, S, and x_P, p, slope, V.
 constexpr Bytes gradient_pressure = gradient_scalar + Bytes{8 + 8 + 72, 24 + 8 + 24 + 24 + 48 + 48 + 8};
 
-constexpr Bytes limiter{8 + 8 + 24 + 24, 4 + 24 + 72 + 8 + 8 + 24};  // faces of cells, x_f, d; u, G, psi, V, x_P
+constexpr Bytes limiter{8 + 8 + 24, 4 + 24 + 72 + 8 + 8 + 24};  // faces of cells, x_f; u, G, psi, V, x_P
 
 // Momentum
 constexpr Bytes momentum_guess = Bytes{24, 0} + limiter;                             // fluxes; from the second corrector on
@@ -67,7 +67,7 @@ constexpr Bytes history_flux{8 + 8 + 72 + 16 + 8 + 24, 48 + 72 + 24};
 constexpr Bytes history_rates{8 + 48 + 8 + 8, 16 + 32};
 constexpr Bytes history_cells{0, 16 + 8 + 3 * 72 + 3 * 24};
 constexpr Bytes history_begin{8 + 16 + 8, 16 + 8};
-constexpr Bytes history_end{8 + 8 + 72 + 8 + 8, 24 + 72 + 24};
+constexpr Bytes history_end{8 + 8 + 24 + 8 + 16, 24};  // with what gradients add, of the last fluxes
 constexpr Bytes courant_numbers{8 + 16, 16 + 32 + 8};
 constexpr Bytes rest_once = history_flux + history_rates + history_cells + limiter + history_begin + history_end + courant_numbers;
 
