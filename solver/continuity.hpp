@@ -16,11 +16,12 @@
 //
 //   x^2 - (1 + b - 2 b R + sigma (R - 1)) x + b (1 - R) (1 - sigma)            1 - b and b (1 - R) for sigma = b
 //
-// On prisms round an axis R reaches 4/3: Gauss' gradient along the ring takes the pressures of two thirds of the radius for those in the
-// middle of the faces, at half of it. With sigma = 1 the larger root is R where b is small: such cells ran away in long steps, and swung
-// from step to step in shorter ones. Cell gradients of pressure are of the Gauss form:
-// the sum of V grad p over the cells is the pressure on the boundary. Fluxes and velocities share p', so that u balances momentum with the
-// new pressure exactly.
+// On prisms round an axis in 24 to 72 sectors R is 1.2 to 1.4: Gauss' gradient along the ring takes the pressures of two thirds of the
+// radius for those in the middle of the faces, at half of it, and is up to 4/3 of the compact difference. With sigma = 1 the larger root is
+// R where b is small: such cells ran away in long steps, and swung from step to step in shorter ones.
+//
+// Cell gradients of pressure are of the Gauss form: the sum of V grad p over the cells is the pressure on the boundary. Fluxes and
+// velocities share p', so that u balances momentum with the new pressure exactly.
 //
 // f is the reaction of the rags. It changes from cell to cell across a sheet, and the pressure that holds it has other gradients in the
 // cells than f, which would move water. f~ takes its place in the cells: with the changes of such a pressure from cell to cell, and to the

@@ -11,7 +11,8 @@
 // order. The reason: with L the compact Laplacian of the pressure, D divergence, I interpolation, G gradient, R = L^-1 D I G and
 // Q = L^-1 D s.grad G, a correction of the pressure multiplies its error by R at large steps and by 1 - R - Q at small ones. On prisms
 // round an axis in 28 sectors (|s|/|d| = 1.07) and on tetrahedra of pumps R reached 1.26, in single cells, and those ran away with any
-// order of convection. Without the correction, and with the pressure of solver/operators/gradient.hpp, |R| <= 1 there.
+// order of convection. Without the correction, and with the pressure of solver/operators/gradient.hpp, R is 1.2 to 1.4 on such prisms in
+// 24 to 72 sectors; solver/continuity.hpp says what holds it.
 //
 // Convection may take
 //
