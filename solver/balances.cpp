@@ -8,7 +8,6 @@
 #include "solver/convection/convection.hpp"
 #include "solver/fields/face.hpp"
 #include "solver/fields/rotating_zone.hpp"
-#include "solver/momentum.hpp"
 
 namespace snag {
 
@@ -60,13 +59,14 @@ Balances::Balances(const Mesh& mesh, const Vec3& origin, const Vec3& axis, int t
   MPI_Allreduce(MPI_IN_PLACE, has_cells_.data(), 2, MPI_INT, MPI_MAX, mesh.comm);
 }
 
-void Balances::close(const Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
+void Balances::close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
                      const std::vector<double>& facet_pressure) {
   for (AngularMomentumBalance& zone : zone_) {
     zone = {};
     zone.wall_pressure.assign(mesh_.patches.size(), 0), zone.wall_friction.assign(mesh_.patches.size(), 0);
   }
   energy_ = {}, shaft_torque_ = 0;
+  momentum.recall_limiter(psi_);
   const Step step(momentum, flow, boundary, time, facet_pressure, axis_);
   add_cells(step);
   add_inner_faces(step);
@@ -113,7 +113,7 @@ void Balances::add_inner_faces(const Step& step) {
   std::array<MomentumFlux, block> flux;
   for (int first = 0; first < mesh_.n_interior; first += block) {
     const int n = std::min(block, mesh_.n_interior - first);
-    step.momentum.fluxes(flow, guess_, psi_, predicted_, first, std::span(flux).first(static_cast<std::size_t>(n)));
+    step.momentum.fluxes(flow, guess_, predicted_, first, std::span(flux).first(static_cast<std::size_t>(n)));
     for (int i = 0; i < n; ++i) {
       const int f = first + i, P = mesh_.owner[f], N = mesh_.neighbour[f];
       const Vec3 way = mesh_.face_centre[f] - mesh_.cell_centre[P], r = mesh_.face_centre[f] - origin_;

@@ -51,10 +51,9 @@
 
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
+#include "solver/momentum.hpp"
 
 namespace snag {
-
-class Momentum;
 
 /// Of one zone in one step, about the axis, N m; the same on every rank.
 struct AngularMomentumBalance {
@@ -85,9 +84,9 @@ class Balances {
 
   /// Before the last solution of the momentum equation in a step, and behind it. Local.
   void take_guess(const Flow& flow) { guess_ = flow.velocity; }
-  void take_prediction(const Flow& flow, const std::vector<Vec3>& limiter_factors) { predicted_ = flow.velocity, psi_ = limiter_factors; }
+  void take_prediction(const Flow& flow, const Momentum& momentum) { predicted_ = flow.velocity, momentum.keep_limiter(psi_); }
   /// Behind the last correction of the pressure, before that of turbulence; flow.time is still that of the begin of the step. Collective.
-  void close(const Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
+  void close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
              const std::vector<double>& facet_pressure);
 
   /// Of the cells that turn and of those at rest.
@@ -116,7 +115,7 @@ class Balances {
   EnergyBalance energy_;
   double shaft_torque_ = 0;
   std::vector<Vec3> guess_, predicted_;  // [n_all_cells], velocity before and behind the momentum equation
-  std::vector<Vec3> psi_;                // factors of its limiter, likewise
+  std::vector<LimiterFactors> psi_;      // of its limiter
   std::array<std::vector<int>, 2> has_faces_;
   std::array<int, 2> has_cells_{};
 };

@@ -50,6 +50,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       right_side_(workspace.scalar[2]),
       slope_(workspace.vector[0]),
       gradient_(workspace.vector[1]),
+      mean_gradient_(workspace.mean_gradient()),
       change_(workspace.face),
       given_(mesh.n_faces - mesh.n_interior),
       boundary_correction_(mesh.n_faces - mesh.n_interior) {
@@ -205,8 +206,9 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
     if (!reaction_excess_.empty()) difference += reaction_excess_[f];
     return mobility_ * difference;
   };
+  mean_gradient_.set(mesh_, gradient);
   for (int f = 0; f < mesh_.n_interior; ++f) {
-    const double by_skewness = skewness_flux(mesh_, f, gradient);
+    const double by_skewness = skewness_flux(mesh_, f, mean_gradient_);
     double flux = dot(blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), mesh_.face_vector[f]) + by_skewness;
     if (with_pressure) flux += damping(f) + one_over_a0_ * history.inherited()[f];
     flow.flux[f] = flux;

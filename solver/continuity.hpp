@@ -137,6 +137,7 @@ class Continuity {
   double preconditioner_angle_ = 0;                            // rad
   std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]
   std::vector<Vec3>&slope_, &gradient_;                        // of p': least squares, Gauss; gradient_ also f~
+  MeanGradient mean_gradient_;                                 // of velocity, while fluxes are predicted
   std::vector<double>& change_;                                // of the pressure that holds f, from cell to cell, [n_faces]
   std::vector<double> given_, boundary_correction_;            // p' or its slope at the boundary as given; p' there
   std::vector<double> facet_pressure_, facet_correction_;      // [n_interior - first_facet], p and p'

@@ -181,7 +181,7 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
   if (outer > 0) momentum_.guess_from_last(flow);
   if (is_last && balances_) balances_->take_guess(flow);
   did.momentum = momentum_.predict(flow, boundary_, time);
-  if (is_last && balances_) balances_->take_prediction(flow, momentum_.limiter_factors());
+  if (is_last && balances_) balances_->take_prediction(flow, momentum_);
   if (!(did.momentum.final <= exploded))
     watch_.fail(flow, boundary_, time.dt, "the momentum equation has a residual of " + scientific(did.momentum.final));
   if (!did.momentum.converged)

@@ -66,6 +66,7 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
       diagonal_(workspace.vector[0]),
       right_side_(workspace.vector[1]),
       psi_(workspace.vector[2]),
+      mean_gradient_(workspace.mean_gradient()),
       convection_rate_(workspace.scalar_in(workspace.vector[0], 0)),
       diffusion_rate_(workspace.scalar_in(workspace.vector[0], 1)),
       flux_(workspace.face) {
@@ -81,8 +82,9 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
 void Momentum::guess_flux(const Flow& flow, const FluxHistory& history) {
   const auto& u = flow.velocity_old;
   const int turning = sliding_zone(flow);
+  if (flow.rotating_zone) mean_gradient_.set(mesh_, flow.velocity_gradient);
   const auto of_cells = [&](int f) {
-    return interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), flow.velocity_gradient);
+    return interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), mean_gradient_);
   };
   for (int f = 0; f < mesh_.first_facet; ++f)
     flux_[f] = (mesh_.cell_zone[mesh_.owner[f]] == turning ? of_cells(f) + history.deviation[f] : flow.flux_old[f]) - flow.mesh_flux[f];
@@ -176,20 +178,31 @@ void Momentum::limit(const Flow& flow) {
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
   limit(flow);
   start_rows(flow, time);
-  scheme_->add_interior(inputs(flow, flow.velocity, psi_), {matrix_, diagonal_, right_side_});
+  scheme_->add_interior(inputs(flow, flow.velocity), {matrix_, diagonal_, right_side_});
   add_boundary(flow, boundary);
   const auto report = solve_rows<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
   record_boundary(flow, boundary);
   return report;
 }
 
-FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi) const {
-  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi, .in_corner = in_corner_};
+FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess) const {
+  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi_, .in_corner = in_corner_};
 }
 
-void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi, const std::vector<Vec3>& predicted,
-                      int first, std::span<MomentumFlux> flux) const {
-  scheme_->fluxes(inputs(flow, guess, psi), predicted, first, flux);
+void Momentum::keep_limiter(std::vector<LimiterFactors>& kept) const {
+  kept.resize(psi_.size());
+  std::ranges::transform(psi_, kept.begin(), [](const Vec3& psi) {
+    return LimiterFactors{static_cast<float>(psi.x), static_cast<float>(psi.y), static_cast<float>(psi.z)};
+  });
+}
+
+void Momentum::recall_limiter(const std::vector<LimiterFactors>& kept) {
+  std::ranges::transform(kept, psi_.begin(), [](const LimiterFactors& psi) { return Vec3{psi[0], psi[1], psi[2]}; });
+}
+
+void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
+                      std::span<MomentumFlux> flux) const {
+  scheme_->fluxes(inputs(flow, guess), predicted, first, flux);
 }
 
 void Momentum::take_given_flux(const Flow& flow, const BoundarySet& boundary) {

@@ -5,6 +5,7 @@
 //
 // In a turning frame - rho omega x u is added, with the guess of u.
 // a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,6 +30,8 @@ struct MomentumSettings {
   int max_sweeps = 400;
 };
 
+using LimiterFactors = std::array<float, 3>;  // psi of the components of a cell
+
 class Momentum {
  public:
   /// Throws Error(usage) for an unknown scheme or limiter. Of the workspace it uses the matrix and the vectors in predict(), the faces from
@@ -49,11 +52,14 @@ class Momentum {
   /// fills flow.boundary_friction, boundary_convection. Collective.
   SweepReport predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
 
-  /// Factors of the limiter, [n_all_cells]; until the vectors of the workspace have other values, and of a scheme that has a limiter.
-  const std::vector<Vec3>& limiter_factors() const { return psi_; }
+  /// Behind predict(), before the vectors of the workspace have other values: keep the factors of the limiter, [n_all_cells]. In single
+  /// precision, half the memory: they tell how a flux was made, and go into no equation again. Local.
+  void keep_limiter(std::vector<LimiterFactors>& kept) const;
+  /// Before fluxes(): into the workspace, whose vector 2 nobody else uses now. Local.
+  void recall_limiter(const std::vector<LimiterFactors>& kept);
   /// Momentum through the interior faces first, first + 1 ... as it stood in the equation: `guess` is the velocity before predict(),
-  /// `predicted` that behind it, `psi` the factors of the limiter then; flow.velocity_gradient still is what it was. Local.
-  void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi, const std::vector<Vec3>& predicted, int first,
+  /// `predicted` that behind it; flow.velocity_gradient still is what it was. Local.
+  void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,
               std::span<MomentumFlux> flux) const;
   /// The convecting flux in force, relative to the mesh, [n_faces], m3/s.
   const std::vector<double>& convecting_flux() const { return flux_; }
@@ -69,7 +75,7 @@ class Momentum {
   void set_diffusion_rate(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
   void limit(const Flow& flow);
-  FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& psi) const;
+  FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess) const;
   void start_rows(const Flow& flow, const TimeScheme& time);
   void add_boundary(Flow& flow, const BoundarySet& boundary);
   void record_boundary(Flow& flow, const BoundarySet& boundary) const;
@@ -81,6 +87,7 @@ class Momentum {
   CellMatrix& matrix_;
   std::vector<Vec3>&diagonal_, &right_side_;  // [n_all_cells], the ghosts' parts are not used
   std::vector<Vec3>& psi_;                    // limiter
+  MeanGradient mean_gradient_;                // for a guess of the flux
   std::span<double> convection_rate_, diffusion_rate_;
   std::vector<double>& flux_;            // F, relative to the mesh, [n_faces], m3/s
   std::vector<std::uint8_t> in_corner_;  // [n_all_cells] 1 for cells in a corner

@@ -79,7 +79,7 @@ CellMoments::CellMoments(const Mesh& mesh) : mesh_(mesh), inverse_(static_cast<s
       place = static_cast<int>(boundary_cells_.size());
       boundary_cells_.push_back(c), boundary_moments_.emplace_back();
     }
-    if (mesh_.cell_zone[c] == mesh_.turning.zone || std::any_of(faces.begin(), faces.end(), is_facet)) turning_.push_back({c, place});
+    if (mesh_.cell_zone[c] == mesh_.turning.zone || std::any_of(faces.begin(), faces.end(), is_facet)) turning_.push_back(c);
     set(c, place);
   }
   turning_.shrink_to_fit(), boundary_cells_.shrink_to_fit(), boundary_moments_.shrink_to_fit();
@@ -89,12 +89,13 @@ CellMoments::CellMoments(const Mesh& mesh) : mesh_(mesh), inverse_(static_cast<s
 }
 
 void CellMoments::update() {
-  std::erase_if(open_, [&](const OpenCell& open) {
-    const auto at = std::lower_bound(turning_.begin(), turning_.end(), open.cell,
-                                     [](const TurningCell& turning, int cell) { return turning.cell < cell; });
-    return at != turning_.end() && at->cell == open.cell;
-  });
-  for (const auto& [cell, place] : turning_) set(cell, place);
+  std::erase_if(open_, [&](const OpenCell& open) { return std::ranges::binary_search(turning_, open.cell); });
+  auto boundary = boundary_cells_.begin();
+  for (const int c : turning_) {
+    boundary = std::find_if(boundary, boundary_cells_.end(), [c](int other) { return other >= c; });
+    const bool is_on_boundary = boundary != boundary_cells_.end() && *boundary == c;
+    set(c, is_on_boundary ? static_cast<int>(boundary - boundary_cells_.begin()) : -1);
+  }
 }
 
 void CellMoments::set(int cell, int place) {

@@ -57,13 +57,11 @@ class CellMoments {
   const std::vector<int>& place_of_boundary_face() const { return place_of_boundary_face_; }
 
  private:
-  struct TurningCell {
-    int cell, place;  // place in boundary_cells_, -1 for a cell inside
-  };
+  /// `place` in boundary_cells_, -1 for a cell inside.
   void set(int cell, int place);
 
   const Mesh& mesh_;
-  std::vector<TurningCell> turning_;  // owned cells whose M changes with the angle, ascending
+  std::vector<int> turning_;  // owned cells whose M changes with the angle, ascending
   std::vector<int> boundary_cells_, place_of_boundary_face_;
   std::vector<SymmetricTensor> inverse_, boundary_moments_;
   std::vector<OpenCell> open_;

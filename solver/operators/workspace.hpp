@@ -10,6 +10,7 @@
 #include "mesh/mesh.hpp"
 #include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
+#include "solver/operators/mean_gradient.hpp"
 
 namespace snag {
 
@@ -29,6 +30,9 @@ struct Workspace {
     const std::size_t n = unused.size();
     return flat(unused).subspan(part * n, n);
   }
+
+  /// A mean gradient in the place of the vectors.
+  MeanGradient mean_gradient() { return MeanGradient(vector); }
 
   CellMoments moments;
   // in turn
