@@ -17,9 +17,9 @@
 // Where the velocity is corrected for s, the gradient is the mean of the neighbours of each cell (solver/operators/mean_gradient.hpp), not
 // its own. A pressure correction multiplies what it cannot see in the velocities by 1 - R - Q, step after step. With the cells' own
 // gradients R + Q has roots down to -0.2 on ordinary tetrahedra, |s|/|d| = 0.2 in half of the faces, and in small steps, where convection
-// hardly smooths, velocities differed from cell to cell: a pump's torque rose by 10 %, and convection took half of the shaft's power, which
-// the pressure had put in. Without Q no root is negative, but the flux is of first order. With the neighbours' mean none is below -0.03,
-// and on the mesh of the test (verification.solver.projections) none below zero.
+// hardly smooths, velocities differed from cell to cell: convection in a pump took half of the shaft's power, which the pressure had put
+// in. Without Q no root is negative, but the flux is of first order. With the neighbours' mean none is below -0.03, and on the mesh of the
+// test (verification.solver.projections) none below zero.
 //
 // Convection may take
 //
