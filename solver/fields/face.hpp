@@ -14,7 +14,7 @@
 // order of convection. Without the correction, and with the pressure of solver/operators/gradient.hpp, R is 1.2 to 1.4 on such prisms in
 // 24 to 72 sectors; solver/continuity.hpp says what holds it.
 //
-// Where the velocity is corrected for s, the gradient is the mean of the neighbours of each cell (solver/operators/mean_gradient.hpp), not
+// Where the velocity is corrected for s, the gradient is the mean of the neighbours of each cell (solver/fields/mean_gradient.hpp), not
 // its own. A pressure correction multiplies what it cannot see in the velocities by 1 - R - Q, step after step. With the cells' own
 // gradients R + Q has roots down to -0.2 on ordinary tetrahedra, |s|/|d| = 0.2 in half of the faces, and in small steps, where convection
 // hardly smooths, velocities differed from cell to cell: convection in a pump took half of the shaft's power, which the pressure had put
@@ -31,7 +31,7 @@
 #include <span>
 
 #include "mesh/skewness.hpp"
-#include "solver/operators/mean_gradient.hpp"
+#include "solver/fields/mean_gradient.hpp"
 
 namespace snag {
 

@@ -8,9 +8,9 @@
 #include "base/flat.hpp"
 #include "base/room.hpp"
 #include "mesh/mesh.hpp"
+#include "solver/fields/mean_gradient.hpp"
 #include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
-#include "solver/operators/mean_gradient.hpp"
 
 namespace snag {
 

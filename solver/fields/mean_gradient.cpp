@@ -1,4 +1,4 @@
-#include "solver/operators/mean_gradient.hpp"
+#include "solver/fields/mean_gradient.hpp"
 
 #include "solver/fields/face.hpp"
 
