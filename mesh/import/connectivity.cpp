@@ -173,9 +173,16 @@ void require_names(const MeshParts& parts, const std::vector<LocalFace>& faces) 
 
 }  // namespace
 
-void require_fitting_cells(const MeshParts& parts) {
+std::vector<LocalFace> fitting_faces(const MeshParts& parts) {
   require_distinct_nodes(parts);
-  for_each_group(grouped(sides_of(parts), parts.node.size()), [&](std::span<const Side> group) { require_fitting_sides(parts, group); });
+  const auto sides = grouped(sides_of(parts), parts.node.size());
+  std::vector<LocalFace> faces;
+  faces.reserve(sides.size() / 2);
+  for_each_group(sides, [&](std::span<const Side> group) {
+    require_fitting_sides(parts, group);
+    faces.push_back(face_of(parts, group));
+  });
+  return faces;
 }
 
 std::vector<LocalFace> connect(const MeshParts& parts) {

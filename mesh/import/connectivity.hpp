@@ -16,9 +16,9 @@ struct LocalFace {
   Vec3 shift;                   // to add to the neighbour's centre: not zero across a period
 };
 
-/// Cells of one whole mesh fit together: eight (six, five, four) nodes each, a face that two cells share has its corners in the same cycle
-/// in both, and every named face is one of a cell. Not collective; throws Error(mesh) with the place.
-void require_fitting_cells(const MeshParts& parts);
+/// Faces of one whole mesh whose cells fit together: eight (six, five, four) nodes each, a face that two cells share has its corners in the
+/// same cycle in both, and every named face is one of a cell. Not collective; throws Error(mesh) with the place.
+std::vector<LocalFace> fitting_faces(const MeshParts& parts);
 
 /// All faces with at least one owned cell. Collective; throws Error(mesh) for a face of more than two cells or of the boundary without a
 /// name.

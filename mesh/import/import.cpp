@@ -6,10 +6,13 @@
 #include <petscsf.h>
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/words.hpp"
+#include "mesh/geometry.hpp"
 #include "mesh/import/connectivity.hpp"
 #include "mesh/import/mesh_reader.hpp"
 #include "mesh/import/partition.hpp"
@@ -121,27 +124,36 @@ std::vector<PetscInt> origins(const Plex& plex, const Range& cells_at_origin, co
   return leaf;
 }
 
-/// Vertices of a point, as local node numbers, in DMPlex's order.
-class Closure {
- public:
-  explicit Closure(DM dm) : dm_(dm), vertices_(vertices_of(dm)) {}
-  ~Closure() {
-    if (points_) DMPlexRestoreTransitiveClosure(dm_, 0, PETSC_TRUE, nullptr, &points_);
-  }
-  int nodes(PetscInt point, std::array<PetscInt, 8>& node) {
-    PetscInt n_points = 0;
-    check_petsc(DMPlexGetTransitiveClosure(dm_, point, PETSC_TRUE, &n_points, &points_), "DMPlexGetTransitiveClosure");
-    int n = 0;
-    for (PetscInt i = 0; i < n_points && n < 8; ++i)
-      if (vertices_.holds(points_[2 * i])) node[n++] = points_[2 * i] - vertices_.begin;
-    return n;
-  }
+/// Nodes of a cell, by their numbers in the file, in VTK's order; -1 behind the last.
+using CellNodes = std::array<PetscInt, 8>;
 
- private:
-  DM dm_;
-  Range vertices_;
-  PetscInt* points_ = nullptr;
-};
+std::vector<CellNodes> nodes_of_cells(const MeshParts& whole, const std::vector<PetscInt>& number) {
+  std::vector<CellNodes> nodes(number.size());
+  for (std::size_t c = 0; c < number.size(); ++c) {
+    nodes[c].fill(-1);
+    std::ranges::copy(row(whole.cell_start, whole.cell_node, static_cast<int>(number[c])), nodes[c].begin());
+  }
+  return nodes;
+}
+
+/// Of the local cells, from those at the origin.
+std::vector<CellNodes> spread_nodes(const Plex& plex, const std::vector<CellNodes>& at_origin) {
+  if (!plex.migration) return at_origin;
+  std::vector<PetscInt> cell(at_origin.size());
+  std::iota(cell.begin(), cell.end(), 0);
+  PetscSF of_cells = nullptr;
+  check_petsc(PetscSFCreateEmbeddedRootSF(plex.migration, static_cast<PetscInt>(cell.size()), cell.data(), &of_cells),
+              "PetscSFCreateEmbeddedRootSF");
+  MPI_Datatype nodes = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(std::tuple_size_v<CellNodes>, MPIU_INT, &nodes);
+  MPI_Type_commit(&nodes);
+  std::vector<CellNodes> local(static_cast<std::size_t>(cells_of(plex.dm).end));
+  check_petsc(PetscSFBcastBegin(of_cells, nodes, at_origin.data(), local.data(), MPI_REPLACE), "PetscSFBcastBegin");
+  check_petsc(PetscSFBcastEnd(of_cells, nodes, at_origin.data(), local.data(), MPI_REPLACE), "PetscSFBcastEnd");
+  MPI_Type_free(&nodes);
+  PetscSFDestroy(&of_cells);
+  return local;
+}
 
 void take_nodes(const Plex& plex, const std::vector<PetscInt>& origin, MeshParts& parts) {
   Vec coordinates = nullptr;
@@ -160,22 +172,25 @@ void take_nodes(const Plex& plex, const std::vector<PetscInt>& origin, MeshParts
   VecRestoreArrayRead(coordinates, &x);
 }
 
-/// A cell with its nodes in VTK's order.
-void take_cell(const Plex& plex, PetscInt cell, Closure& closure, MeshParts& parts) {
-  std::array<PetscInt, 8> plex_node{};
-  const int n = closure.nodes(cell, plex_node);
-  check_petsc(DMPlexReorderCell(plex.dm, cell, plex_node.data()), "DMPlexReorderCell");  // gmsh's order, VTK's but for prisms
+/// Local number of a node, by its number in the file; -1 where it is not local.
+std::vector<int> local_nodes(const std::vector<std::int64_t>& node_id) {
+  std::vector<int> local(node_id.empty() ? 0 : static_cast<std::size_t>(std::ranges::max(node_id)) + 1, -1);
+  for (std::size_t i = 0; i < node_id.size(); ++i) local[static_cast<std::size_t>(node_id[i])] = static_cast<int>(i);
+  return local;
+}
+
+void take_cell(const CellNodes& in_file, const std::vector<int>& local, MeshParts& parts) {
+  const auto n = static_cast<int>(std::ranges::find(in_file, -1) - in_file.begin());
   CellShape shape = CellShape::hexahedron;
   for (const CellShape candidate : {CellShape::tetrahedron, CellShape::pyramid, CellShape::prism})
     if (n == n_nodes_of(candidate)) shape = candidate;
-  if (shape == CellShape::prism) std::swap(plex_node[1], plex_node[2]), std::swap(plex_node[4], plex_node[5]);
   std::array<int, 8> node{};
-  std::copy_n(plex_node.begin(), n, node.begin());
+  for (int i = 0; i < n; ++i) node[i] = local[in_file[i]];
   add_cell(parts, shape, node.data(), n);
 }
 
 /// Cells, owned first: what the point SF does not name as a copy is owned.
-void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, MeshParts& parts) {
+void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, const std::vector<CellNodes>& nodes, MeshParts& parts) {
   const Range cells = cells_of(plex.dm);
   PetscSF shared = nullptr;
   PetscInt n_roots = 0, n_leaves = 0, chart_end = 0;
@@ -190,12 +205,12 @@ void take_cells(const Plex& plex, const std::vector<PetscInt>& origin, MeshParts
   std::vector<PetscInt> position(static_cast<std::size_t>(chart_end), -1);
   DMLabel zones = nullptr;
   check_petsc(DMGetLabel(plex.dm, zone_label, &zones), "DMGetLabel");
-  Closure closure(plex.dm);
+  const std::vector<int> local = local_nodes(parts.node_id);
   for (const bool ghosts : {false, true}) {
     for (PetscInt c = cells.begin; c < cells.end; ++c) {
       if ((rank[c] >= 0) != ghosts) continue;
       if (!ghosts) position[c] = static_cast<PetscInt>(parts.cell_id.size());
-      take_cell(plex, c, closure, parts);
+      take_cell(nodes[c], local, parts);
       parts.cell_id.push_back(origin[c]);
       PetscInt zone = -1;
       if (zones) DMLabelGetValue(zones, c, &zone);
@@ -215,9 +230,7 @@ void take_boundary(const Plex& plex, MeshParts& parts) {
   DMLabel label = nullptr;
   check_petsc(DMGetLabel(plex.dm, patch_label, &label), "DMGetLabel");
   if (!label) return;
-  Closure closure(plex.dm);
-  std::array<PetscInt, 8> plex_node{};
-  std::array<int, 8> node{};
+  const Range vertices = vertices_of(plex.dm);
   for (int patch = 0; patch < static_cast<int>(parts.patches.size()); ++patch) {
     IS stratum = nullptr;
     PetscInt n_faces = 0;
@@ -226,9 +239,12 @@ void take_boundary(const Plex& plex, MeshParts& parts) {
     if (!stratum) continue;
     ISGetLocalSize(stratum, &n_faces), ISGetIndices(stratum, &faces);
     for (PetscInt i = 0; i < n_faces; ++i) {
-      const int n = closure.nodes(faces[i], plex_node);
-      if (n < 3) continue;
-      std::copy_n(plex_node.begin(), n, node.begin());
+      PetscInt n = 0;
+      const PetscInt* vertex = nullptr;
+      check_petsc(DMPlexGetConeSize(plex.dm, faces[i], &n), "DMPlexGetConeSize");
+      check_petsc(DMPlexGetCone(plex.dm, faces[i], &vertex), "DMPlexGetCone");
+      std::array<int, 4> node{};
+      for (PetscInt k = 0; k < n; ++k) node[k] = vertex[k] - vertices.begin;
       add_boundary_face(parts, patch, node.data(), n);
     }
     ISRestoreIndices(stratum, &faces), ISDestroy(&stratum);
@@ -254,13 +270,13 @@ void require_partition(const std::vector<int>& partition, std::int64_t n_cells, 
                                     std::to_string(size) + " ranks are needed; import without it");
 }
 
-/// The whole mesh on rank 0, empty elsewhere but for the names.
-MeshParts read(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options) {
+/// The whole mesh and its `faces` on rank 0, empty elsewhere but for the names.
+MeshParts read(const std::filesystem::path& file, MPI_Comm comm, const ImportOptions& options, std::vector<LocalFace>& faces) {
   MeshParts whole;
   on_all_ranks(comm, [&] {
     if (rank_of(comm) != 0) return;
     whole = mesh_reader_of(file)->read(file, options.scale);
-    require_fitting_cells(whole);
+    faces = fitting_faces(whole);
     if (options.partition) require_partition(*options.partition, whole.n_owned, size_of(comm), file.string());
   });
   whole.zones = shared_words(comm, whole.zones), whole.patches = shared_words(comm, whole.patches);
@@ -277,17 +293,20 @@ Mesh import_mesh(const std::filesystem::path& file, MPI_Comm comm, const ImportO
   {
     Plex plex;
     std::vector<PetscInt> number;
+    std::vector<CellNodes> nodes;
     {
-      const MeshParts whole = read(file, comm, options);
+      std::vector<LocalFace> faces;
+      const MeshParts whole = read(file, comm, options, faces);
       parts.zones = whole.zones, parts.patches = whole.patches;
       number = plex_order(whole);
-      plex.dm = plex_of(whole, number, comm);
+      plex.dm = plex_of(whole, faces, number, comm);
+      nodes = nodes_of_cells(whole, number);
     }
     const Range cells = cells_of(plex.dm), vertices = vertices_of(plex.dm);
     distribute(comm, plex, options, number);
     const std::vector<PetscInt> origin = origins(plex, cells, vertices, number);
     take_nodes(plex, origin, parts);
-    take_cells(plex, origin, parts);
+    take_cells(plex, origin, spread_nodes(plex, nodes), parts);
     take_boundary(plex, parts);
   }
   require_zones(parts);

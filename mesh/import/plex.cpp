@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "base/error.hpp"
 #include "mesh/shapes.hpp"
 #include "parallel/session.hpp"
 
@@ -25,78 +24,48 @@ DMPolytopeType polytope(CellShape shape) {
   }
 }
 
-/// Cells and their vertices, which are numbered behind the cells.
-void add_cells(DM dm, const MeshParts& whole, const std::vector<PetscInt>& order) {
+/// Cells, vertices, faces, numbered in this order; a cell has its faces for a cone, a face its vertices, and there are no edges.
+void add_points(DM dm, const MeshParts& whole, const std::vector<LocalFace>& faces, const std::vector<PetscInt>& order) {
   const auto n_cells = static_cast<PetscInt>(order.size()), n_nodes = static_cast<PetscInt>(whole.node.size());
-  check_petsc(DMPlexSetChart(dm, 0, n_cells + n_nodes), "DMPlexSetChart");
+  const auto n_faces = static_cast<PetscInt>(faces.size()), first_face = n_cells + n_nodes;
+  check_petsc(DMPlexSetChart(dm, 0, first_face + n_faces), "DMPlexSetChart");
   check_petsc(DMCreateLabel(dm, "celltype"), "DMCreateLabel");  // otherwise DMPlex guesses the types, from cones that are not there yet
   for (PetscInt c = 0; c < n_cells; ++c) {
     const CellShape shape = whole.shape[order[c]];
-    check_petsc(DMPlexSetConeSize(dm, c, n_nodes_of(shape)), "DMPlexSetConeSize");
+    check_petsc(DMPlexSetConeSize(dm, c, static_cast<PetscInt>(faces_of(shape).size())), "DMPlexSetConeSize");
     check_petsc(DMPlexSetCellType(dm, c, polytope(shape)), "DMPlexSetCellType");
   }
-  for (PetscInt v = n_cells; v < n_cells + n_nodes; ++v) check_petsc(DMPlexSetCellType(dm, v, DM_POLYTOPE_POINT), "DMPlexSetCellType");
-  check_petsc(DMSetUp(dm), "DMSetUp");
-  for (PetscInt c = 0; c < n_cells; ++c) {
-    std::array<PetscInt, 8> cone{};
-    const int start = whole.cell_start[order[c]], n = n_nodes_of(whole.shape[order[c]]);
-    for (int i = 0; i < n; ++i) cone[i] = n_cells + whole.cell_node[start + i];
-    if (n == n_nodes_of(CellShape::prism)) std::swap(cone[1], cone[2]), std::swap(cone[4], cone[5]);  // VTK's order to gmsh's
-    check_petsc(DMPlexReorderCell(dm, c, cone.data()), "DMPlexReorderCell");                          // gmsh's to DMPlex's
-    check_petsc(DMPlexSetCone(dm, c, cone.data()), "DMPlexSetCone");
+  for (PetscInt v = n_cells; v < first_face; ++v) check_petsc(DMPlexSetCellType(dm, v, DM_POLYTOPE_POINT), "DMPlexSetCellType");
+  for (PetscInt f = 0; f < n_faces; ++f) {
+    check_petsc(DMPlexSetConeSize(dm, first_face + f, faces[f].n_nodes), "DMPlexSetConeSize");
+    const DMPolytopeType shape = faces[f].n_nodes == 3 ? DM_POLYTOPE_TRIANGLE : DM_POLYTOPE_QUADRILATERAL;
+    check_petsc(DMPlexSetCellType(dm, first_face + f, shape), "DMPlexSetCellType");
   }
-}
+  check_petsc(DMSetUp(dm), "DMSetUp");
 
-void add_faces_and_edges(DM& dm) {
-  DM interpolated = nullptr;
+  std::vector<PetscInt> number(order.size());  // in the DMPlex, of a cell of `whole`
+  for (PetscInt c = 0; c < n_cells; ++c) number[order[c]] = c;
+  std::vector<int> n_found(order.size(), 0);
+  for (PetscInt f = 0; f < n_faces; ++f) {
+    const LocalFace& face = faces[f];
+    for (const int cell : {face.owner, face.neighbour})
+      if (cell >= 0) check_petsc(DMPlexInsertCone(dm, number[cell], n_found[cell]++, first_face + f), "DMPlexInsertCone");
+    for (int i = 0; i < face.n_nodes; ++i) check_petsc(DMPlexInsertCone(dm, first_face + f, i, n_cells + face.node[i]), "DMPlexInsertCone");
+  }
   check_petsc(DMPlexSymmetrize(dm), "DMPlexSymmetrize");
   check_petsc(DMPlexStratify(dm), "DMPlexStratify");
-  check_petsc(DMPlexInterpolate(dm, &interpolated), "DMPlexInterpolate");
-  DMDestroy(&dm);
-  dm = interpolated;
 }
 
-/// The point one dimension up that all of these bound, with a cone of this size: the edge of two vertices, the face of its edges. -1: none.
-PetscInt common_support(DM dm, const std::vector<PetscInt>& points, PetscInt cone_size) {
-  PetscInt n_joins = 0, common = -1;
-  const PetscInt* joins = nullptr;
-  const auto n = static_cast<PetscInt>(points.size());
-  check_petsc(DMPlexGetJoin(dm, n, points.data(), &n_joins, &joins), "DMPlexGetJoin");
-  for (PetscInt i = 0; i < n_joins; ++i) {
-    PetscInt size = 0;
-    check_petsc(DMPlexGetConeSize(dm, joins[i], &size), "DMPlexGetConeSize");
-    if (size == cone_size) common = joins[i];
-  }
-  check_petsc(DMPlexRestoreJoin(dm, n, points.data(), &n_joins, &joins), "DMPlexRestoreJoin");
-  return common;
-}
-
-/// The face of these vertices, which go around it. By its edges: DMPlexGetFullJoin visits all cells at each vertex, which took a fifth of
-/// an import.
-PetscInt face_of(DM dm, const std::vector<PetscInt>& vertices) {
-  const std::size_t n = vertices.size();
-  std::vector<PetscInt> edges;
-  for (std::size_t i = 0; i < n; ++i) edges.push_back(common_support(dm, {vertices[i], vertices[(i + 1) % n]}, 2));
-  const bool has_edges = std::ranges::none_of(edges, [](PetscInt edge) { return edge < 0; });
-  const PetscInt face = has_edges ? common_support(dm, edges, static_cast<PetscInt>(n)) : -1;
-  if (face < 0)
-    throw Error(ExitCode::mesh,
-                "a face of a named surface belongs to no cell; mesh volume and surface together");  // require_fitting_cells has the place
-  return face;
-}
-
-void add_names(DM dm, const MeshParts& whole, const std::vector<PetscInt>& order) {
+void add_names(DM dm, const MeshParts& whole, const std::vector<LocalFace>& faces, const std::vector<PetscInt>& order) {
   for (const char* label : {zone_label, patch_label}) check_petsc(DMCreateLabel(dm, label), "DMCreateLabel");
-  const auto n_cells = static_cast<PetscInt>(order.size());
+  const auto n_cells = static_cast<PetscInt>(order.size()), first_face = n_cells + static_cast<PetscInt>(whole.node.size());
   for (PetscInt c = 0; c < n_cells; ++c)
     if (whole.zone[order[c]] >= 0) check_petsc(DMSetLabelValue(dm, zone_label, c, whole.zone[order[c]]), "DMSetLabelValue");
   DMLabel patches = nullptr;
   check_petsc(DMGetLabel(dm, patch_label, &patches), "DMGetLabel");
-  for (std::size_t b = 0; b < whole.boundary_patch.size(); ++b) {
-    std::vector<PetscInt> vertices;
-    for (int i = whole.boundary_start[b]; i < whole.boundary_start[b + 1]; ++i) vertices.push_back(n_cells + whole.boundary_node[i]);
-    check_petsc(DMLabelSetValue(patches, face_of(dm, vertices), whole.boundary_patch[b]), "DMLabelSetValue");
-  }
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f].patch >= 0)
+      check_petsc(DMLabelSetValue(patches, first_face + static_cast<PetscInt>(f), faces[f].patch), "DMLabelSetValue");
 }
 
 void add_positions(DM dm, const MeshParts& whole, PetscInt n_cells) {
@@ -132,15 +101,14 @@ std::vector<PetscInt> plex_order(const MeshParts& whole) {
   return order;
 }
 
-DM plex_of(const MeshParts& whole, const std::vector<PetscInt>& order, MPI_Comm comm) {
+DM plex_of(const MeshParts& whole, const std::vector<LocalFace>& faces, const std::vector<PetscInt>& order, MPI_Comm comm) {
   DM dm = nullptr;
   check_petsc(DMCreate(comm, &dm), "DMCreate");
   check_petsc(DMSetType(dm, DMPLEX), "DMSetType");
   check_petsc(DMSetDimension(dm, 3), "DMSetDimension");
-  add_cells(dm, whole, order);
-  add_faces_and_edges(dm);
+  add_points(dm, whole, faces, order);
   add_positions(dm, whole, static_cast<PetscInt>(order.size()));
-  on_all_ranks(comm, [&] { add_names(dm, whole, order); });
+  add_names(dm, whole, faces, order);
   return dm;
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "mesh/import/connectivity.hpp"
 #include "mesh/import/parts.hpp"
 
 namespace snag {
@@ -14,8 +15,8 @@ inline constexpr const char *zone_label = "zone", *patch_label = "patch";
 /// Numbers of rank 0's cells in the order that DMPlex wants: tetrahedra, hexahedra, prisms, pyramids, each in their own order.
 std::vector<PetscInt> plex_order(const MeshParts& whole);
 
-/// The DMPlex with cells, faces, edges and vertices; cell i of it is cell order[i]. Collective; only rank 0's parts are read, and their
-/// cells must fit together (require_fitting_cells). The caller destroys it.
-DM plex_of(const MeshParts& whole, const std::vector<PetscInt>& order, MPI_Comm comm);
+/// The DMPlex with cells, faces and vertices, without edges, which took most of an import; cell i of it is cell order[i]. Collective; only
+/// rank 0's parts and `faces` (fitting_faces) are read. The caller destroys it.
+DM plex_of(const MeshParts& whole, const std::vector<LocalFace>& faces, const std::vector<PetscInt>& order, MPI_Comm comm);
 
 }  // namespace snag
