@@ -16,6 +16,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "base/words.hpp"
 #include "mesh/bounding_box.hpp"
@@ -36,12 +37,14 @@ constexpr double least_quality = 0.01;
 /// The worst value over all ranks and where it is. Larger is worse.
 struct Worst {
   double value = -std::numeric_limits<double>::max();
-  std::int64_t id = std::numeric_limits<std::int64_t>::max();  // of the cell: decides between equal values
+  std::int64_t id = std::numeric_limits<std::int64_t>::max();  // of the cell
   Vec3 place;
 
   void see(double candidate, std::int64_t candidate_id, const Vec3& where) {
     if (std::isnan(candidate)) candidate = std::numeric_limits<double>::infinity();  // of a cell without volume: nothing is worse
-    if (candidate > value || (candidate == value && candidate_id < id)) *this = {candidate, candidate_id, where};
+    const auto order = [](std::int64_t cell, const Vec3& x) { return std::tuple(cell, x.x, x.y, x.z); };  // the same on any ranks
+    if (candidate > value || (candidate == value && order(candidate_id, where) < order(id, place)))
+      *this = {candidate, candidate_id, where};
   }
 };
 
