@@ -1,5 +1,5 @@
 #pragma once
-// Mean of the velocity gradient over the neighbours of a cell, with which velocities at faces are corrected for skewness:
+// Mean of the velocity gradient over the neighbours of a cell. Velocities at faces are corrected for skewness with it:
 //
 //   G-_P = sum_f share G_N / sum_f share        share: of a facet in its face, 1 of other faces
 //
