@@ -15,6 +15,15 @@ namespace {
 
 constexpr int block = 512;  // faces whose fluxes are held at a time
 
+void keep(const std::vector<Vec3>& u, const std::vector<Vec3>& less, std::vector<SingleVec3>& kept) {
+  kept.resize(u.size());
+  std::ranges::transform(u, less, kept.begin(), [](const Vec3& a, const Vec3& b) { return single(a - b); });
+}
+
+void recall(const std::vector<SingleVec3>& kept, const std::vector<Vec3>& plus, std::vector<Vec3>& u) {
+  std::ranges::transform(kept, plus, u.begin(), [](const SingleVec3& a, const Vec3& b) { return wide(a) + b; });
+}
+
 }  // namespace
 
 double AngularMomentumBalance::walls() const {
@@ -49,14 +58,28 @@ struct Balances::Step {
   Vec3 omitted_stress(int f, const Mat3& G) const { return flow.face_viscosity[f] * transposed_product(G, flow.mesh.face_vector[f]); }
 };
 
-Balances::Balances(const Mesh& mesh, const Vec3& origin, const Vec3& axis, int turning)
-    : mesh_(mesh), origin_(origin), axis_(unit(axis)), turning_zone_(turning) {
+Balances::Balances(const Mesh& mesh, const Vec3& origin, const Vec3& axis, int turning, Workspace& workspace)
+    : mesh_(mesh),
+      origin_(origin),
+      axis_(unit(axis)),
+      turning_zone_(turning),
+      guess_(workspace.vector[0]),
+      predicted_(workspace.vector[1]) {
   for (auto& faces : has_faces_) faces.assign(mesh.patches.size(), 0);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) has_faces_[zone_of(mesh.owner[f])][p] = 1;
   for (int c = 0; c < mesh.n_cells; ++c) has_cells_[zone_of(c)] = 1;
   for (auto& faces : has_faces_) MPI_Allreduce(MPI_IN_PLACE, faces.data(), static_cast<int>(faces.size()), MPI_INT, MPI_MAX, mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, has_cells_.data(), 2, MPI_INT, MPI_MAX, mesh.comm);
+}
+
+void Balances::take_guess(const Flow& flow) { keep(flow.velocity, flow.velocity_old, kept_guess_); }
+
+void Balances::take_prediction(const Flow& flow, Momentum& momentum) {
+  keep(flow.velocity, flow.velocity_old, kept_prediction_);
+  const std::vector<Vec3>& psi = momentum.limiter_factors();
+  kept_factors_.resize(psi.size());
+  std::ranges::transform(psi, kept_factors_.begin(), [](const Vec3& of_cell) { return single(of_cell); });
 }
 
 void Balances::close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
@@ -66,7 +89,9 @@ void Balances::close(Momentum& momentum, const Flow& flow, const BoundarySet& bo
     zone.wall_pressure.assign(mesh_.patches.size(), 0), zone.wall_friction.assign(mesh_.patches.size(), 0);
   }
   energy_ = {}, shaft_torque_ = 0;
-  momentum.recall_limiter(psi_);
+  recall(kept_guess_, flow.velocity_old, guess_);
+  recall(kept_prediction_, flow.velocity_old, predicted_);
+  std::ranges::transform(kept_factors_, momentum.limiter_factors().begin(), [](const SingleVec3& of_cell) { return wide(of_cell); });
   const Step step(momentum, flow, boundary, time, facet_pressure, axis_);
   add_cells(step);
   add_inner_faces(step);
@@ -106,7 +131,7 @@ void Balances::add_cells(const Step& step) {
   }
 }
 
-/// `lost` of both cells of a face with flux M, N: - s (r_f - r_c) x M.
+/// `lost` of both cells of a face with flux M, N: - s (r_f - r_c) x M, in sum - d x M.
 void Balances::add_inner_faces(const Step& step) {
   const Flow& flow = step.flow;
   const std::vector<Mat3>& G = flow.velocity_gradient;
@@ -116,13 +141,21 @@ void Balances::add_inner_faces(const Step& step) {
     step.momentum.fluxes(flow, guess_, predicted_, first, std::span(flux).first(static_cast<std::size_t>(n)));
     for (int i = 0; i < n; ++i) {
       const int f = first + i, P = mesh_.owner[f], N = mesh_.neighbour[f];
-      const Vec3 way = mesh_.face_centre[f] - mesh_.cell_centre[P], r = mesh_.face_centre[f] - origin_;
       const auto& [carried, rubbed] = flux[i];
-      const bool is_facet = f >= mesh_.first_facet && zone_of(P) != zone_of(N);
+      const Vec3& d = mesh_.delta[f];
       Vec3 omitted;
       if (!flow.variable_viscosity) omitted = -step.omitted_stress(f, blend(mesh_.weight[f], G[P], G[N]));
-      const double viscous = step.viscous_share(f);
-      for (const auto& [c, s, from_centre] : {std::tuple(P, 1.0, way), std::tuple(N, -1.0, way - mesh_.delta[f])}) {
+      const bool is_facet = f >= mesh_.first_facet && zone_of(P) != zone_of(N);
+      const bool has_P = P < mesh_.n_cells, has_N = N < mesh_.n_cells;
+      if (has_P && has_N && !is_facet) {
+        AngularMomentumBalance& zone = zone_[zone_of(P)];
+        zone.lost_convection -= torque(d, carried);
+        zone.lost_friction -= torque(d, rubbed);
+        add_energy(step, f, flow.velocity[P] - flow.velocity[N], flux[i], omitted);
+        continue;
+      }
+      const Vec3 way = mesh_.face_centre[f] - mesh_.cell_centre[P], r = mesh_.face_centre[f] - origin_;
+      for (const auto& [c, s, from_centre] : {std::tuple(P, 1.0, way), std::tuple(N, -1.0, way - d)}) {
         if (c >= mesh_.n_cells) continue;
         AngularMomentumBalance& zone = zone_[zone_of(c)];
         zone.lost_convection -= s * torque(from_centre, carried);
@@ -133,14 +166,18 @@ void Balances::add_inner_faces(const Step& step) {
           zone.lost_friction -= s * torque(r, omitted);
           zone.lost_pressure -= s * torque(r, push);
         }
-        const Vec3& u = flow.velocity[c];
-        energy_.numerical_convection += s * dot(u, carried);
-        const double dissipated = s * dot(u, rubbed + omitted);
-        energy_.dissipation_viscous += viscous * dissipated, energy_.dissipation_turbulent += (1 - viscous) * dissipated;
-        energy_.numerical_friction -= s * dot(u, omitted);
+        add_energy(step, f, s * flow.velocity[c], flux[i], omitted);
       }
     }
   }
+}
+
+/// Of inner face f, where `difference` is u_P - u_N, or what this rank has of it.
+void Balances::add_energy(const Step& step, int f, const Vec3& difference, const MomentumFlux& flux, const Vec3& omitted) {
+  energy_.numerical_convection += dot(difference, flux.convection);
+  const double viscous = step.viscous_share(f), dissipated = dot(difference, flux.friction + omitted);
+  energy_.dissipation_viscous += viscous * dissipated, energy_.dissipation_turbulent += (1 - viscous) * dissipated;
+  energy_.numerical_friction -= dot(difference, omitted);
 }
 
 void Balances::add_boundary(const Step& step) {

@@ -52,6 +52,7 @@
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
 #include "solver/momentum.hpp"
+#include "solver/operators/workspace.hpp"
 
 namespace snag {
 
@@ -79,12 +80,12 @@ struct EnergyBalance {
 
 class Balances {
  public:
-  /// `turning`: index of the zone that turns, -1 if none does. Collective.
-  Balances(const Mesh& mesh, const Vec3& origin, const Vec3& axis, int turning);
+  /// `turning`: index of the zone that turns, -1 if none does. Of the workspace close() uses the vectors. Collective.
+  Balances(const Mesh& mesh, const Vec3& origin, const Vec3& axis, int turning, Workspace& workspace);
 
   /// Before the last solution of the momentum equation in a step, and behind it. Local.
-  void take_guess(const Flow& flow) { guess_ = flow.velocity; }
-  void take_prediction(const Flow& flow, const Momentum& momentum) { predicted_ = flow.velocity, momentum.keep_limiter(psi_); }
+  void take_guess(const Flow& flow);
+  void take_prediction(const Flow& flow, Momentum& momentum);
   /// Behind the last correction of the pressure, before that of turbulence; flow.time is still that of the begin of the step. Collective.
   void close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
              const std::vector<double>& facet_pressure);
@@ -103,6 +104,7 @@ class Balances {
   struct Step;  // what the sums read
   void add_cells(const Step& step);
   void add_inner_faces(const Step& step);
+  void add_energy(const Step& step, int f, const Vec3& difference, const MomentumFlux& flux, const Vec3& omitted);
   void add_boundary(const Step& step);
   void sum_over_ranks();
   int zone_of(int cell) const { return mesh_.cell_zone[cell] == turning_zone_ ? 0 : 1; }
@@ -114,8 +116,9 @@ class Balances {
   std::array<AngularMomentumBalance, 2> zone_;
   EnergyBalance energy_;
   double shaft_torque_ = 0;
-  std::vector<Vec3> guess_, predicted_;  // [n_all_cells], velocity before and behind the momentum equation
-  std::vector<LimiterFactors> psi_;      // of its limiter
+  std::vector<Vec3>&guess_, &predicted_;  // [n_all_cells], velocity before and behind the momentum equation, while close() works
+  // How the fluxes were made, from the momentum equation to close(); in single precision. Velocities less that of the step before.
+  std::vector<SingleVec3> kept_guess_, kept_prediction_, kept_factors_;
   std::array<std::vector<int>, 2> has_faces_;
   std::array<int, 2> has_cells_{};
 };

@@ -84,7 +84,7 @@ StepReport FlowSolver::advance(double dt) {
 }
 
 void FlowSolver::keep_balances(const Vec3& origin, const Vec3& axis) {
-  balances_.emplace(flow.mesh, origin, axis, rotating_zone_ ? rotating_zone_->zone() : -1);
+  balances_.emplace(flow.mesh, origin, axis, rotating_zone_ ? rotating_zone_->zone() : -1, workspace_);
 }
 
 void FlowSolver::advance_frozen(double dt) {

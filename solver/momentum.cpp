@@ -82,7 +82,7 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
 void Momentum::guess_flux(const Flow& flow, const FluxHistory& history) {
   const auto& u = flow.velocity_old;
   const int turning = sliding_zone(flow);
-  if (flow.rotating_zone) mean_gradient_.set(mesh_, flow.velocity_gradient);
+  if (flow.rotating_zone) mean_gradient_.set_where_faces_turn(mesh_, flow.velocity_gradient, turning);
   const auto of_cells = [&](int f) {
     return interpolated_flux(mesh_, f, blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), mean_gradient_);
   };
@@ -122,12 +122,12 @@ double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, cons
   for (int c = 0; c < mesh_.n_all_cells(); ++c) {
     const double dt_over_V = time.dt / mesh_.cell_volume[c];
     const double e = r * extrapolation_share(dt_over_V * convection_rate_[c], dt_over_V * diffusion_rate_[c]);
-    const Mat3& G = flow.velocity_gradient[c];
-    Mat3& guess = flow.velocity_gradient_old[c];
-    for (int i = 0; i < 3; ++i) guess[i] = (1 + e) * G[i] - e * guess[i];
+    Mat3& G = flow.velocity_gradient[c];
+    const Mat3 old = wide(flow.velocity_gradient_old[c]);
+    flow.velocity_gradient_old[c] = single(G);
+    for (int i = 0; i < 3; ++i) G[i] = (1 + e) * G[i] - e * old[i];
     flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
-  std::swap(flow.velocity_gradient, flow.velocity_gradient_old);
   return share;
 }
 
@@ -187,17 +187,6 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
 
 FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess) const {
   return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi_, .in_corner = in_corner_};
-}
-
-void Momentum::keep_limiter(std::vector<LimiterFactors>& kept) const {
-  kept.resize(psi_.size());
-  std::ranges::transform(psi_, kept.begin(), [](const Vec3& psi) {
-    return LimiterFactors{static_cast<float>(psi.x), static_cast<float>(psi.y), static_cast<float>(psi.z)};
-  });
-}
-
-void Momentum::recall_limiter(const std::vector<LimiterFactors>& kept) {
-  std::ranges::transform(kept, psi_.begin(), [](const LimiterFactors& psi) { return Vec3{psi[0], psi[1], psi[2]}; });
 }
 
 void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,

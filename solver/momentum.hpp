@@ -30,8 +30,6 @@ struct MomentumSettings {
   int max_sweeps = 400;
 };
 
-using LimiterFactors = std::array<float, 3>;  // psi of the components of a cell
-
 class Momentum {
  public:
   /// Throws Error(usage) for an unknown scheme or limiter. Of the workspace it uses the matrix and the vectors in predict(), the faces from
@@ -52,11 +50,9 @@ class Momentum {
   /// fills flow.boundary_friction, boundary_convection. Collective.
   SweepReport predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
 
-  /// Behind predict(), before the vectors of the workspace have other values: keep the factors of the limiter, [n_all_cells]. In single
-  /// precision, half the memory: they tell how a flux was made, and go into no equation again. Local.
-  void keep_limiter(std::vector<LimiterFactors>& kept) const;
-  /// Before fluxes(): into the workspace, whose vector 2 nobody else uses now. Local.
-  void recall_limiter(const std::vector<LimiterFactors>& kept);
+  /// Factors of the limiter, of the components of each cell, [n_all_cells]: from predict() until the vectors of the workspace have other
+  /// values, and to be put back before fluxes().
+  std::vector<Vec3>& limiter_factors() { return psi_; }
   /// Momentum through the interior faces first, first + 1 ... as it stood in the equation: `guess` is the velocity before predict(),
   /// `predicted` that behind it; flow.velocity_gradient still is what it was. Local.
   void fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,

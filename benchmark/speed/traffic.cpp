@@ -62,14 +62,20 @@ constexpr Bytes turbulence_once =
     turbulence_guess + turbulence_viscosity +
     2 * (turbulence_diffusivity + turbulence_sources + gradient_scalar + turbulence_rows + turbulence_faces + turbulence_scaling);
 
-// The rest of a step: guesses from the history with their rates and limiter, history of the fluxes before and after, Courant numbers.
+// The rest of a step: guesses from the history with their rates and limiter, history of the fluxes before and after, Courant numbers,
+// balances.
 constexpr Bytes history_flux{8 + 8 + 72 + 16 + 8 + 24, 48 + 72 + 24};
 constexpr Bytes history_rates{8 + 48 + 8 + 8, 16 + 32};
-constexpr Bytes history_cells{0, 16 + 8 + 3 * 72 + 3 * 24};
+constexpr Bytes history_cells{0, 16 + 8 + 2 * 72 + 2 * 36 + 3 * 24};
 constexpr Bytes history_begin{8 + 16 + 8, 16 + 8};
 constexpr Bytes history_end{8 + 8 + 24 + 8 + 16, 24};  // with what gradients add, of the last fluxes
 constexpr Bytes courant_numbers{8 + 16, 16 + 32 + 8};
-constexpr Bytes rest_once = history_flux + history_rates + history_cells + limiter + history_begin + history_end + courant_numbers;
+// Balances: guess, prediction and factors of the limiter kept and put back; the fluxes once more, and what they do to their cells.
+constexpr Bytes balances_kept{0, 2 * (48 + 12) + 24 + 12 + 2 * (12 + 24 + 24) + 12 + 24};
+constexpr Bytes balances_fluxes{8 + 72 + 8 + 8 + 8, 24 + 24 + 72 + 24 + 24};
+constexpr Bytes balances_cells{0, 24 + 8 + 4 * 24};
+constexpr Bytes rest_once = history_flux + history_rates + history_cells + limiter + history_begin + history_end + courant_numbers +
+                            balances_kept + balances_fluxes + balances_cells;
 
 }  // namespace
 

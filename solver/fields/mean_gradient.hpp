@@ -19,6 +19,8 @@ class MeanGradient {
   explicit MeanGradient(std::array<std::vector<Vec3>, 3>& rows) : row_(rows) {}
   /// Of G, [n_all_cells], 1/s. Collective.
   void set(const Mesh& mesh, std::span<const Mat3> G);
+  /// The same at the cells of a zone and those at facets: others have what was there. Collective.
+  void set_where_faces_turn(const Mesh& mesh, std::span<const Mat3> G, int zone);
   /// [u]_f.S of an interior face, m3/s, that a vector s from the line of centres adds, by the mean between both cells.
   double flux(const Mesh& mesh, int f, const Vec3& s) const {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
@@ -28,6 +30,7 @@ class MeanGradient {
   }
 
  private:
+  void set_cell(const Mesh& mesh, std::span<const Mat3> G, int c);
   std::array<std::vector<Vec3>, 3>& row_;
 };
 
