@@ -49,6 +49,7 @@
 #include <array>
 #include <vector>
 
+#include "base/single.hpp"
 #include "solver/boundaries/boundary.hpp"
 #include "solver/fields/time_scheme.hpp"
 #include "solver/momentum.hpp"

@@ -64,12 +64,6 @@ void write_cells(CheckpointWriter& checkpoint, const std::string& name, const Me
   checkpoint.rows(name, owned_ids(mesh), std::span(values, static_cast<std::size_t>(mesh.n_cells) * components), components);
 }
 
-std::vector<Mat3> all_wide(const std::vector<SingleMat3>& values) {
-  std::vector<Mat3> all(values.size());
-  std::ranges::transform(values, all.begin(), [](const SingleMat3& of_cell) { return wide(of_cell); });
-  return all;
-}
-
 void read_cells(CheckpointReader& checkpoint, const std::string& name, const Mesh& mesh, std::span<double> values, int components) {
   const auto stored = checkpoint.rows(name, owned_ids(mesh), components);
   std::copy(stored.begin(), stored.end(), values.begin());
@@ -117,7 +111,7 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   write_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity).data(), 3);
   write_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old).data(), 3);
   write_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient).data(), 9);
-  write_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(all_wide(flow.velocity_gradient_old)).data(), 9);
+  write_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(flow.velocity_gradient_old).data(), 9);
   write_cells(checkpoint, "flow/pressure", mesh, flow.pressure.data(), 1);
   write_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient).data(), 3);
   if (sum(mesh.comm, static_cast<std::int64_t>(flow.reaction.size())) > 0)
@@ -182,9 +176,7 @@ void FlowSolver::load_water(CheckpointReader& checkpoint) {
   read_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity), 3);
   read_cells(checkpoint, "flow/velocity_old", mesh, flat(flow.velocity_old), 3);
   read_cells(checkpoint, "flow/velocity_gradient", mesh, flat(flow.velocity_gradient), 9);
-  std::vector<Mat3> old(flow.velocity_gradient_old.size());
-  read_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(old), 9);
-  std::ranges::transform(old, flow.velocity_gradient_old.begin(), [](const Mat3& G) { return single(G); });
+  read_cells(checkpoint, "flow/velocity_gradient_old", mesh, flat(flow.velocity_gradient_old), 9);
   read_cells(checkpoint, "flow/pressure", mesh, flow.pressure, 1);
   read_cells(checkpoint, "flow/pressure_gradient", mesh, flat(flow.pressure_gradient), 3);
   for (const StoredField& field : turbulence_->stored()) read_cells(checkpoint, "flow/" + field.name, mesh, *field.values, 1);

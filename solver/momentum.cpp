@@ -122,12 +122,12 @@ double Momentum::guess_from_history(Flow& flow, const FluxHistory& history, cons
   for (int c = 0; c < mesh_.n_all_cells(); ++c) {
     const double dt_over_V = time.dt / mesh_.cell_volume[c];
     const double e = r * extrapolation_share(dt_over_V * convection_rate_[c], dt_over_V * diffusion_rate_[c]);
-    Mat3& G = flow.velocity_gradient[c];
-    const Mat3 old = wide(flow.velocity_gradient_old[c]);
-    flow.velocity_gradient_old[c] = single(G);
-    for (int i = 0; i < 3; ++i) G[i] = (1 + e) * G[i] - e * old[i];
+    const Mat3& G = flow.velocity_gradient[c];
+    Mat3& guess = flow.velocity_gradient_old[c];
+    for (int i = 0; i < 3; ++i) guess[i] = (1 + e) * G[i] - e * guess[i];
     flow.velocity[c] = (1 + r) * flow.velocity_old[c] - r * flow.velocity_older[c];
   }
+  std::swap(flow.velocity_gradient, flow.velocity_gradient_old);
   return share;
 }
 

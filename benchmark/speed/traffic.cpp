@@ -66,7 +66,7 @@ constexpr Bytes turbulence_once =
 // balances.
 constexpr Bytes history_flux{8 + 8 + 72 + 16 + 8 + 24, 48 + 72 + 24};
 constexpr Bytes history_rates{8 + 48 + 8 + 8, 16 + 32};
-constexpr Bytes history_cells{0, 16 + 8 + 2 * 72 + 2 * 36 + 3 * 24};
+constexpr Bytes history_cells{0, 16 + 8 + 3 * 72 + 3 * 24};
 constexpr Bytes history_begin{8 + 16 + 8, 16 + 8};
 constexpr Bytes history_end{8 + 8 + 24 + 8 + 16, 24};  // with what gradients add, of the last fluxes
 constexpr Bytes courant_numbers{8 + 16, 16 + 32 + 8};

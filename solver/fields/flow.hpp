@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "base/single.hpp"
 #include "mesh/mesh.hpp"
 
 namespace snag {
@@ -35,12 +34,11 @@ struct Flow {
   std::int64_t time_step = 0;                   // steps done
 
   // [n_all_cells], ghosts up to date after every step
-  std::vector<Vec3> velocity, velocity_old, velocity_older;  // u at t, t - dt, t - 2 dt; m/s
-  std::vector<double> pressure;                              // p, Pa (relative)
-  std::vector<Mat3> velocity_gradient;            // G_ij = du_i/dx_j at t, 1/s; within a step, until the pressure is corrected, that of
-                                                  // the explicit terms
-  std::vector<SingleMat3> velocity_gradient_old;  // at t - dt, within a step at its begin: for extrapolations
-  std::vector<Vec3> pressure_gradient;            // Pa/m
+  std::vector<Vec3> velocity, velocity_old, velocity_older;    // u at t, t - dt, t - 2 dt; m/s
+  std::vector<double> pressure;                                // p, Pa (relative)
+  std::vector<Mat3> velocity_gradient, velocity_gradient_old;  // G_ij = du_i/dx_j at t, t - dt; 1/s. Within a step, until the pressure is
+                                                               // corrected: that of the explicit terms, and that at the begin
+  std::vector<Vec3> pressure_gradient;                         // Pa/m
   // [n_faces]
   std::vector<double> flux, flux_old;  // volume flux along S, m3/s
   std::vector<double> mesh_flux;       // volume that the face sweeps along S, m3/s: zero where the mesh stands still

@@ -56,8 +56,7 @@ struct ConvectiveOutlet final : Boundary {
     for (int f = patch.first; f < patch.end(); ++f) {
       const int P = mesh.owner[f], b = f - mesh.n_interior;
       const Vec3 n = unit(mesh.face_vector[f]);
-      const Mat3& G = flow.velocity_gradient[P];
-      const Mat3 G_old = wide(flow.velocity_gradient_old[P]);
+      const Mat3 &G = flow.velocity_gradient[P], &G_old = flow.velocity_gradient_old[P];
       const Vec3 d = mesh.face_centre[f] - mesh.cell_centre[P];
       const double l = dot(d, n), way = speed * dt, s = way <= 2 * l ? way : std::max(l, 4 * l - way);
       values.velocity[b] = u[P] + G * (d - s * n);
