@@ -15,6 +15,11 @@ namespace {
 
 constexpr int block = 512;  // faces whose fluxes are held at a time
 
+void keep(const std::vector<Vec3>& u, std::vector<SingleVec3>& kept) {
+  kept.resize(u.size());
+  std::ranges::transform(u, kept.begin(), [](const Vec3& a) { return single(a); });
+}
+
 void keep(const std::vector<Vec3>& u, const std::vector<Vec3>& less, std::vector<SingleVec3>& kept) {
   kept.resize(u.size());
   std::ranges::transform(u, less, kept.begin(), [](const Vec3& a, const Vec3& b) { return single(a - b); });
@@ -77,9 +82,7 @@ void Balances::take_guess(const Flow& flow) { keep(flow.velocity, flow.velocity_
 
 void Balances::take_prediction(const Flow& flow, Momentum& momentum) {
   keep(flow.velocity, flow.velocity_old, kept_prediction_);
-  const std::vector<Vec3>& psi = momentum.limiter_factors();
-  kept_factors_.resize(psi.size());
-  std::ranges::transform(psi, kept_factors_.begin(), [](const Vec3& of_cell) { return single(of_cell); });
+  keep(momentum.limiter_factors(), kept_factors_);
 }
 
 void Balances::close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
