@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <type_traits>
 
 #include "mesh/sliding/sliding_bins.hpp"
 #include "mesh/sliding/sliding_gap.hpp"
 #include "mesh/sliding/sliding_geometry.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -17,29 +21,30 @@ constexpr double round_off_share = 1e-13;  // of the smaller face: a smaller pie
 
 double reduced(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
+/// A facet as it goes from the rank that cuts it to those that own its cells.
+struct CutFacet {
+  int rotor, stator;    // faces of the surface
+  double area;          // m2
+  Vec3 vector, centre;  // m2, m
+};
+static_assert(std::is_trivially_copyable_v<CutFacet>);
+
 /// One angle's facets.
 class FacetCutter {
  public:
-  FacetCutter(const RevolvedSurface& surface, SlidingBins& bins, int rank, Angle turn)
-      : surface_(surface),
-        bins_(bins),
-        rank_(rank),
-        turn_(turn),
-        cover_{std::vector<double>(surface.rotor.face.size()), std::vector<double>(surface.stator.face.size())} {
+  FacetCutter(const RevolvedSurface& surface, SlidingBins& bins, Angle turn) : surface_(surface), bins_(bins), turn_(turn) {
     for (const RevolvedNode& node : surface.rotor.node) rotor_plane_.push_back(node.plane_position(turn));
   }
 
-  std::vector<Facet> cut() {
-    for (const RevolvedFace& rotor : surface_.rotor.face) cut(rotor);
+  /// Those of the rotor's faces first .. last - 1, in this order.
+  std::vector<CutFacet> cut(int first, int last) {
+    for (int r = first; r < last; ++r) cut(r);
     return std::move(facets_);
   }
 
-  const FacetCover& cover() const { return cover_; }
-
  private:
-  bool is_mine(const RevolvedFace& face) const { return face.rank == rank_; }
-
-  void cut(const RevolvedFace& rotor) {
+  void cut(int r) {
+    const RevolvedFace& rotor = surface_.rotor.face[static_cast<std::size_t>(r)];
     const RevolvedNode& first = surface_.rotor.node[rotor.node[0]];
     const Angle base_angle = first.angle + turn_;
     const Point2 base = rotor_plane_[rotor.node[0]];
@@ -49,7 +54,7 @@ class FacetCutter {
     const double theta = radians(0, base_angle);
     for (const int s : candidates_) {
       const RevolvedFace& stator = surface_.stator.face[static_cast<std::size_t>(s)];
-      if ((!is_mine(rotor) && !is_mine(stator)) || stator.sign == rotor.sign) continue;
+      if (stator.sign == rotor.sign) continue;
       FlatFace other =
           rotor.is_disc ? flat_disc_face(stator, bins_.plane(), base) : flat_cylinder_face(surface_.stator, stator, 0, base_angle);
       if (!boxes_meet(flat.polygon, other.polygon)) continue;
@@ -59,18 +64,8 @@ class FacetCutter {
       PatchGeometry patch = rotor.is_disc ? disc_patch(common, base, first.z) : cylinder_patch(common.polygon, first.r);
       if (patch.area <= round_off_share * std::min(rotor.area, stator.area)) continue;
       if (!rotor.is_disc) patch.vector = turned(patch.vector, theta), patch.centre = turned(patch.centre, theta);
-      add(rotor, stator, patch);
+      facets_.push_back({r, s, patch.area, surface_.frame.vector_from(rotor.sign * patch.vector), surface_.frame.point_from(patch.centre)});
     }
-  }
-
-  void add(const RevolvedFace& rotor, const RevolvedFace& stator, const PatchGeometry& patch) {
-    cover_.rotor[static_cast<std::size_t>(&rotor - surface_.rotor.face.data())] += patch.area;
-    cover_.stator[static_cast<std::size_t>(&stator - surface_.stator.face.data())] += patch.area;
-    const auto side = [&](const RevolvedFace& face) {
-      return FacetSide{face.cell_id, face.rank, face.cell, face.face, patch.area / face.area};
-    };
-    facets_.push_back({side(rotor), side(stator), surface_.frame.vector_from(rotor.sign * patch.vector),
-                       surface_.frame.point_from(patch.centre), patch.area});
   }
 
   static double smaller_rim(double a, double b) { return a == 0 ? b : b == 0 ? a : std::min(a, b); }
@@ -91,13 +86,36 @@ class FacetCutter {
 
   const RevolvedSurface& surface_;
   SlidingBins& bins_;
-  int rank_;
   Angle turn_;
   std::vector<Point2> rotor_plane_;  // of the nodes, in the axis frame, at this angle
-  FacetCover cover_;
   std::vector<int> candidates_;
-  std::vector<Facet> facets_;
+  std::vector<CutFacet> facets_;
 };
+
+/// To the ranks that own a side of each: all ranks cut facets, equally many, whoever owns the interface. Their order stays that of the
+/// rotor's faces, as those are dealt out in the order of the ranks. Collective.
+std::vector<CutFacet> sent_to_owners(MPI_Comm comm, const RevolvedSurface& surface, const std::vector<CutFacet>& facets) {
+  const auto owners = [&surface](const CutFacet& facet) {
+    return std::pair(surface.rotor.face[static_cast<std::size_t>(facet.rotor)].rank,
+                     surface.stator.face[static_cast<std::size_t>(facet.stator)].rank);
+  };
+  RowsByRank<CutFacet> sent;
+  sent.counts.assign(static_cast<std::size_t>(size_of(comm)), 0);
+  for (const CutFacet& facet : facets) {
+    const auto [first, second] = owners(facet);
+    ++sent.counts[static_cast<std::size_t>(first)];
+    if (second != first) ++sent.counts[static_cast<std::size_t>(second)];
+  }
+  std::vector<std::size_t> next(sent.counts.size(), 0);
+  std::partial_sum(sent.counts.begin(), sent.counts.end() - 1, next.begin() + 1);
+  sent.rows.resize(next.back() + static_cast<std::size_t>(sent.counts.back()));
+  for (const CutFacet& facet : facets) {
+    const auto [first, second] = owners(facet);
+    sent.rows[next[static_cast<std::size_t>(first)]++] = facet;
+    if (second != first) sent.rows[next[static_cast<std::size_t>(second)]++] = facet;
+  }
+  return exchanged(comm, sent).rows;
+}
 
 }  // namespace
 
@@ -111,10 +129,23 @@ SlidingInterface::SlidingInterface(SlidingInterface&&) noexcept = default;
 
 std::vector<Facet> SlidingInterface::facets(double angle) const {
   const Angle turn = angle_of(reduced(angle));
-  FacetCutter cutter(*surface_, *bins_, rank_of(comm_), turn);
-  std::vector<Facet> result = cutter.cut();
-  require_cover(*surface_, comm_, turn, cutter.cover(), description_.gap_picture);
-  return result;
+  const std::vector<RevolvedFace>&rotor = surface_->rotor.face, &stator = surface_->stator.face;
+  const std::int64_t n = std::ssize(rotor), rank = rank_of(comm_), size = size_of(comm_);
+  FacetCutter cutter(*surface_, *bins_, turn);
+  std::vector<CutFacet> mine = cutter.cut(static_cast<int>(n * rank / size), static_cast<int>(n * (rank + 1) / size));
+  if (size > 1) mine = sent_to_owners(comm_, *surface_, mine);
+  FacetCover cover{std::vector<double>(rotor.size()), std::vector<double>(stator.size())};
+  std::vector<Facet> facets;
+  for (const CutFacet& facet : mine) {
+    const auto r = static_cast<std::size_t>(facet.rotor), s = static_cast<std::size_t>(facet.stator);
+    cover.rotor[r] += facet.area, cover.stator[s] += facet.area;
+    const auto side = [&facet](const RevolvedFace& face) {
+      return FacetSide{face.cell_id, face.rank, face.cell, face.face, facet.area / face.area};
+    };
+    facets.push_back({side(rotor[r]), side(stator[s]), facet.vector, facet.centre, facet.area});
+  }
+  require_cover(*surface_, comm_, turn, cover, description_.gap_picture);
+  return facets;
 }
 
 Mat3 SlidingInterface::rotation(double angle) const { return snag::rotation(unit(description_.axis), reduced(angle)); }

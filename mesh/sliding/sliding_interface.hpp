@@ -7,7 +7,8 @@
 // provided that the mesh carries the geometry of curve() and everything of the rotor is turned by rotation(angle). Facets sweep no volume.
 // A piece smaller than 1e-13 of the smaller of its faces is round-off and left out; what is left out is part of the check of each face.
 //
-// Cost: some 0.6 us a facet on each rank that owns one of its sides, and one small reduction.
+// Cost: some 0.4 us a facet, shared out over all ranks, one exchange of 64 bytes a facet with the owners of its sides, and one small
+// reduction.
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include "base/error.hpp"
 #include "base/words.hpp"
 #include "mesh/geometry.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -27,7 +27,8 @@ struct SentFace {
 };
 static_assert(std::is_trivially_copyable_v<SentFace>);
 
-std::vector<SentFace> gathered(const Mesh& mesh, const AxisFrame& frame, const std::string& patch_name) {
+/// Of all ranks, by cell_id, then nodes. Collective.
+std::vector<SentFace> faces_of(const Mesh& mesh, const AxisFrame& frame, const std::string& patch_name) {
   const Patch& patch = mesh.patches[static_cast<std::size_t>(mesh.patch_index(patch_name))];
   std::vector<SentFace> mine;
   for (int f = patch.first; f < patch.end(); ++f) {
@@ -38,12 +39,7 @@ std::vector<SentFace> gathered(const Mesh& mesh, const AxisFrame& frame, const s
     }
     mine.push_back(face);
   }
-  const int size = size_of(mesh.comm), bytes = static_cast<int>(mine.size() * sizeof(SentFace));
-  std::vector<int> count(static_cast<std::size_t>(size)), start(static_cast<std::size_t>(size) + 1, 0);
-  MPI_Allgather(&bytes, 1, MPI_INT, count.data(), 1, MPI_INT, mesh.comm);
-  std::partial_sum(count.begin(), count.end(), start.begin() + 1);
-  std::vector<SentFace> all(static_cast<std::size_t>(start.back()) / sizeof(SentFace));
-  MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), count.data(), start.data(), MPI_BYTE, mesh.comm);
+  std::vector<SentFace> all = gathered(mesh.comm, mine);
   std::sort(all.begin(), all.end(),
             [](const SentFace& a, const SentFace& b) { return std::tie(a.cell_id, a.node) < std::tie(b.cell_id, b.node); });
   return all;
@@ -342,7 +338,7 @@ FlatFace flat_disc_face(const RevolvedFace& face, const std::vector<Point2>& pla
 RevolvedSurface revolved_surface(const Mesh& mesh, const SlidingDescription& description) {
   const AxisFrame frame(description);
   on_all_ranks(mesh.comm, [&] { require_separate(mesh, description); });
-  return SurfaceBuilder(frame, gathered(mesh, frame, description.rotor_patch), gathered(mesh, frame, description.stator_patch)).build();
+  return SurfaceBuilder(frame, faces_of(mesh, frame, description.rotor_patch), faces_of(mesh, frame, description.stator_patch)).build();
 }
 
 }  // namespace snag
