@@ -43,8 +43,9 @@ struct Balances::Step {
   const BoundarySet& boundary;
   const TimeScheme& time;
   const std::vector<double>& facet_pressure;
-  Mat3 to_old, to_older;  // turn what turns back to where it was a step and two steps ago
-  Vec3 coriolis;          // omega of a frame, rad/s
+  Mat3 to_old, to_older;    // turn what turns back to where it was a step and two steps ago
+  Mat3 turning_difference;  // of a sliding zone
+  Vec3 coriolis;            // omega of a frame, rad/s
 
   Step(const Momentum& momentum_of_step, const Flow& flow_of_step, const BoundarySet& conditions, const TimeScheme& scheme,
        const std::vector<double>& at_facets, const Vec3& axis)
@@ -54,6 +55,7 @@ struct Balances::Step {
     const auto turned = [&](double then) { return zone ? zone->angle(then) - zone->angle(now) : 0.0; };
     to_old = rotation(axis, turned(flow.time));
     to_older = rotation(axis, time.ratio > 0 ? turned(flow.time - time.dt / time.ratio) : 0.0);
+    if (zone) turning_difference = zone->turning_difference(flow.time, time);
     if (zone && !zone->slides()) coriolis = zone->rotation_speed(now);
   }
 
@@ -111,7 +113,8 @@ void Balances::add_cells(const Step& step) {
     const double V = mesh_.cell_volume[c], inertia = flow.density * V / dt;
     const Vec3 r = mesh_.cell_centre[c] - origin_;
     const Vec3 &u = flow.velocity[c], &u_old = flow.velocity_old[c], &u_older = flow.velocity_older[c];
-    const Vec3 change = inertia * (a0 * u + a1 * u_old + a2 * u_older);
+    Vec3 change = inertia * (a0 * u + a1 * u_old + a2 * u_older);
+    if (z == 0) change += inertia * (step.turning_difference * (guess_[c] - (1 + ratio) * u_old + ratio * u_older));
 
     const Vec3 r_old = z == 0 ? step.to_old * r : r, r_older = z == 0 ? step.to_older * r : r;
     const double stored = inertia * (a0 * torque(r, u) + a1 * torque(r_old, u_old) + a2 * torque(r_older, u_older));

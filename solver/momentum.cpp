@@ -214,7 +214,18 @@ void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
     right_side_[c] = V * ((has_rags ? flow.reaction[c] : Vec3{}) + flow.body_force - flow.pressure_gradient[c] -
                           inertia * (time.old * flow.velocity_old[c] + time.older * flow.velocity_older[c]));
   }
-  if (!flow.rotating_zone || flow.rotating_zone->slides()) return;
+  if (!flow.rotating_zone) return;
+  if (flow.rotating_zone->slides()) {
+    const Mat3 lacking = flow.rotating_zone->turning_difference(flow.time, time);
+    if (lacking == Mat3{}) return;
+    const double r = time.ratio;
+    for (int c = 0; c < mesh_.n_cells; ++c) {
+      if (mesh_.cell_zone[c] != flow.rotating_zone->zone()) continue;
+      const Vec3 second = flow.velocity[c] - (1 + r) * flow.velocity_old[c] + r * flow.velocity_older[c];
+      right_side_[c] -= mesh_.cell_volume[c] * inertia * (lacking * second);
+    }
+    return;
+  }
   const Vec3 omega = flow.rotating_zone->rotation_speed(flow.time + time.dt);
   for (int c = 0; c < mesh_.n_cells; ++c)
     if (mesh_.cell_zone[c] == flow.rotating_zone->zone())

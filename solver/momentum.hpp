@@ -3,7 +3,8 @@
 //
 //   rho (a0 u* + a1 u^n + a2 u^(n-1))/dt + div(rho F u*) - div(mu grad u*) + beta u* = - grad p + f + body force
 //
-// In a turning frame - rho omega x u is added, with the guess of u.
+// In a turning frame - rho omega x u is added, with the guess of u. In a sliding zone the difference in time is exact for a velocity that
+// turns with it (RotatingZone::turning_difference), what BDF2 lacks of it with the guess of u.
 // a0, a1, a2: BDF2 for the present and the last step size, BDF1 for the first step. F is the convecting flux relative to the mesh.
 #include <array>
 #include <memory>

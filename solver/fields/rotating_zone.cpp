@@ -1,6 +1,8 @@
 #include "solver/fields/rotating_zone.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 
 #include "base/case_file.hpp"
 #include "base/case_tables.hpp"
@@ -61,11 +63,30 @@ RotatingZone::RotatingZone(Mesh& mesh, const RotatingZoneSettings& settings)
       start_angle_(settings.start_angle),
       slides_(settings.motion == RotatingZoneSettings::Motion::sliding) {}
 
-double RotatingZone::speed(double time) const { return time < ramp_ ? speed_ * time / ramp_ : speed_; }
+double RotatingZone::speed(double time) const {
+  if (time >= ramp_ || ramp_ == 0) return speed_;
+  return speed_ * std::max(time, 0.0) / ramp_;
+}
 
 double RotatingZone::angle(double time) const {
   if (!slides_) return start_angle_;
-  return start_angle_ + speed_ * (time < ramp_ ? 0.5 * time * time / ramp_ : time - 0.5 * ramp_);
+  if (time >= ramp_ || ramp_ == 0) return start_angle_ + speed_ * (time - 0.5 * ramp_);
+  return start_angle_ + speed_ * 0.5 * std::max(time, 0.0) * time / ramp_;
+}
+
+// In the plane across the axis as that of complex numbers, where a velocity that turns is w = exp(i theta(t)): with one complex b,
+//   dw/dt ~ ((w - w_old) + b ((w - w_old) - ratio (w_old - w_older)))/dt
+// is exact for what stands and grows linearly whatever b is, which is ratio/(1 + ratio) in BDF2.
+Mat3 RotatingZone::turning_difference(double begun, const TimeScheme& time) const {
+  constexpr double least = 1e-7, most = 1;  // rad a step: below it is round-off
+  if (!slides_ || time.ratio == 0) return {};
+  const double now = begun + time.dt, step = angle(now) - angle(begun), two_steps = angle(now) - angle(begun - time.dt / time.ratio);
+  if (std::abs(step) < least || std::abs(step) > most) return {};
+  const auto change = [](double theta) { return std::complex(2 * std::sin(theta / 2) * std::sin(theta / 2), std::sin(theta)); };  // 1 - w
+  const std::complex<double> rate(0, speed(now) * time.dt), old = change(step), older = change(two_steps);
+  const std::complex<double> b = (rate - old) / (old - time.ratio * (older - old)) - time.ratio / (1 + time.ratio);
+  const auto row = [&](const Vec3& e) { return b.real() * (e - dot(axis_, e) * axis_) + b.imag() * cross(e, axis_); };
+  return {row({1, 0, 0}), row({0, 1, 0}), row({0, 0, 1})};
 }
 
 std::unique_ptr<RotatingZone> read_rotating_zone(const Table& root, Mesh& mesh, const std::filesystem::path& gap_picture) {
