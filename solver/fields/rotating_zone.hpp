@@ -53,8 +53,8 @@ class RotatingZone {
   /// What BDF2 lacks for a velocity that turns with a sliding zone: the matrix K for which
   ///   du/dt ~ (now u + old u_old + older u_older + K s)/dt,   s = (u - u_old) - ratio (u_old - u_older)
   /// is exact for velocities that stand, that grow linearly in time, and that turn with the zone, for any speed of it from step to step.
-  /// BDF2 alone has what turns by theta in a step turn faster by theta^2/3, and takes theta^3/4 of it in a radian. Zero in a frame, without
-  /// a history, and at more than one radian a step. `begun`: the time at the begin of the step, s.
+  /// BDF2 alone turns a velocity that turns by theta in a step too fast by theta^2/3 of its rate, and damps it by theta^3/4 in a radian.
+  /// Zero in a frame, without a history, and at more than one radian a step. `begun`: the time at the begin of the step, s.
   Mat3 turning_difference(double begun, const TimeScheme& time) const;
   /// Unit vector of the axis and a point on it.
   const Vec3& axis() const { return axis_; }
