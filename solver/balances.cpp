@@ -106,7 +106,7 @@ void Balances::close(Momentum& momentum, const Flow& flow, const BoundarySet& bo
 
 void Balances::add_cells(const Step& step) {
   const Flow& flow = step.flow;
-  const auto& [dt, a0, a1, a2, ratio] = step.time;
+  const double dt = step.time.dt, a0 = step.time.now, a1 = step.time.old, a2 = step.time.older;
   for (int c = 0; c < mesh_.n_cells; ++c) {
     const int z = zone_of(c);
     AngularMomentumBalance& zone = zone_[z];
@@ -114,7 +114,7 @@ void Balances::add_cells(const Step& step) {
     const Vec3 r = mesh_.cell_centre[c] - origin_;
     const Vec3 &u = flow.velocity[c], &u_old = flow.velocity_old[c], &u_older = flow.velocity_older[c];
     Vec3 change = inertia * (a0 * u + a1 * u_old + a2 * u_older);
-    if (z == 0) change += inertia * (step.turning_difference * (guess_[c] - (1 + ratio) * u_old + ratio * u_older));
+    if (z == 0) change += inertia * (step.turning_difference * second_difference(step.time, guess_[c], u_old, u_older));
 
     const Vec3 r_old = z == 0 ? step.to_old * r : r, r_older = z == 0 ? step.to_older * r : r;
     const double stored = inertia * (a0 * torque(r, u) + a1 * torque(r_old, u_old) + a2 * torque(r_older, u_older));

@@ -43,7 +43,6 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       settings_(settings),
       squares_(mesh, workspace.moments, boundary.pressure_sides()),
       poisson_(mesh, settings.multigrid, !boundary.fixes_pressure(), working_arrays(workspace)),
-      skew_share_(squares_.skew_faces().size(), 1.0),
       coefficient_(mesh.n_faces),
       correction_(workspace.scalar[0]),
       imbalance_(workspace.scalar[1]),
@@ -95,27 +94,17 @@ void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vec
   std::fill(given_.begin(), given_.end(), 0.0);
   solve(flow);
   correct_cells(flow, false);
-}
-
-void Continuity::begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
-                            const TimeScheme& time) {
-  history.begin_step(convection, diffusion, mesh_flux, time);
-  const auto rate_of = [&](int c) { return (convection[c] + diffusion[c]) / mesh_.cell_volume[c]; };
-  for (std::size_t i = 0; i < skew_share_.size(); ++i) {
-    const int f = squares_.skew_faces()[i];
-    const double kappa = 0.5 * (rate_of(mesh_.owner[f]) + rate_of(mesh_.neighbour[f]));
-    skew_share_[i] = time.now / (time.now + kappa * time.dt);
-  }
+  carry_history();
 }
 
 ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient,
                                      bool is_last) {
   mobility_ = time.dt / (time.now * flow.density);
-  one_over_a0_ = 1 / time.now;
   predict_flux(flow, boundary, gradient, is_last ? Purpose::last_correction : Purpose::correction);
   set_boundary_of_correction(flow, boundary);
   const ContinuityReport report = solve(flow);
   correct_cells(flow, true);
+  if (is_last) carry_history();
   return report;
 }
 
@@ -208,39 +197,51 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
   };
   mean_gradient_.set(mesh_, gradient);
   for (int f = 0; f < mesh_.n_interior; ++f) {
-    const double by_skewness = skewness_flux(mesh_, f, mean_gradient_);
-    double flux = dot(blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]), mesh_.face_vector[f]) + by_skewness;
-    if (with_pressure) flux += damping(f) + one_over_a0_ * history.inherited()[f];
-    flow.flux[f] = flux;
-    if (for_history) history.take_skewness_flux(f, by_skewness);
+    const Vec3 u_f = blend(mesh_.weight[f], u[mesh_.owner[f]], u[mesh_.neighbour[f]]);
+    const double psi = with_pressure ? history.pressure_share()[f] * damping(f) + history.inherited()[f] : 0;
+    flow.flux[f] = interpolated_flux(mesh_, f, u_f, mean_gradient_) + psi;
+    if (for_history) history.take(f, psi);
   }
-  if (with_pressure)
-    for (std::size_t i = 0; i < skew_share_.size(); ++i) {
-      const int f = squares_.skew_faces()[i];
-      flow.flux[f] -= (1 - skew_share_[i]) * damping(f);
-    }
-  boundary_flux(flow, boundary, gradient, with_pressure);
+  boundary_flux(flow, boundary, gradient, purpose);
 }
 
-void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure) {
+void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const FaceFlux source = boundary.flux(static_cast<int>(p));
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
+      double psi = 0;
       if (source == FaceFlux::given) {
         flow.flux[f] = boundary.values().flux[b];
       } else if (source == FaceFlux::tight) {
         flow.flux[f] = flow.mesh_flux[f];
       } else {
         const Vec3 &d = mesh_.delta[f], &g = flow.pressure_gradient[P];
-        flow.flux[f] = leaving_flux(mesh_, f, flow.velocity[P], gradient[P]);
         // S.g - [c (p_b - p_P) + T.g] = c (d.g - (p_b - p_P))
-        if (with_pressure)
-          flow.flux[f] += mobility_ * coefficient_[f] * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) +
-                          one_over_a0_ * history.inherited()[f];
+        if (purpose != Purpose::projection)
+          psi = history.pressure_share()[f] * mobility_ * coefficient_[f] * (dot(d, g) - (flow.boundary_pressure[b] - flow.pressure[P])) +
+                history.inherited()[f];
+        flow.flux[f] = leaving_flux(mesh_, f, flow.velocity[P], gradient[P]) + psi;
       }
+      if (purpose != Purpose::correction) history.take(f, psi);
     }
   }
+}
+
+/// psi with what the correction adds to it, m times D of p', all of it with the last grad p': the last solve had the one before across
+/// faces, and this difference would add up from step to step (an error of first order in the step on oblique faces).
+void Continuity::carry_history() {
+  for (int f = 0; f < mesh_.n_interior; ++f) {
+    const int P = mesh_.owner[f], N = mesh_.neighbour[f];
+    const double change = dot(blend(mesh_.weight[f], gradient_[P], gradient_[N]), mesh_.delta[f]) - (correction_[N] - correction_[P]);
+    history.add(f, mobility_ * coefficient_[f] * change);
+  }
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
+    const int P = mesh_.owner[f];
+    const double change = dot(gradient_[P], mesh_.delta[f]) - (given_[f - mesh_.n_interior] - correction_[P]);
+    history.add(f, mobility_ * coefficient_[f] * change);  // c is 0 where the flux is given
+  }
+  history.end_step();
 }
 
 /// From face `first` on: turning does not change the others.

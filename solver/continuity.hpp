@@ -1,24 +1,21 @@
 #pragma once
 // Continuity: fluxes without divergence from the predicted velocity, and the pressure that makes them so.
 //
-//   flux~ = [u* + m (grad p - f~)]_f.S - m ((S.grad p)_f - [f]_f.S) + psi~/a0       m = dt/(a0 rho): mobility, m3 s/kg
+//   flux~ = [u*]_f.S + sigma (m D + psi~/a0),   D = [grad p - f~]_f.S - ((S.grad p)_f - [f]_f.S)       m = dt/(a0 rho): mobility, m3 s/kg
 //   m div(grad p') = div(flux~),    flux = flux~ - m (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
 //
-// [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference damps pressure that alternates from cell
-// to cell, and it is formed from cell values alone, so that a face needs no history. Across a skew face (mesh/skewness.hpp) the difference
-// counts with the share
+// [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference D damps pressure that alternates from cell
+// to cell. psi~ is what the face inherits, sigma = 1/(1 + kappa dt/(a0 C)) with the rate kappa of convection and diffusion through its
+// cells (solver/flux_history.hpp). Let R multiply an error of the pressure when the compact Laplacian is solved for the divergence of its
+// interpolated cell gradients, and b = 1/(1 + kappa dt/a0) an error of the velocity in the momentum equation. A correction multiplies the
+// error by the roots of
 //
-//   sigma = 1/(1 + kappa dt/a0)        kappa: rate of convection and diffusion through its cells; sigma m is then the inverse of the
-//                                      diagonal of the momentum equation
+//   x^2 - (1 + b - 2 b R + sigma (R - 1)) x + b (1 - R) (1 - sigma)
 //
-// Let R multiply an error of the pressure when the compact Laplacian is solved for the divergence of its interpolated cell gradients, and b
-// an error of the velocity in the momentum equation. A correction multiplies the error by the roots of
-//
-//   x^2 - (1 + b - 2 b R + sigma (R - 1)) x + b (1 - R) (1 - sigma)            1 - b and b (1 - R) for sigma = b
-//
-// On prisms round an axis in 24 to 72 sectors R is 1.2 to 1.4: Gauss' gradient along the ring takes the pressures of two thirds of the
-// radius for those in the middle of the faces, at half of it, and is up to 4/3 of the compact difference. With sigma = 1 the larger root is
-// R where b is small: such cells ran away in long steps, and swung from step to step in shorter ones.
+// With C = 1, sigma = b, they are 1 - b and b (1 - R); in long steps, with small b, they are below 1 for C < R/(R - 1). On prisms round an
+// axis in 24 to 72 sectors R is 1.2 to 1.4: Gauss' gradient along the ring takes the pressures of two thirds of the radius for those in the
+// middle of the faces, at half of it, and is up to 4/3 of the compact difference. With sigma = 1 the larger root would be R where b is
+// small: such cells ran away in long steps, and swung from step to step in shorter ones.
 //
 // Cell gradients of pressure are of the Gauss form: the sum of V grad p over the cells is the pressure on the boundary. Fluxes and
 // velocities share p', so that u balances momentum with the new pressure exactly.
@@ -73,10 +70,7 @@ class Continuity {
   void mesh_turned(Flow& flow, const BoundarySet& boundary);
   /// Before the corrections of a step, with the mesh where it is then: f~ takes the place of f in flow.reaction. Collective.
   void balance_reaction(Flow& flow);
-  /// What the corrections of a step need of the step before; see FluxHistory::begin_step. Collective.
-  void begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
-                  const TimeScheme& time);
-  /// One pressure correction; `gradient` of velocity, for skewness; `is_last`: of a step, whose history it leaves ready for its end.
+  /// One pressure correction; `gradient` of velocity, for skewness; `is_last`: of a step, whose fluxes are its history.
   /// Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient,
                            bool is_last);
@@ -106,10 +100,11 @@ class Continuity {
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
   void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);
-  /// What fluxes are predicted for: a projection has no pressure; it and the last correction of a step leave the history ready for its end.
+  /// What fluxes are predicted for: a projection has no pressure; from it and from the last correction of a step psi is kept.
   enum class Purpose { projection, correction, last_correction };
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose);
-  void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, bool with_pressure);
+  void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose);
+  void carry_history();
   void set_coefficients(const BoundarySet& boundary, int first);
   struct Imbalance {
     double norm, rounding;  // of the cells' sums of fluxes; what round-off alone makes of it, m3/s
@@ -128,9 +123,8 @@ class Continuity {
   ContinuitySettings settings_;
   LeastSquares squares_;
   Poisson poisson_;
-  double mobility_ = 1, one_over_a0_ = 1;  // m; 1/a0
-  std::vector<double> skew_share_;         // sigma of squares_.skew_faces()
-  std::vector<double> coefficient_;        // c, [n_faces]; 0 where the boundary gives no pressure
+  double mobility_ = 1;              // m
+  std::vector<double> coefficient_;  // c, [n_faces]; 0 where the boundary gives no pressure
   // f, N/m3, [n_all_cells], and [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty without a reaction
   std::vector<Vec3> reaction_;
   std::vector<double> reaction_excess_;

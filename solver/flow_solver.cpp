@@ -103,7 +103,6 @@ void FlowSolver::initialise(double boundary_time) {
   if (norm(flow.body_force) > 0) balance_body_force();
   continuity_.project(flow, boundary_, flow.velocity_gradient);
   update_gradient();
-  continuity_.history.end_step(flow, flow.velocity_gradient);
   turbulence_->start(flow, boundary_);
   watch_.begin(flow);
   started_ = true;
@@ -172,7 +171,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
     continuity_.close(momentum_.guessed_flux(), flow, time);
     report.seconds_pressure += seconds() - guessed;
   }
-  continuity_.begin_step(momentum_.convection_rate(), momentum_.diffusion_rate(), flow.mesh_flux, time);
+  continuity_.history.begin_step(momentum_.convection_rate(), momentum_.diffusion_rate(), flow.mesh_flux, time);
 }
 
 void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, StepReport& report) {
@@ -197,7 +196,6 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
   const double corrected = seconds();
   // With the gradient that the equations had.
   if (is_last && balances_) balances_->close(momentum_, flow, boundary_, time, continuity_.facet_pressure());
-  if (is_last) continuity_.history.end_step(flow, flow.velocity_gradient);
   update_gradient();
   report.seconds_momentum += predicted - begun, report.seconds_pressure += corrected - predicted;
   correct_turbulence(outer, time, report);

@@ -218,10 +218,9 @@ void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
   if (flow.rotating_zone->slides()) {
     const Mat3 lacking = flow.rotating_zone->turning_difference(flow.time, time);
     if (lacking == Mat3{}) return;
-    const double r = time.ratio;
     for (int c = 0; c < mesh_.n_cells; ++c) {
       if (mesh_.cell_zone[c] != flow.rotating_zone->zone()) continue;
-      const Vec3 second = flow.velocity[c] - (1 + r) * flow.velocity_old[c] + r * flow.velocity_older[c];
+      const Vec3 second = second_difference(time, flow.velocity[c], flow.velocity_old[c], flow.velocity_older[c]);
       right_side_[c] -= mesh_.cell_volume[c] * inertia * (lacking * second);
     }
     return;

@@ -10,4 +10,10 @@ struct TimeScheme {
 };
 TimeScheme bdf(double dt, double dt_old);
 
+/// The second difference (u^(n+1) - u^n) - r (u^n - u^(n-1)), zero for what changes evenly in time.
+template <class T>
+inline T second_difference(const TimeScheme& time, const T& now, const T& old, const T& older) {
+  return now - (1 + time.ratio) * old + time.ratio * older;
+}
+
 }  // namespace snag

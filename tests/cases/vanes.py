@@ -24,9 +24,10 @@ class Vanes(harness.CaseTest):
         # Water at rest that vanes set into motion: all five torques brake the impeller, and the interface lets all of the water through.
         self.assertTrue(numpy.all(pump.column("torque") < 0), pump.column("torque"))
         # With corrections for skewness everywhere the Courant number grew from 128 in step 3 to 110,000 in step 20.
-        self.assertLess(run.summary["water"]["max_speed_over_scale"], 2)
+        # At the start the water rushes round the tips of the vanes, 2.5 times as fast as the tips for two steps; then it slows down.
+        self.assertLess(run.summary["water"]["max_speed_over_scale"], 3)
         courant = run.monitor("residuals").column("courant_max")
-        self.assertLess(courant[-1], courant[0])
+        self.assertLess(courant[10:].max(), 0.7 * courant[0])
         self.assertLess(run.summary["conservation"]["mass_imbalance_rel"], 1e-6)
         self.assertLess(run.summary["conservation"]["interface_closure_rel"], 1e-9)
 

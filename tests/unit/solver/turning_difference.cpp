@@ -23,7 +23,7 @@ struct Steps {
 Vec3 difference(const RotatingZone& zone, const Steps& steps, const std::function<Vec3(double)>& u) {
   const TimeScheme time = bdf(steps.dt, steps.dt_old);
   const Vec3 now = u(steps.begun + steps.dt), old = u(steps.begun), older = u(steps.begun - steps.dt_old);
-  const Vec3 second = (now - old) - time.ratio * (old - older);
+  const Vec3 second = second_difference(time, now, old, older);
   return (time.now * now + time.old * old + time.older * older + zone.turning_difference(steps.begun, time) * second) / steps.dt;
 }
 

@@ -28,9 +28,8 @@ void expect_closed(const Balances& balances, double torque, double power) {
   EXPECT_LT(std::abs(balances.energy().residual()), 1e-6 * power);
 }
 
-void expect_matters(std::initializer_list<double> terms, double whole) {
-  int i = 0;
-  for (const double term : terms) EXPECT_GT(std::abs(term), 1e-4 * whole) << "term " << i++;
+void expect_matters(const std::vector<double>& terms, double whole) {
+  for (std::size_t i = 0; i < terms.size(); ++i) EXPECT_GT(std::abs(terms[i]), 1e-4 * whole) << "term " << i;
 }
 
 FlowSettings viscous_settings() {
@@ -86,7 +85,9 @@ CouetteErrors couette_errors(int around, const std::string& motion) {
           (now.turning().lost() + now.at_rest().lost()) / torque, now.energy().numerical() / power};
 }
 
-void check_couette(const std::string& motion) {
+/// Numerical dissipation changes its sign from mesh to mesh: it is below a share that falls with h^2, `numerical_share` of the shaft's
+/// power on 24 cells.
+void check_couette(const std::string& motion, double numerical_share) {
   std::vector<double> h, torque, dissipation, lost, numerical;
   for (const int around : {24, 32, 48}) {
     const CouetteErrors errors = couette_errors(around, motion);
@@ -96,21 +97,20 @@ void check_couette(const std::string& motion) {
       std::printf("%s, %d cells around: over the exact, less 1: shaft %.5f, interface %.5f, dissipation %.5f; lost %.5f, numerical %.5f\n",
                   motion.c_str(), around, errors.torque, errors.interface, errors.dissipation, errors.lost, errors.numerical);
     EXPECT_NEAR(errors.interface, 0, 0.05);
+    EXPECT_LT(numerical.back(), numerical_share * std::pow(24.0 / around, 2));
   }
   EXPECT_LT(torque.back(), 0.02);
   EXPECT_LT(dissipation.back(), 0.02);
   EXPECT_LT(lost.back(), 0.01);
-  EXPECT_LT(numerical.back(), 0.01);
   EXPECT_GT(observed_order(("lost torque, " + motion).c_str(), h, lost), 1.6);
-  EXPECT_GT(observed_order(("numerical dissipation, " + motion).c_str(), h, numerical), 1.6);
 }
 
 }  // namespace
 
 // Between cylinders the torque through shaft, interface and outer wall and the dissipation are the exact ones, and what is lost vanishes
 // with the second power of the cell size.
-TEST(Balances, couette_sliding) { check_couette("sliding"); }
-TEST(Balances, couette_frame) { check_couette("frame"); }
+TEST(Balances, couette_sliding) { check_couette("sliding", 0.025); }
+TEST(Balances, couette_frame) { check_couette("frame", 0.006); }
 
 // A cylinder that starts in water at rest: the torque of the shaft is stored, and the growth of the angular momentum of the water over the
 // run is the sum of what the rows say.
@@ -196,6 +196,10 @@ TEST(Balances, swirling_stream) {
   FlowSolver solver(mesh, settings, std::move(boundary));
   solver.keep_balances(origin, axis);
   solver.flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
+  std::vector<double> of_torque(10), of_power(6);  // the largest shares in all steps: a term may pass zero
+  const auto take = [](std::vector<double>& largest, const std::vector<double>& terms, double whole) {
+    for (std::size_t t = 0; t < terms.size(); ++t) largest[t] = std::max(largest[t], std::abs(terms[t]) / whole);
+  };
   for (int i = 0; i < 5; ++i) {
     for (int c = 0; c < mesh.n_cells; ++c)
       solver.flow.reaction[c] = norm(mesh.cell_centre[c] - Vec3{1, 0.5, 0.3}) < 0.3 ? Vec3{0, 3, 0.5} : Vec3{};
@@ -205,15 +209,17 @@ TEST(Balances, swirling_stream) {
     const EnergyBalance& energy = now.energy();
     const double torque = std::abs(row.openings), power = std::abs(energy.hydraulic);
     expect_closed(now, torque, power);
-    expect_matters(
-        {row.openings, row.stored, row.walls(), row.given, row.lost_convection, row.lost_pressure, row.lost_friction,
-         row.wall_friction[mesh.patch_index("y0")], row.wall_pressure[mesh.patch_index("y0")], row.wall_pressure[mesh.patch_index("z1")]},
-        torque);
-    if (i > 0)
-      expect_matters({energy.given, energy.stored, energy.dissipation_viscous, energy.dissipation_walls, energy.numerical_convection,
-                      energy.numerical_pressure},
-                     power);
+    take(of_torque,
+         {row.openings, row.stored, row.walls(), row.given, row.lost_convection, row.lost_pressure, row.lost_friction,
+          row.wall_friction[mesh.patch_index("y0")], row.wall_pressure[mesh.patch_index("y0")], row.wall_pressure[mesh.patch_index("z1")]},
+         torque);
+    take(of_power,
+         {energy.given, energy.stored, energy.dissipation_viscous, energy.dissipation_walls, energy.numerical_convection,
+          energy.numerical_pressure},
+         power);
   }
+  expect_matters(of_torque, 1);
+  expect_matters(of_power, 1);
 }
 
 // The same with turbulence, a sliding zone with a stream through it, tetrahedra, and two outer correctors.
