@@ -4,9 +4,8 @@
 """Requirement: the plane flow at mid-span of a measured pump (ERCOFTAC test case U3, seven blades, twelve vanes, air) has the blade-to-blade velocity of the hot wires within 0.06 U2 (rms of c_u over two
 pitches and four instants) and the pressure of the casing taps within 0.05 from the blades on; with the measured radial velocity of the mid-span the mean c_u is the measured one within 5 %. The shaft's
 torque is the angular momentum that the water carries out of the rotor. In three dimensions, with the gaps at the blades' tips, the same holds at mid-span and on the casing over the blades, and
-the mean c_u of the mid-span is the measured one within 5 %; pressure rise and mean c_u of the span miss their goals and are printed."""
+the mean c_u of the mid-span is the measured one within 5 % and the pressure rise within 10 %; the mean c_u of the span misses its goal and is printed."""
 import sys
-import tomllib
 
 import harness
 import numpy
@@ -17,7 +16,7 @@ import sample
 
 START, END = 0.03, 0.075  # s: from the second revolution on the flow repeats
 NOMINAL = 11.4  # m/s
-END_3D = 0.06  # s
+START_3D, END_3D_MS = 0.036, 61.714285714284  # 216 steps
 LEADING_EDGE = 0.120 / sample.R2
 
 
@@ -62,24 +61,21 @@ class MeasuredPump(harness.CaseTest):
         self.assertLess(numpy.abs(difference).max(), 0.05)
 
     def test_in_three_dimensions(self):
-        """The machine on 335,000 cells."""
-        case = FOLDER / "case-3d.toml"
-        values = tomllib.loads(case.read_text())["mesh"]["set"]
-        coarse = {"cells_across": 14, "size_factor": 2, "layers": 2, "first_layer_mm": 0.3}
-        values = [value for value in values if value.split("=")[0] not in coarse] + [f"{key}={value}" for key, value in coarse.items()]
-        run = self.run_case(case, 2, "--set", f"mesh.set={values}".replace("'", '"'), "--set", f"time.end_s={END_3D}", "--set", "output.report=false", timeout=5000)
+        """The machine on 736,000 cells, as the case has it."""
+        run = self.run_case(FOLDER / "case-3d.toml", 2, "--set", f"time.end_ms={END_3D_MS}", "--set", "output.report=false", timeout=5000)
         radii, cp = sample.measured_casing()
-        of_run = sample.Sampled(run.folder, START, radii=radii)
+        of_run = sample.Sampled(run.folder, START_3D, radii=radii)
         rms = sample.rms_of_profiles(of_run, sample.measured_midspan())
         difference, reference = sample.casing_difference(of_run, cp)
         measured_cu = sample.measured_span()[2][len(sample.measured_span()[2]) // 2]
         print(f"  pressure rise {of_run.psi_vanes:.4f} (0.65); c_u/U2 of the span {of_run.mean_cu:.4f} ({sample.MEAN_CU}), of the mid-span {of_run.midspan_cu:.4f} ({measured_cu}), rms there {rms:.4f}", flush=True)
         print(f"  cp {numpy.round(difference, 3)} with a reference of {reference:+.3f}", flush=True)
         self.assertLess(rms, 0.06)
+        self.assertLess(abs(of_run.psi_vanes / 0.65 - 1), 0.1)
         self.assertLess(abs(of_run.midspan_cu / measured_cu - 1), 0.05)
         self.assertLess(numpy.abs(difference[(radii > LEADING_EDGE) & (radii < 1)]).max(), 0.05)
         balance = run.monitor("balance")
-        late = balance.column("time") > START
+        late = balance.column("time") > START_3D
         shaft, *parts = (balance.column(name)[late].mean() for name in ("shaft_torque", "rotor_interface", "rotor_wall_casing_friction", "rotor_stored", "rotor_lost"))
         carried, casing, stored, lost = (100 * part / shaft for part in parts)
         print(f"  of the shaft's torque {carried:.2f} % pass the interface, {casing:.2f} % go into the front casing, {stored:.2f} % are stored, the scheme takes {lost:.3f} %", flush=True)

@@ -44,7 +44,7 @@ struct Couette {
   Mesh mesh;
   FlowSolver solver;
 
-  Couette(int around, const std::string& motion, FlowSettings settings = viscous_settings())
+  Couette(int around, const std::string& motion, const FlowSettings& settings = viscous_settings())
       : shells(rings_of(around)),
         mesh(ring_mesh(shells)),
         solver(mesh, settings, conditions("[[boundary]]\npatches = [\"rotor_inner\", \"stator_outer\"]\nkind = \"wall\"\n"), nullptr,
