@@ -228,8 +228,8 @@ void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const st
   }
 }
 
-/// psi with what the correction adds to it, m times D of p', all of it with the last grad p': the last solve had the one before across
-/// faces, and this difference would add up from step to step (an error of first order in the step on oblique faces).
+/// Keeps psi for the next step: psi of the predicted flux, and m D of p' with the last grad p'. Across oblique faces the last solve used
+/// the grad p' before. If psi kept the difference of the two, it would add up from step to step, an error of first order in the step.
 void Continuity::carry_history() {
   for (int f = 0; f < mesh_.n_interior; ++f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];

@@ -70,8 +70,8 @@ class Continuity {
   void mesh_turned(Flow& flow, const BoundarySet& boundary);
   /// Before the corrections of a step, with the mesh where it is then: f~ takes the place of f in flow.reaction. Collective.
   void balance_reaction(Flow& flow);
-  /// One pressure correction; `gradient` of velocity, for skewness; `is_last`: of a step, whose fluxes are its history.
-  /// Collective.
+  /// One pressure correction; `gradient` of velocity, for skewness; `is_last`: it is the last one of the step and keeps psi for the next
+  /// step. Collective.
   ContinuityReport correct(Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const std::vector<Mat3>& gradient,
                            bool is_last);
 
@@ -100,7 +100,8 @@ class Continuity {
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
   void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);
-  /// What fluxes are predicted for: a projection has no pressure; from it and from the last correction of a step psi is kept.
+  /// Why fluxes are predicted. A projection does not use the pressure. A projection and the last correction of a step keep psi for the next
+  /// step.
   enum class Purpose { projection, correction, last_correction };
   void predict_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose);
   void boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose);

@@ -9,16 +9,17 @@
 // interpolated afresh from the cells in each step has psi = m D, which grows with the step: in steps of 6 degrees it added 6 % to the
 // torque of a pump (docs/validation.md).
 //
-// C is 4 on tetrahedra and 1 on other cells, which gives the least errors in a manufactured flow (docs/theory.md). A mesh of tetrahedra has
-// two faces a cell, and three components of velocity: a part of them has no flux. The errors of the pressure gradient move this part; D
-// sees them, and more of D in the fluxes lets the pressure take less of their shape. Where a correction of the pressure may multiply its
-// error, on prisms round an axis, C must be below 4 (solver/continuity.hpp).
+// C is 4 on tetrahedra and 1 on other cells, chosen by the errors in a manufactured flow (table in docs/theory.md). A mesh of tetrahedra
+// has two faces a cell, and three components of velocity: a part of them has no flux. The errors of the pressure gradient move this part; D
+// sees them, and more of D in the fluxes lets the pressure take less of their shape. On prisms round an axis a correction of the
+// pressure is stable for C below 3.5 (solver/continuity.hpp).
 //
 // Where the mesh turns, the rate at which its faces sweep volume is added to kappa: water that turns with the mesh has no convection
 // through its cells, yet the velocity of a cell turns at this rate. Without it psi would gather the differences between the pressure
 // gradients of cells and faces for ever: in a drum that turns with its water the velocity of the cells drifted outwards, and Coriolis'
 // force took 5 % of the swirl in a turn. A face without history (of the sliding interface) has psi~ = 0 and is as stable.
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -38,10 +39,11 @@ class FluxHistory {
   /// `mesh_flux` of the faces, m3/s. Collective.
   void begin_step(std::span<const double> convection, std::span<const double> diffusion, std::span<const double> mesh_flux,
                   const TimeScheme& time);
-  /// In the last correction of a step, when the face has inherited: its psi before the correction; then what the correction adds. Local.
+  /// In the last correction of a step: psi of the predicted flux, which takes the place of what the face inherited; then what the
+  /// correction adds to it, m3/s. Local.
   void take(int f, double psi) { deviation_old[f] = psi; }
   void add(int f, double change) { deviation_old[f] += change; }
-  /// psi is that of the step just done.
+  /// The psi that was taken becomes the current one.
   void end_step() { std::swap(deviation, deviation_old); }
 
   /// sigma, [n_faces]; 1 before the first step.
