@@ -82,22 +82,22 @@ Balances::Balances(const Mesh& mesh, const Vec3& origin, const Vec3& axis, int t
 
 void Balances::take_guess(const Flow& flow) { keep(flow.velocity, flow.velocity_old, kept_guess_); }
 
-void Balances::take_prediction(const Flow& flow, Momentum& momentum) {
-  keep(flow.velocity, flow.velocity_old, kept_prediction_);
-  keep(momentum.limiter_factors(), kept_factors_);
-}
+void Balances::take_limiter(Momentum& momentum) { keep(momentum.limiter_factors(), kept_factors_); }
 
 void Balances::close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
-                     const std::vector<double>& facet_pressure) {
+                     const Continuity& continuity) {
   for (AngularMomentumBalance& zone : zone_) {
     zone = {};
     zone.wall_pressure.assign(mesh_.patches.size(), 0), zone.wall_friction.assign(mesh_.patches.size(), 0);
   }
   energy_ = {}, shaft_torque_ = 0;
   recall(kept_guess_, flow.velocity_old, guess_);
-  recall(kept_prediction_, flow.velocity_old, predicted_);
+  // What the correction took off; its gradient may stand in the place of the prediction.
+  const double mobility = time.dt / (time.now * flow.density);
+  std::ranges::transform(flow.velocity, continuity.correction_gradient(), predicted_.begin(),
+                         [mobility](const Vec3& u, const Vec3& gradient) { return u + mobility * gradient; });
   std::ranges::transform(kept_factors_, momentum.limiter_factors().begin(), [](const SingleVec3& of_cell) { return wide(of_cell); });
-  const Step step(momentum, flow, boundary, time, facet_pressure, axis_);
+  const Step step(momentum, flow, boundary, time, continuity.facet_pressure(), axis_);
   add_cells(step);
   add_inner_faces(step);
   add_boundary(step);

@@ -51,6 +51,7 @@
 
 #include "base/single.hpp"
 #include "solver/boundaries/boundary.hpp"
+#include "solver/continuity.hpp"
 #include "solver/fields/time_scheme.hpp"
 #include "solver/momentum.hpp"
 #include "solver/operators/workspace.hpp"
@@ -86,10 +87,9 @@ class Balances {
 
   /// Before the last solution of the momentum equation in a step, and behind it. Local.
   void take_guess(const Flow& flow);
-  void take_prediction(const Flow& flow, Momentum& momentum);
+  void take_limiter(Momentum& momentum);
   /// Behind the last correction of the pressure, before that of turbulence; flow.time is still that of the begin of the step. Collective.
-  void close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time,
-             const std::vector<double>& facet_pressure);
+  void close(Momentum& momentum, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time, const Continuity& continuity);
 
   /// Of the cells that turn and of those at rest.
   const AngularMomentumBalance& turning() const { return zone_[0]; }
@@ -118,8 +118,8 @@ class Balances {
   EnergyBalance energy_;
   double shaft_torque_ = 0;
   std::vector<Vec3>&guess_, &predicted_;  // [n_all_cells], velocity before and behind the momentum equation, while close() works
-  // How the fluxes were made, from the momentum equation to close(); in single precision. Velocities less that of the step before.
-  std::vector<SingleVec3> kept_guess_, kept_prediction_, kept_factors_;
+  // How the fluxes were made, from the momentum equation to close(); in single precision. The velocity less that of the step before.
+  std::vector<SingleVec3> kept_guess_, kept_factors_;
   std::array<std::vector<int>, 2> has_faces_;
   std::array<int, 2> has_cells_{};
 };

@@ -78,6 +78,8 @@ class Continuity {
   /// Take the divergence out of a guessed flux, [n_faces], relative to the mesh, to the intermediate tolerance. Collective.
   void close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time);
 
+  /// Gradient of the last p', Gauss, [n_all_cells], Pa/m: until another one works with the vectors of the workspace.
+  const std::vector<Vec3>& correction_gradient() const { return gradient_; }
   /// Pressure at the facets of the sliding interface in the Gauss gradient, [n_interior - first_facet], Pa.
   const std::vector<double>& facet_pressure() const { return facet_pressure_; }
   /// The same from flow.pressure as it stands, at the begin of a step, so that a resumed run has the same to the bit; the flow stays.

@@ -180,7 +180,7 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
   if (outer > 0) momentum_.guess_from_last(flow);
   if (is_last && balances_) balances_->take_guess(flow);
   did.momentum = momentum_.predict(flow, boundary_, time);
-  if (is_last && balances_) balances_->take_prediction(flow, momentum_);
+  if (is_last && balances_) balances_->take_limiter(momentum_);
   if (!(did.momentum.final <= exploded))
     watch_.fail(flow, boundary_, time.dt, "the momentum equation has a residual of " + scientific(did.momentum.final));
   if (!did.momentum.converged)
@@ -195,7 +195,7 @@ void FlowSolver::correct_once(int outer, bool is_last, const TimeScheme& time, S
   }
   const double corrected = seconds();
   // With the gradient that the equations had.
-  if (is_last && balances_) balances_->close(momentum_, flow, boundary_, time, continuity_.facet_pressure());
+  if (is_last && balances_) balances_->close(momentum_, flow, boundary_, time, continuity_);
   update_gradient();
   report.seconds_momentum += predicted - begun, report.seconds_pressure += corrected - predicted;
   correct_turbulence(outer, time, report);
