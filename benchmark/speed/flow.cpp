@@ -51,11 +51,11 @@ std::string case_text(const std::filesystem::path& mesh, const std::string& moti
   text += "[flow]\nkinematic_viscosity_m2_s = " + number_text(kinematic_viscosity) + R"(
 n_outer_correctors = 2
 n_non_orthogonal_correctors = 1
-momentum_tolerance = 9e-7
-pressure_tolerance = 1.5e-3
+momentum_tolerance = 6.5e-7
+pressure_tolerance = 1.6e-3
 [turbulence]
 model = "k_epsilon"
-tolerance = 1e-5
+tolerance = 7e-6
 initial_k_m2_s2 = 0.044
 initial_epsilon_m2_s3 = 0.21
 [[boundary]]

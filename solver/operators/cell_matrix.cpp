@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace snag {
 
@@ -203,25 +204,25 @@ template <class Value>
 SweepReport solve_rows(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal, std::span<const Value> b,
                        std::vector<Value>& x, double tolerance, int max_sweeps, bool positive) {
   SweepReport report;
-  double scale = 0, before = 0, share_of_tolerance = 1;
+  double scale = 0, before = 0, share_of_tolerance = 1;  // before: the residual two sweeps ago
   int since_look = 0;
   for (int c = 0; c < mesh.n_cells; ++c) scale += square(b[c]);
+  bool forward = true;
   while (report.sweeps < max_sweeps) {
-    std::array<double, 3> squares{0, 0, scale};
-    for (int half = 0; half < 2; ++half, ++report.sweeps) {
-      exchange(mesh, x);
-      squares[half] = half == 0 ? sweep<true>(mesh.n_cells, matrix, diagonal.data(), b.data(), x.data())
-                                : sweep<false>(mesh.n_cells, matrix, diagonal.data(), b.data(), x.data());
-    }
-    std::array<double, 3> all{};
-    MPI_Allreduce(squares.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
-    const double reference = all[2] > 0 ? std::sqrt(all[2]) : 1;
-    if (report.sweeps == 2) report.initial = std::sqrt(all[0]) / reference;
-    before = report.final, report.final = std::sqrt(all[1]) / reference;
+    exchange(mesh, x);
+    const double squares = forward ? sweep<true>(mesh.n_cells, matrix, diagonal.data(), b.data(), x.data())
+                                   : sweep<false>(mesh.n_cells, matrix, diagonal.data(), b.data(), x.data());
+    std::array<double, 2> all{squares, scale};
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
+    const double reference = all[1] > 0 ? std::sqrt(all[1]) : 1;
+    const double two_before = std::exchange(before, report.final);
+    report.final = std::sqrt(all[0]) / reference;
+    if (++report.sweeps == 1) report.initial = report.final;
     report.converged = report.final <= tolerance;
     if (report.converged || !std::isfinite(report.final)) break;
-    since_look += 2;
-    if (since_look < first_look || report.sweeps >= max_sweeps || !stalls(before, report.final, tolerance)) continue;
+    forward = !forward;
+    // Sweeps to and fro are not alike: each is compared with the last of its kind.
+    if (++since_look < first_look || report.sweeps >= max_sweeps || !stalls(two_before, report.final, tolerance)) continue;
     const std::vector<Value> swept = x;
     const int most = (max_sweeps - report.sweeps) / sweeps_of_iteration;
     // Along a row of thin cells what a sweep meets is the sum of the residuals that lie behind it.

@@ -47,7 +47,7 @@ struct SweepReport {
 };
 
 /// Solve (diagonal + matrix) x = b, x [n_all_cells] holding the first guess: Gauss-Seidel, forward and backward in turn, ghosts exchanged
-/// before each sweep, residual tested every second sweep; where sweeps stall, as they do in thin layers at large steps, BiCGStab between
+/// before each sweep, residual tested in each sweep; where sweeps stall, as they do in thin layers at large steps, BiCGStab between
 /// sweeps. The residual is that of each row when it is visited. `tolerance` is relative to |b|. `positive`: the solution is, and no value
 /// becomes zero or negative. `sweeps` of the report counts an iteration of BiCGStab as six. Value: double or Vec3. Collective.
 template <class Value>
