@@ -1,7 +1,7 @@
 # labels: long
 # timeout: 36000
-"""Requirement: the score card of the programs of tests/other_programs is no worse than that of an earlier method, as far as chance allows. The
-card of today has too few sets to compare with.
+"""Requirement: the score card of the programs of tests/other_programs is no worse than the recorded one, as far as chance allows, and posteriors
+are as wide as they should be.
 
 The seed is another one than that of the recorded rows: SEED is to be drawn anew where the method has been changed with its sets in sight.
 """
@@ -12,16 +12,19 @@ from diagnose import chance
 
 sys.path.insert(0, str(harness.SOURCE_DIR / "tests" / "other_programs"))
 import card  # noqa: E402
+import ranks  # noqa: E402
 import sets  # noqa: E402
 
 SEED = 5
-RECORDED = harness.SOURCE_DIR / "docs" / "scores" / "other-programs-before.csv"
+RECORDED = harness.SOURCE_DIR / "docs" / "scores" / "other-programs.csv"
+
+
+FOLDER = harness.BINARY_DIR / "diagnose-other-programs"  # kept: a run that was stopped goes on
 
 
 class Card(harness.CaseTest):
     def compare(self, program, n):
-        folder = harness.BINARY_DIR / "diagnose-other-programs"  # kept: a run that was stopped goes on
-        rows = [row for row in card.run_card(program, sets.CLASSES, n, SEED, folder) if row["seed"] == SEED]
+        rows = [row for row in card.run_card(program, sets.CLASSES, n, SEED, FOLDER) if row["seed"] == SEED]
         print(card.card(program, rows))
         recorded = [row for row in card.read_rows(RECORDED) if row["program"] == program]
         for (name, hits, n_now, target), (_, before, n_before, _) in zip(card.scores(program, rows), card.scores(program, recorded)):
@@ -34,6 +37,10 @@ class Card(harness.CaseTest):
 
     def test_spheres(self):
         self.compare("sphere", 40)
+        strengths, flows, _, _ = ranks.ranks_of_folder(FOLDER / "sphere")
+        for name, some in (("strengths", strengths), ("flow", flows)):
+            with self.subTest(name):
+                self.assertGreater(ranks.uniformity(some), 0.01)
 
     def test_fibres(self):
         self.compare("fibre", 20)

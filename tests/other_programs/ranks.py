@@ -39,7 +39,10 @@ def ranks_of_set(truth, posterior, u_flow, points):
             [rank(f"{FLOW}@{point}", deviation / u_flow) for point, deviation in zip(points, truth["deviations"][FLOW])])
 
 
-def ranks_of_folder(folder, u_flow, points):
+def ranks_of_folder(folder):
+    """Of DIR/PROGRAM of card.py: ranks of the strengths, of the flow, number of sets, number of those that count."""
+    program = importlib.import_module(folder.name)
+    u_flow, points = program.INPUTS[FLOW], "ABCDEFG"[:program.N_TRAINING]
     strengths, flows, n_sets, n_right = [], [], 0, 0
     for sealed in sorted((folder / "sealed").glob("*.json")):
         truth, out = json.loads(sealed.read_text()), folder / "sets" / sealed.stem / "out"
@@ -79,8 +82,7 @@ def main():
     arguments.add_argument("folders", type=pathlib.Path, nargs="+", help="DIR/PROGRAM of card.py")
     print(f"| true value | ranks | counts in {BINS} bins from 0 to 1 | in the 50 % interval | in the 90 % interval | p, uniform |\n|---|---|---|---|---|---|")
     for folder in arguments.parse_args().folders:
-        program = importlib.import_module(folder.name)
-        strengths, flows, n_sets, n_right = ranks_of_folder(folder, program.INPUTS[FLOW], "ABCDEFG"[:program.N_TRAINING])
+        strengths, flows, n_sets, n_right = ranks_of_folder(folder)
         print(line(f"{folder.name}s, strengths ({n_right} of {n_sets} sets)", strengths))
         print(line(f"{folder.name}s, {FLOW} of each point", flows))
 
