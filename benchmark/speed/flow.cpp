@@ -51,7 +51,7 @@ std::string case_text(const std::filesystem::path& mesh, const std::string& moti
   text += "[flow]\nkinematic_viscosity_m2_s = " + number_text(kinematic_viscosity) + R"(
 n_outer_correctors = 2
 n_non_orthogonal_correctors = 1
-momentum_tolerance = 6.5e-7
+momentum_tolerance = 6e-7
 pressure_tolerance = 1.6e-3
 [turbulence]
 model = "k_epsilon"

@@ -236,9 +236,9 @@ def card(program, rows):
 
 
 def table(rows):
-    """The cards of all programs beside each other, for docs/diagnosis-scores.md."""
-    by_program = {program: [row for row in rows if row["program"] == program] for program in PROGRAMS}
-    lines = ["| score | target | " + " | ".join(f"{program}s" for program in PROGRAMS) + " |", "|---" * (2 + len(PROGRAMS)) + "|"]
+    """The cards of the programs that have rows, side by side, for docs/diagnosis-scores.md."""
+    by_program = {program: some for program in PROGRAMS if (some := [row for row in rows if row["program"] == program])}
+    lines = ["| score | target | " + " | ".join(f"{program}s" for program in by_program) + " |", "|---" * (2 + len(by_program)) + "|"]
     for one in zip(*(scores(program, some) for program, some in by_program.items())):
         cells, wanted = [], []
         for name, hits, n, target in one:
