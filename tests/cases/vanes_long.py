@@ -32,7 +32,8 @@ class ManyVanes(harness.CaseTest):
                 skew = float(re.search(r"skew cells.* ([\d.e-]+) % of the volume", judged.stdout).group(1))
                 self.assertLess(skew, 10)
                 settings = ["rotating_zone.rotation_speed_rpm=1200", "rotating_zone.ramp_ms=20", "time.step_ms=0.4", "time.end_ms=160",
-                            f"boundary.0.flow_rate_L_s={flow}", "boundary.0.ramp_ms=20"]
+                            f"boundary.0.flow_rate_L_s={flow}", "boundary.0.ramp_ms=20",
+                            "turbulence.initial_k_m2_s2=0.04", "turbulence.initial_epsilon_m2_s3=0.2"]
                 run = self.run_case(self.case(vanes.three_vanes(mesh), name), 1, *[word for s in settings for word in ("--set", s)],
                                     out=name, timeout=3600)
                 self.assertGreaterEqual(run.summary["pump"]["revolutions"], 3)
