@@ -17,8 +17,6 @@ import sets  # noqa: E402
 
 SEED = 5
 RECORDED = harness.SOURCE_DIR / "docs" / "scores" / "other-programs.csv"
-
-
 FOLDER = harness.BINARY_DIR / "diagnose-other-programs"  # kept: a run that was stopped goes on
 
 
