@@ -59,9 +59,9 @@ struct Attribution {
   /// Fits of causes that could stand in the place of this one's: less than `nats_of_rule` behind it by weight, and neither part of it nor
   /// larger sets with all of it, which say nothing else of its effects.
   std::vector<int> alternatives_to(int fit) const;
-  /// Nats by which the process alone explains the data better than the likeliest fit. What a further effect is priced at is a rule among
-  /// sets of effects: a process has shapes of its own, which its evidence pays for.
-  double outside_leads_by() const;
+  /// Nats by which the process alone explains the data better than this fit. What a further effect is priced at is a rule among sets of
+  /// effects: a process has shapes of its own, which its evidence pays for.
+  double outside_leads_by(int fit) const;
   /// Evidence of a fit with the choice of a remainder, without what a guard takes away.
   double log_evidence(int fit) const;
 };
@@ -80,9 +80,9 @@ Attribution attribute(Responses& model, Fitter& fitter, const std::function<void
 /// Probabilities of all hypotheses from evidence and prior.
 void set_probabilities(Attribution& attribution);
 
-/// Probability that all of these effects act, alone or with others; each under its own name or one of these that mean the same.
+/// Probability that all of these effects act, `alone` or with others, too; each under its own name or one of these that mean the same.
 double probability_of(const Attribution& attribution, const std::vector<std::string>& effects,
-                      const std::map<std::string, std::vector<std::string>>& same_as = {});
+                      const std::map<std::string, std::vector<std::string>>& same_as = {}, bool alone = false);
 
 /// Log predictive density of each training point given the others, summed.
 double leave_one_out(const Fit& fit);

@@ -203,7 +203,10 @@ Discrepancy fit_discrepancy(const Responses& model, Fitter& fitter, const Fit& n
     return nearer;
   State state = model.base();
   state.nuisances = nearer.nuisances;
-  return GaussianProcess(model, fitter.linearize(state, {}), fitter.base()).fit();
+  const Linearization there = fitter.linearize(state, {});
+  // What does not run there is five standard uncertainties off by convention (residual), which is near where the data have another unit.
+  const bool runs = std::all_of(there.responses.begin(), there.responses.end(), [](const Response& r) { return r.failure.empty(); });
+  return runs ? GaussianProcess(model, there, fitter.base()).fit() : nearer;
 }
 
 }  // namespace snag

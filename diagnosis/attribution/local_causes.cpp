@@ -168,14 +168,15 @@ LocalFit fit_local_cause(Responses& model, Fitter& fitter, int effect, const Sca
   for (std::size_t i = 0; i < terms.size(); ++i) mean += std::exp(terms[i] - total) * profile.places[i];
   for (std::size_t i = 0; i < terms.size(); ++i) square += std::exp(terms[i] - total) * std::pow(profile.places[i] - mean, 2);
   const double own = solve(fit.linear).log_evidence;
-  fit.log_evidence += total - own - std::log(family.high - family.low);
+  const double log_share = total - own - std::log(family.high - family.low);
+  fit.log_evidence += log_share;
   LocalCause cause{.effect = model.gate_of(effect)->effect,
                    .coordinate = family.name(),
                    .unit = family.unit(),
                    .is_upwards = family.is_upwards,
                    .mean = mean,
                    .sd = std::max(std::sqrt(square), step / std::sqrt(12.0))};
-  return {std::move(fit), std::move(cause)};
+  return {std::move(fit), std::move(cause), log_share};
 }
 
 }  // namespace snag

@@ -32,6 +32,7 @@ LocalScan scan_local_causes(Responses& model, const Fitter& fitter, const std::v
 struct LocalFit {
   Fit fit;  // its evidence is that of all places
   LocalCause cause;
+  double log_share = 0;  // log evidence of all places less that of the gate's own
 };
 
 /// `effect`: a local one (Responses::add_local), whose gate is moved to where the evidence is largest. Refits while `affordable` says yes.

@@ -69,7 +69,7 @@ std::vector<int> Attribution::alternatives_to(int fit) const {
   return alternatives;
 }
 
-double Attribution::outside_leads_by() const { return discrepancy.log_evidence - log_evidence(first()); }
+double Attribution::outside_leads_by(int fit) const { return discrepancy.log_evidence - log_evidence(fit); }
 
 double Attribution::log_evidence(int fit) const {
   const auto i = static_cast<std::size_t>(fit);
@@ -111,10 +111,11 @@ void set_probabilities(Attribution& attribution) {
 }
 
 double probability_of(const Attribution& attribution, const std::vector<std::string>& effects,
-                      const std::map<std::string, std::vector<std::string>>& same_as) {
+                      const std::map<std::string, std::vector<std::string>>& same_as, bool alone) {
   double sum = 0;
   for (const auto& [name, p] : attribution.probability) {
     const std::vector<std::string> acting = split(name, '+');
+    if (alone && acting.size() != effects.size()) continue;
     const auto is_there = [&](const std::string& effect) { return std::count(acting.begin(), acting.end(), effect) > 0; };
     const auto acts = [&](const std::string& effect) {
       const auto others = same_as.find(effect);

@@ -217,8 +217,14 @@ double Screening::projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) 
 }
 
 double Screening::detectability(int k) const {
+  const Whitening exact = fitter_.whiten(around_, 0);
   const Effect& effect = model_.effects()[k];
-  return std::sqrt(std::max(0.0, projected(columns_.at(k).front(), columns_.at(k).front()))) * std::abs(probe_strength(effect)) / effect.sd;
+  const Eigen::VectorXd own = column(k, 0, exact, fitter_.residual(around_.responses, exact));
+  const Eigen::MatrixXd J = fitter_.nuisance_columns(around_, exact);
+  const Eigen::VectorXd b = J.transpose() * own;
+  const Eigen::MatrixXd precision = J.transpose() * J + Eigen::MatrixXd::Identity(J.cols(), J.cols());
+  const double square = own.squaredNorm() - b.dot(precision.llt().solve(b));
+  return std::sqrt(std::max(0.0, square)) * std::abs(probe_strength(effect)) / effect.sd;
 }
 
 bool Screening::changes_runs(int k) const {

@@ -27,7 +27,8 @@ class Screening {
   Screened screen(const Hypothesis& hypothesis) const;
   /// Gain of one effect alone over none by the accelerations of the paths only (weak_form.hpp), nats; 0 where no path is long enough.
   double weak_gain(int candidate) const;
-  /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out.
+  /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out, where the laws of what
+  /// acts already hold: an error of their form takes up what is still missing.
   double detectability(int candidate) const;
   /// Whether any run with a candidate, in any of its forms, differs from that without it.
   bool changes_runs(int candidate) const;

@@ -77,7 +77,16 @@ double Attributor::log_prior_of_verdict(const Hypothesis& hypothesis) const {
   return std::log(best) - n_priced * nats_of_rule;
 }
 
+double Attributor::log_share_of_places(const Hypothesis& hypothesis) const {
+  double sum = 0;
+  if (hypothesis.effects.size() < 2) return sum;
+  for (const int k : hypothesis.effects)
+    if (const auto found = log_share_of_place_.find(k); found != log_share_of_place_.end()) sum += found->second;
+  return sum;
+}
+
 void Attributor::add(Fit fit) {
+  fit.log_evidence += log_share_of_places(fit.hypothesis);
   result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
   result_.not_fitted.erase(result_.names.back());
   result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.evidence_penalty.push_back(0);
@@ -217,7 +226,7 @@ void Attributor::fit_local_causes() {
     report("fit of " + model_.effects()[local].name, 0.84);
     LocalFit found = fit_local_cause(model_, fitter_, local, one, [&](int runs) { return affordable(runs); });
     result_.local[model_.effects()[local].name] = found.cause;
-    result_.other_name_of[local] = one.effect;
+    result_.other_name_of[local] = one.effect, log_share_of_place_[local] = found.log_share;
     add(std::move(found.fit));
   }
 }

@@ -114,6 +114,9 @@ NoiseModel noise_of(const std::vector<Contrasts>& all) {
   }
   const bool lasts = correlated.log_mean() > independent.log_mean() + nats_wanted;
   NoiseModel found = lasts ? correlated.noise : independent.noise;
+  // Repeats that scatter as much as the grid goes, or more, do not show a noise that was understated: more likely the numbers have another
+  // unit, whose hypothesis brings the noise along (mistakes.hpp). Their scatter is left to summary.hpp.
+  if (found.factor >= factor_at(n_factors - 1)) return {};
   // Who states more than the repeats scatter knows of more than these.
   found.factor = std::max(1.0, found.factor);
   found.nats = log_sum_exp(std::array{independent.log_mean(), correlated.log_mean()}) - std::numbers::ln2;

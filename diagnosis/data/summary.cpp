@@ -257,7 +257,9 @@ class PointSummarizer {
     return n > 1 ? sum / (n - 1) : 0;
   }
 
-  // Variance between replicates in three parts of the time, where the noise alone has a known one.
+  // Variance between replicates in three parts of the time, where the noise alone has a known one. Where noise lasts, n samples tell as
+  // little of it as n^2/sum over i, j of r_ij^2 independent ones, r the correlation: the variance of a sum of squares of Gaussian numbers
+  // is 2 sum r_ij^2.
   void add_spread(const Series& series, const std::vector<std::vector<double>>& times) {
     const int parts = std::min<int>(3, static_cast<int>(times.size()));
     for (int part = 0; part < parts; ++part) {
@@ -267,6 +269,7 @@ class PointSummarizer {
       row.n_replicates = static_cast<int>(series.replicates.size());
       row.noise_u = series.noise->factor * series.observable->noise_u;
       double square = 0, degrees = 0;
+      std::vector<double> instants;
       const std::size_t begin = part * times.size() / parts, end = (part + 1) * times.size() / parts;
       row.begin = times[begin].front(), row.end = times[end - 1].back();
       for (std::size_t b = begin; b < end; ++b) {
@@ -277,12 +280,17 @@ class PointSummarizer {
           for (const auto& [r, v] : at) mean += v / static_cast<double>(at.size());
           for (const auto& [r, v] : at) square += (v - mean) * (v - mean);
           degrees += static_cast<double>(at.size()) - 1;
+          instants.push_back(time);
           row.slots.push_back(slot(row.observable, time));
         }
       }
       if (degrees < 2 || square <= 0) continue;
       row.weights.assign(row.slots.size(), 1.0 / static_cast<double>(row.slots.size()));
-      row.value = std::log(square / degrees), row.sigma = degrees, row.u = std::sqrt(2 / degrees);
+      double correlated = 0;
+      for (const double a : instants)
+        for (const double b : instants) correlated += std::pow(series.noise->correlation(a - b), 2);
+      const double independent = degrees * static_cast<double>(instants.size()) / correlated;
+      row.value = std::log(square / degrees), row.sigma = independent, row.u = std::sqrt(2 / independent);
       result_.rows.push_back(std::move(row));
     }
   }

@@ -203,7 +203,7 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
   Response response{Eigen::VectorXd::Zero(n),   Eigen::VectorXd::Zero(n), {}, n_seeds, "", Eigen::VectorXd::Zero(n), {},
-                    std::vector<bool>(n, false)};
+                    {}, std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
@@ -245,6 +245,7 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
       if (point.rows[i].observable == nuisances_[j].bias_observable && point.rows[i].kind != Row::Kind::spread) response.value[i] += bias;
   }
   response.data_covariance = covariance_in_right_units(request.state, request.point);
+  response.spread_noise_u = spread_noise_in_right_units(request.state, request.point);
   if (n_seeds > 1) response.paths = values.topRows(point.n_gaussian).colwise() - values.topRows(point.n_gaussian).rowwise().mean();
   if (std::all_of(results.begin(), results.end(), [](const RunResult& r) { return !r.failure.empty(); }))
     response.failure = results.front().failure;
@@ -370,11 +371,31 @@ void Responses::leave_out_rows_without_answer(const std::vector<Response>& answe
       kept_of_all.push_back(i), rows.push_back(std::move(point.rows[i]));
     }
     if (!scatter_of_base_.empty()) scatter_of_base_[p] = Eigen::VectorXd(scatter_of_base_[p](kept_of_all));
-    for (auto& [unit, by_point] : in_right_units_) by_point[p] = Eigen::MatrixXd(by_point[p](kept, kept));
+    for (auto& [unit, by_point] : in_right_units_) {
+      InRightUnits& right = by_point[p];
+      right.covariance = Eigen::MatrixXd(right.covariance(kept, kept));
+      for (std::size_t i = 0; i < kept_of_all.size(); ++i)
+        right.spread_noise_u[i] = right.spread_noise_u[static_cast<std::size_t>(kept_of_all[i])];
+      right.spread_noise_u.resize(kept_of_all.size());
+    }
     point.covariance = Eigen::MatrixXd(point.covariance(kept, kept));
     point.rows = std::move(rows), point.n_gaussian = static_cast<int>(kept.size());
   }
 }
+
+namespace {
+
+/// f(row), the row with the noise that it has under the response's mistake of a unit.
+template <class Function>
+double with_row(const PointSummary& point, const Response& response, int i, const Function& f) {
+  const Row& row = point.rows[static_cast<std::size_t>(i)];
+  if (row.kind != Row::Kind::spread || response.spread_noise_u.empty()) return f(row);
+  Row in_right_units = row;
+  in_right_units.noise_u = response.spread_noise_u[static_cast<std::size_t>(i)];
+  return f(in_right_units);
+}
+
+}  // namespace
 
 Eigen::VectorXd residual(const PointSummary& point, const Response& response, const Eigen::LLT<Eigen::MatrixXd>& covariance) {
   const int n = static_cast<int>(point.rows.size()), g = point.n_gaussian;
@@ -392,7 +413,9 @@ Eigen::VectorXd residual(const PointSummary& point, const Response& response, co
     else if (!std::isfinite(model))
       r[i] = is_gaussian(row) ? missing * row.u : missing;
     else
-      r[i] = is_gaussian(row) ? row.value - model : deviance_residual(row, model, response.n_runs, response.scatter[i]);
+      r[i] = is_gaussian(row) ? row.value - model : with_row(point, response, i, [&](const Row& one) {
+        return deviance_residual(one, model, response.n_runs, response.scatter[i]);
+      });
   }
   if (g > 0) r.head(g) = covariance.matrixL().solve(r.head(g)).eval();
   return r;
@@ -402,7 +425,9 @@ double log_variance_ratio(const PointSummary& point, const Response& response) {
   double sum = 0;
   for (int i = point.n_gaussian; i < static_cast<int>(point.rows.size()); ++i)
     if (std::isfinite(response.value[i]))
-      sum += std::log(variance_ratio(point.rows[i], response.value[i], response.n_runs, response.scatter[i]));
+      sum += std::log(with_row(point, response, i, [&](const Row& row) {
+        return variance_ratio(row, response.value[i], response.n_runs, response.scatter[i]);
+      }));
   return sum;
 }
 

@@ -41,8 +41,9 @@ struct Response {
   int n_runs = 1;
   std::string failure;     // why none of its runs came through; empty: one did
   Eigen::VectorXd beyond;  // by row: standard uncertainty, where a mistake of times asks for what the runs do not reach (mistakes.hpp)
-  Eigen::MatrixXd data_covariance{};  // of the Gaussian rows, where a mistake of a unit makes it another one; empty: that of the point
-  std::vector<bool> later;            // by row: no run came to this time before it ended; `value` is the end
+  Eigen::MatrixXd data_covariance{};     // of the Gaussian rows, where a mistake of a unit makes it another one; empty: that of the point
+  std::vector<double> spread_noise_u{};  // by row, there too: standard deviation of a sample that the noise alone gives, of spreads
+  std::vector<bool> later;               // by row: no run came to this time before it ended; `value` is the end
 };
 
 /// One deviation that is free in every hypothesis.
@@ -139,15 +140,22 @@ class Responses {
   /// Data covariance of a state at a point; empty: as stated. And what a bias of an observable is to be multiplied by.
   Eigen::MatrixXd covariance_in_right_units(const State& state, int point) const;
   double factor_of_unit(const State& state, int observable) const;
+  std::vector<double> spread_noise_in_right_units(const State& state, int point) const;
   /// Returns the largest uncertainty of the values, by slot; empty: there is none.
   std::vector<double> mismeasure(const State& state, int point, std::span<RunResult> results) const;
+
+  /// Noise under a mistake of a unit, as numbers of the data: the covariance of the Gaussian rows, and by row what a spread has from it.
+  struct InRightUnits {
+    Eigen::MatrixXd covariance;
+    std::vector<double> spread_noise_u;
+  };
 
   const Experiment& experiment_;
   Simulator& simulator_;
   std::vector<Effect> effects_;
-  std::vector<Mistake> mistakes_;                               // after the effects of the simulator
-  std::vector<Gate> gates_;                                     // of the last of the effects
-  std::map<int, std::vector<Eigen::MatrixXd>> in_right_units_;  // by effect, of wrong units: covariance of the data, by point
+  std::vector<Mistake> mistakes_;                            // after the effects of the simulator
+  std::vector<Gate> gates_;                                  // of the last of the effects
+  std::map<int, std::vector<InRightUnits>> in_right_units_;  // by effect, of wrong units; by point
   std::vector<FreeNuisance> nuisances_;
   bool has_spread_;  // rows of the spread between replicates, for random effects
   std::vector<PointSummary> points_;

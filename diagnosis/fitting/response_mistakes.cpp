@@ -38,13 +38,16 @@ void Responses::find_noise_in_right_units() {
     for (Datum& d : right.data)
       if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor;
     for (PointSummary& point : summarize(right, simulator_, has_spread_)) {
-      Eigen::VectorXd factor = Eigen::VectorXd::Ones(point.n_gaussian);
-      for (int i = 0; i < point.n_gaussian; ++i) {
-        const int o = point.rows[static_cast<std::size_t>(i)].observable;
-        const bool logarithm = experiment_.observables[static_cast<std::size_t>(o)].kind == Observable::Kind::lognormal;
-        if (!logarithm && std::count(made.observables.begin(), made.observables.end(), o) > 0) factor[i] = made.factor;
+      Eigen::VectorXd factor = Eigen::VectorXd::Ones(std::ssize(point.rows));
+      std::vector<double> spread_noise_u;
+      for (Eigen::Index i = 0; i < factor.size(); ++i) {
+        const Row& row = point.rows[static_cast<std::size_t>(i)];
+        const bool logarithm = experiment_.observables[static_cast<std::size_t>(row.observable)].kind == Observable::Kind::lognormal;
+        if (!logarithm && std::count(made.observables.begin(), made.observables.end(), row.observable) > 0) factor[i] = made.factor;
+        spread_noise_u.push_back(factor[i] * row.noise_u);
       }
-      in_right_units_[k].push_back(factor.asDiagonal() * point.covariance * factor.asDiagonal());
+      const auto gaussian = factor.head(point.n_gaussian).asDiagonal();
+      in_right_units_[k].push_back({gaussian * point.covariance * gaussian, std::move(spread_noise_u)});
     }
   }
 }
@@ -67,7 +70,7 @@ Eigen::MatrixXd Responses::covariance_in_right_units(const State& state, int poi
     const Mistake* made = mistake(k);
     if (made == nullptr || made->kind != Mistake::Kind::unit || theta == 0) continue;
     if (covariance.size() == 0) covariance = summary.covariance;
-    const Eigen::MatrixXd& own = in_right_units_.at(k)[static_cast<std::size_t>(point)];
+    const Eigen::MatrixXd& own = in_right_units_.at(k)[static_cast<std::size_t>(point)].covariance;
     const auto changes = [&](int row) {
       const int o = summary.rows[static_cast<std::size_t>(row)].observable;
       return std::count(made->observables.begin(), made->observables.end(), o) > 0;
@@ -77,6 +80,15 @@ Eigen::MatrixXd Responses::covariance_in_right_units(const State& state, int poi
         if (changes(i) && changes(j)) covariance(i, j) = own(i, j);
   }
   return covariance;
+}
+
+std::vector<double> Responses::spread_noise_in_right_units(const State& state, int point) const {
+  for (const auto& [k, theta] : state.effects) {
+    const Mistake* made = mistake(k);
+    if (made != nullptr && made->kind == Mistake::Kind::unit && theta != 0)
+      return in_right_units_.at(k)[static_cast<std::size_t>(point)].spread_noise_u;
+  }
+  return {};
 }
 
 const Mistake* Responses::mistake(int effect) const {

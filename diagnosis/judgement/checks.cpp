@@ -115,35 +115,4 @@ std::vector<EffectEstimate> estimates(const Responses& model, const Fit& fit) {
   return all;
 }
 
-bool has_cell_of_its_own(const Responses& model, const Fit& whole, const Fit& without) {
-  constexpr int parts = 3;
-  constexpr double seen = 3;
-  std::vector<double> along(model.experiment().observables.size(), 0), square = along;  // by observable
-  for (std::size_t p = 0; p < model.training().size(); ++p) {
-    const auto& rows = model.points()[model.training()[p]].rows;
-    for (std::size_t begin = 0, end = 0; begin < rows.size(); begin = end) {
-      while (end < rows.size() && rows[end].observable == rows[begin].observable && rows[end].kind == rows[begin].kind) ++end;
-      const int n = static_cast<int>(end - begin);
-      const Eigen::VectorXd alone = without.residual.segment(without.first_row[p] + static_cast<int>(begin), n);
-      const Eigen::VectorXd together = whole.residual.segment(whole.first_row[p] + static_cast<int>(begin), n), taken = alone - together;
-      along[rows[begin].observable] += alone.dot(taken), square[rows[begin].observable] += taken.squaredNorm();
-      if (alone.dot(taken) > seen * taken.norm()) return true;
-      for (int part = 0; part < std::min(parts, n); ++part) {
-        const int from = part * n / parts, count = std::max(1, (part + 1) * n / parts - from);
-        const double mean = std::abs(alone.segment(from, count).sum()) / std::sqrt(count);
-        if (mean > seen && std::abs(together.segment(from, count).sum()) / std::sqrt(count) < mean) return true;
-      }
-    }
-  }
-  for (std::size_t o = 0; o < along.size(); ++o)
-    if (along[o] > seen * std::sqrt(square[o])) return true;
-  // Inputs that are off without the effect and are not with it show it too.
-  const auto m = static_cast<Eigen::Index>(model.nuisances().size());
-  const auto inputs = [m](const Fit& fit) -> Eigen::VectorXd {
-    return (fit.solution.d - fit.linear.prior).segment(fit.linear.lower.size(), m);
-  };
-  const Eigen::VectorXd alone = inputs(without), taken = alone - inputs(whole);
-  return alone.dot(taken) > seen * taken.norm();
-}
-
 }  // namespace snag

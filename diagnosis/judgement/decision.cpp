@@ -14,6 +14,8 @@ namespace snag {
 namespace {
 
 constexpr double attributed = 0.9, suspected = 0.5;
+/// A set is named without the 6 nats of the rule where it is so likely, alone, that it is three times as likely as all else together.
+constexpr double likely_alone = 0.75;
 constexpr double check_limit = 1e-3, constancy_limit = 1e-3;
 /// Rankings by evidence and by points left out differ where the other leader is ahead by more than this; less is chance.
 constexpr double rankings_differ = 2;
@@ -41,8 +43,8 @@ bool has_absorbing_effect(const Responses& model, const Fit& fit) {
   return std::any_of(all.begin(), all.end(), [](const EffectEstimate& e) { return e.absorbing; });
 }
 
-// An effect whose strength may be zero is not believed, nor a second one without a cell of its own, nor a further one with which a strength
-// is absorbing: the weight of its hypothesis falls below that of the others of it, the smaller hypotheses first.
+// An effect whose strength may be zero is not believed, nor a third or later one with which a strength is absorbing: the weight of its
+// hypothesis falls below that of the others of it, the smaller hypotheses first.
 void drop_surplus_effects(const Responses& model, Attribution& a) {
   std::vector<int> order;
   for (int i = 1; i < static_cast<int>(a.fits.size()); ++i) order.push_back(i);
@@ -53,20 +55,16 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
     const auto i = static_cast<std::size_t>(fit);
     const int part = a.best_part_of(fit);
     if (part < 0) continue;
-    const Fit& rest = a.fits[static_cast<std::size_t>(part)];
     const bool weak = has_weak_effect(model, a.fits[i]);
-    const std::size_t n_rest = rest.hypothesis.effects.size();
-    const bool absorbing = n_rest > 1 && has_absorbing_effect(model, a.fits[i]);
-    const bool unseen = n_rest == 1 && !has_cell_of_its_own(model, a.fits[i], rest);
-    if (!weak && !absorbing && !unseen) continue;
+    const bool absorbing = a.fits[i].hypothesis.effects.size() > 2 && has_absorbing_effect(model, a.fits[i]);
+    if (!weak && !absorbing) continue;
     constexpr double behind = 1;
     if (a.weight[i] <= a.weight[static_cast<std::size_t>(part)] - behind) continue;
     if (a.first() == fit)
       a.notes.push_back(weak ? "A strength of " + a.names[i] +
                                    " is less than 2 standard deviations clear of nothing, or an input less than 3 u off: it is not named."
-                        : absorbing ? "A strength of " + a.names[i] +
-                                          " is more than 3 standard deviations from its expected value: its last effect is not named."
-                                    : "The second effect of " + a.names[i] + " has no cell of its own, so it is not taken for an effect.");
+                             : "A strength of " + a.names[i] +
+                                   " is more than 3 standard deviations from its expected value: its last effect is not named.");
     a.weight[i] = a.weight[static_cast<std::size_t>(part)] - behind;
     // What it is credited with beside the others is what chance gives: nothing.
     a.evidence_penalty[i] = std::max(0.0, a.log_evidence(fit) - a.log_evidence(part));
@@ -112,8 +110,8 @@ class Judge {
       v_.leave_one_out[a_.names[i]] = a_.leave_one_out[i] - a_.leave_one_out[0];
     }
     v_.log_evidence["outside"] = a_.discrepancy.log_evidence - a_.fits[0].log_evidence;
-    const int first = a_.first();
-    discrepancy_leads_by_ = a_.outside_leads_by();
+    const int first = likely_larger_set(a_.first());
+    discrepancy_leads_by_ = a_.outside_leads_by(first);
     v_.checks = predictive_checks(model_, a_.fits[first], model_.experiment().seed);
     if (discrepancy_leads_by_ > nats_of_rule)
       discrepancy();
@@ -124,7 +122,9 @@ class Judge {
     for (const auto& [name, p] : v_.probability)
       for (const std::string& effect : split(name, '+'))
         if (effect != "none" && effect != "outside") v_.acts[effect] += p;
-    const int reported = v_.verdict == VerdictKind::none || v_.verdict == VerdictKind::blind ? 0 : a_.best_with_effect();
+    const int reported = v_.verdict == VerdictKind::none || v_.verdict == VerdictKind::blind ? 0
+                         : v_.verdict == VerdictKind::effects                                ? first
+                                                                                             : a_.best_with_effect();
     for (const int i : std::set<int>{reported, a_.best_with_effect()}) note_parameters(i);
     note_inputs(a_.fits[first]);
     note_checks(first);
@@ -132,6 +132,37 @@ class Judge {
   }
 
  private:
+  // The probabilities know nothing of the price that the rule puts on a further effect. Where effects that act everywhere stand beside the
+  // leading ones, and this set alone is likely enough, it is named, as suspected. A mistake and a place have to bring the 6 nats.
+  int likely_larger_set(int first) {
+    const std::vector<int>& leading = a_.fits[static_cast<std::size_t>(first)].hypothesis.effects;
+    if (leading.empty()) return first;
+    int best = first;
+    for (int i = 1; i < static_cast<int>(a_.fits.size()); ++i) {
+      const std::vector<int>& all = a_.fits[static_cast<std::size_t>(i)].hypothesis.effects;
+      const auto is_there = [&](int k) { return std::count(all.begin(), all.end(), k) > 0; };
+      const auto is_priced = [&](int k) {
+        return std::count(leading.begin(), leading.end(), k) == 0 && (model_.effects()[k].is_mistake || model_.effects()[k].is_local);
+      };
+      if (all.size() <= leading.size() || !std::all_of(leading.begin(), leading.end(), is_there) ||
+          std::any_of(all.begin(), all.end(), is_priced))
+        continue;
+      if (best == first || a_.log_prior[i] + a_.log_evidence(i) > a_.log_prior[best] + a_.log_evidence(best)) best = i;
+    }
+    if (best == first) return first;
+    const std::vector<std::string> effects = effect_names(model_, a_.fits[static_cast<std::size_t>(best)]);
+    std::map<std::string, std::vector<std::string>> same_as;
+    for (const int k : a_.fits[static_cast<std::size_t>(best)].hypothesis.effects)
+      for (const int other : same_causes(model_, a_, best, k)) same_as[model_.effects()[k].name].push_back(model_.effects()[other].name);
+    const double p = probability_of(a_, effects, same_as, true);
+    if (p < likely_alone) return first;
+    v_.notes.push_back(a_.names[best] + " brings " + rounded(a_.log_evidence(best) - a_.log_evidence(first)) + " nats more than " +
+                       a_.names[first] + ", less than 6 a further effect; alone it has a probability of " + number_text(p) +
+                       ", and it is named as suspected.");
+    is_below_rule_ = true;
+    return best;
+  }
+
   // A check shows that the hypothesis does not expect such data. It does not show which hypothesis is right: it adds a note and decides
   // nothing.
   void note_checks(int first) {
@@ -221,18 +252,27 @@ class Judge {
       tie(shared_verdict(a_));
     } else if (const int twin = equal_rival(first); twin >= 0) {
       tie({a_.names[first], a_.names[twin]});
-    } else if (several_points && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ) {
+    } else if (several_points && predicts_better(rival, first) && a_.weight[rival] > a_.weight[first] - nats_of_rule) {
       tie({a_.names[first], a_.names[rival]});
-      v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
-                         " predicts operating points that were left out better.");
+      note_better_predictor(rival, first);
     } else {
       v_.verdict = VerdictKind::effects;
-      const bool hold = guards_hold(first);
+      const bool hold = guards_hold(first) && !(several_points && predicts_better(rival, first));
+      if (several_points && predicts_better(rival, first)) note_better_predictor(rival, first);
       note_alternatives(first);
-      v_.wording = p >= attributed && hold && v_.alternatives.empty() ? Wording::attributed : Wording::suspected;
+      v_.wording = p >= attributed && hold && !is_below_rule_ && v_.alternatives.empty() ? Wording::attributed : Wording::suspected;
       note_causes(first);
       note_weak_second(first);
     }
+  }
+
+  // Predictions of the few points that are left out scatter more than the evidence does: another leader among them makes a tie where the
+  // evidence does not distinguish the two by the nats of the rule, and a doubt where it does.
+  bool predicts_better(int rival, int first) const { return a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ; }
+
+  void note_better_predictor(int rival, int first) {
+    v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
+                       " predicts operating points that were left out better.");
   }
 
   // To say one cause and not the other takes as many nats as to say a further one.
@@ -255,7 +295,8 @@ class Judge {
     if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
     v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + number_text(v_.probability.at(a_.names[first])) + ") is " +
                        likeliest->first + " (" + number_text(likeliest->second) +
-                       "), but an effect beyond the first is named only where it brings 6 nats and has a cell of its own.");
+                       "), but an effect beyond the first is named only where it brings 6 nats, or where all of them together have a "
+                       "probability of 0.75.");
   }
 
   // Another hypothesis with as many effects that the data cannot tell from the first; -1 if there is none.
@@ -331,7 +372,8 @@ class Judge {
   const Responses& model_;
   Attribution& a_;
   Verdict& v_;
-  double discrepancy_leads_by_ = 0;  // nats over the likeliest fit
+  double discrepancy_leads_by_ = 0;  // nats over the fit that is judged
+  bool is_below_rule_ = false;       // named for its probability; a further effect of it brings less than 6 nats
 };
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdio>
 #include <limits>
 
+#include "diagnosis/attribution/discrepancy.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/response.hpp"
 
@@ -70,6 +72,23 @@ TEST(FailedRuns, DerivativesByStrengthsAreThoseOfTheOtherSide) {
     EXPECT_NEAR(fit.theta[0], 0.2, 0.02);
     EXPECT_NEAR(fit.linear.J(0, 0) / fit.linear.J(0, 1), 20 / (20 * 0.05), 1e-6);
   }
+}
+
+/// Requirement: a process beside inputs with which nothing runs explains no more than one beside inputs with which all runs.
+TEST(FailedRuns, NoProcessIsBesideThem) {
+  Experiment experiment;
+  experiment.observables = {{.id = "x", .unit = "m", .noise_u = 0.1, .calibration_group = "", .numerics_u = 0}};
+  experiment.points = {{.id = "A", .case_file = {}}};
+  experiment.data = {{.value = 103}};
+  const auto evidence_of_outside = [&](double most) {
+    Narrow simulator(-1, most);
+    Responses responses(experiment, simulator);
+    Fitter fitter(responses);
+    return fit_discrepancy(responses, fitter, fitter.fit({}, Eigen::VectorXd())).log_evidence;
+  };
+  const double anywhere = evidence_of_outside(1e3), near = evidence_of_outside(0.2);
+  std::printf("outside: log evidence %.1f, with room nearby only %.1f\n", anywhere, near);
+  EXPECT_LT(near, anywhere + 1);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
+#include "diagnosis/data/summary.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -13,8 +15,8 @@ namespace {
 
 constexpr double u = 2e-4, step = 0.035;
 
-/// Three points with as many repeats of 20 samples: noise of a size and correlation from sample to sample, times 1 + growth t.
-NoiseModel found(double factor, double correlation, double growth, std::uint64_t seed) {
+/// Three points with five repeats of 20 samples: noise of a size and correlation from sample to sample, times 1 + growth t.
+Experiment experiment_of(double factor, double correlation, double growth, std::uint64_t seed) {
   Experiment experiment;
   experiment.observables = {{.id = "z", .unit = "m", .noise_u = u, .calibration_group = ""}};
   NormalNumbers random(seed);
@@ -28,8 +30,30 @@ NoiseModel found(double factor, double correlation, double growth, std::uint64_t
       }
     }
   }
-  return noise_of_repeats(experiment).front();
+  return experiment;
 }
+
+NoiseModel found(double factor, double correlation, double growth, std::uint64_t seed) {
+  return noise_of_repeats(experiment_of(factor, correlation, growth, seed)).front();
+}
+
+/// Is asked at the times of the samples; never run.
+class AtSamples final : public Simulator {
+ public:
+  AtSamples() {
+    for (int k = 0; k < 20; ++k) slots_.push_back({0, step * (k + 1)});
+  }
+  const std::vector<Effect>& effects() const override { return effects_; }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  const std::vector<Slot>& slots(int) const override { return slots_; }
+  std::vector<RunResult> run(std::span<const RunRequest>) override { return {}; }
+  int n_runs() const override { return 0; }
+
+ private:
+  std::vector<Effect> effects_;
+  std::vector<Nuisance> nuisances_;
+  std::vector<Slot> slots_;
+};
 
 TEST(Noise, AsStated) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -56,11 +80,37 @@ TEST(Noise, Overstated) {
   }
 }
 
+/// Numbers in another unit scatter a thousand times as much.
+TEST(Noise, AnotherUnitIsNoNoise) {
+  EXPECT_EQ(found(1000, 0, 0, 7).factor, 1);
+  EXPECT_EQ(found(1000, 0.8, 0, 7).factor, 1);
+}
+
 TEST(Noise, LastsFromSampleToSample) {
   for (const double factor : {1.0, 2.0}) {
     const NoiseModel noise = found(factor, 0.8, 0, 8);
     EXPECT_NEAR(noise.factor, factor, 0.3 * factor);
     EXPECT_NEAR(noise.correlation(step), 0.8, 0.1);
+  }
+}
+
+/// The spread between repeats in a part of the time is as far from its expectation as its row says, whether or not the noise lasts: samples
+/// that are correlated are fewer independent ones.
+TEST(Noise, SpreadIsAsUncertainAsItsRowSays) {
+  for (const double correlation : {0.0, 0.8}) {
+    double square = 0;
+    int n = 0;
+    for (std::uint64_t seed = 100; seed < 140; ++seed) {
+      for (const PointSummary& point : summarize(experiment_of(1, correlation, 0, seed), AtSamples(), true)) {
+        for (const Row& row : point.rows) {
+          if (row.kind != Row::Kind::spread) continue;
+          square += std::pow(deviance_residual(row, 0, 1, 0), 2), ++n;
+        }
+      }
+    }
+    ASSERT_EQ(n, 40 * 3 * 3);
+    std::printf("correlation %.1f: mean square of %d deviations %.2f\n", correlation, n, square / n);
+    EXPECT_NEAR(square / n, 1, 0.25) << correlation;  // 3 standard deviations of that mean are 0.22
   }
 }
 

@@ -97,9 +97,9 @@ TEST(Probabilities, AlternativesAreLessThanSixNatsBehind) {
 TEST(Probabilities, OutsideLeadsByEvidence) {
   Attribution attribution = with_evidence(0, 80, 2, 100, 104);
   attribution.weight = {0, 80, 2, 94};  // a further effect costs 6
-  EXPECT_NEAR(attribution.outside_leads_by(), 4, 1e-12);
+  EXPECT_NEAR(attribution.outside_leads_by(3), 4, 1e-12);
   attribution.remainder[3].gain = 3, attribution.weight[3] += 3;
-  EXPECT_NEAR(attribution.outside_leads_by(), 1, 1e-12);
+  EXPECT_NEAR(attribution.outside_leads_by(3), 1, 1e-12);
 }
 
 /// Requirement: an effect acts in every hypothesis that holds it; one whose name is part of another's does not.
@@ -109,6 +109,8 @@ TEST(Probabilities, ThatAnEffectActs) {
   EXPECT_NEAR(probability_of(attribution, {"a"}), 0.6, 1e-12);
   EXPECT_NEAR(probability_of(attribution, {"b"}), 0.2, 1e-12);
   EXPECT_NEAR(probability_of(attribution, {"a", "b"}), 0.2, 1e-12);
+  EXPECT_NEAR(probability_of(attribution, {"a"}, {}, true), 0.4, 1e-12);
+  EXPECT_NEAR(probability_of(attribution, {"a"}, {{"a", {"ab"}}}, true), 0.65, 1e-12);
 }
 
 }  // namespace

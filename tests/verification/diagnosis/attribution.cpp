@@ -203,21 +203,35 @@ TEST(Attribution, EffectAndRemainder) {
   EXPECT_GE(named, 5);
 }
 
-// A second effect that is likelier there than not, but brings less than 6 nats, is not named; a note says how likely both are.
-TEST(Attribution, WeakSecondEffectIsTold) {
-  int told = 0;
-  for (int i = 0; i < 8; ++i) {
+// A second effect that brings less than 6 nats: where both, and nothing else, have a probability of 0.75 they are named as suspected; where
+// both are only likelier than the first alone, a note says how likely.
+TEST(Attribution, WeakSecondEffect) {
+  int told = 0, suspected = 0;
+  const auto has_note = [](const Verdict& verdict, const std::string& begin, const std::string& part) {
+    return std::any_of(verdict.notes.begin(), verdict.notes.end(),
+                       [&](const std::string& note) { return note.starts_with(begin) && note.find(part) != std::string::npos; });
+  };
+  for (int i = 0; i < 12; ++i) {
     const Verdict verdict = judged({.effects = {{"added_mass", 0.5}, {"measurement", 0.002 + 0.001 * i}}}, 3100 + i, false, 0);
-    if (verdict.verdict != VerdictKind::effects || joined_effects(verdict) != "added_mass") continue;
+    if (verdict.verdict != VerdictKind::effects) continue;
     const double alone = verdict.probability.at("added_mass"), both = verdict.probability.at("added_mass+measurement");
-    const bool has_note = std::any_of(verdict.notes.begin(), verdict.notes.end(), [](const std::string& note) {
-      return note.starts_with("Likelier than added_mass alone") && note.find("is added_mass+measurement") != std::string::npos;
-    });
-    EXPECT_EQ(has_note, both > alone) << i << ": " << both << ", alone " << alone;
-    told += has_note;
+    const std::string said = joined_effects(verdict);
+    if (said == "added_mass") {
+      const bool noted = has_note(verdict, "Likelier than added_mass alone", "is added_mass+measurement");
+      EXPECT_EQ(noted, both > alone) << i << ": " << both << ", alone " << alone;
+      EXPECT_LT(both, 0.75) << i;
+      told += noted;
+    } else if (has_note(verdict, "added_mass+measurement brings", "named as suspected")) {
+      EXPECT_EQ(said, "added_mass+measurement");
+      EXPECT_EQ(verdict.wording, Wording::suspected);
+      EXPECT_GE(both, 0.75) << i;
+      EXPECT_TRUE(verdict.parameters.contains("measurement"));
+      ++suspected;
+    }
   }
-  std::printf("weak second effects: %d of 8 told\n", told);
+  std::printf("weak second effects of 12: %d told, %d suspected\n", told, suspected);
   EXPECT_GE(told, 1);
+  EXPECT_GE(suspected, 1);
 }
 
 // A periodic body force and a drag that grows with depth are in no library: abstain.

@@ -13,7 +13,7 @@ using formula::judged;
 
 TEST(NewConditions, TellMoreThanRepeats) {
   int ties = 0, proposed = 0;
-  for (int i = 0; ties < 10 && i < 400; ++i) {
+  for (int i = 0; ties < 10 && i < 800; ++i) {
     const double coarse = std::array{2e-3, 3e-3, 4e-3}[static_cast<std::size_t>(i % 3)];  // m
     const std::pair<const std::string, double> weak[] = {
         {"added_mass", 0.3}, {"pressure_gradient", 0.4}, {"lift", 0.5}, {"operating_point", 0.1}};
