@@ -202,8 +202,8 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
 Response Responses::response(const Request& request, std::span<const RunResult> results, const std::vector<double>& u) const {
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
-  Response response{Eigen::VectorXd::Zero(n),   Eigen::VectorXd::Zero(n), {}, n_seeds, "", Eigen::VectorXd::Zero(n), {},
-                    {}, std::vector<bool>(n, false)};
+  Response response{Eigen::VectorXd::Zero(n),   Eigen::VectorXd::Zero(n), {}, n_seeds, "", Eigen::VectorXd::Zero(n), {}, {},
+                    std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
     const Row& row = point.rows[i];
