@@ -80,7 +80,7 @@ Attribution attribute(Responses& model, Fitter& fitter, const std::function<void
 /// Probabilities of all hypotheses from evidence and prior.
 void set_probabilities(Attribution& attribution);
 
-/// Probability that all of these effects act, `alone` or with others, too; each under its own name or one of these that mean the same.
+/// Probability that all of these effects act, each under its own name or one of these that mean the same; `alone`: and no other.
 double probability_of(const Attribution& attribution, const std::vector<std::string>& effects,
                       const std::map<std::string, std::vector<std::string>>& same_as = {}, bool alone = false);
 

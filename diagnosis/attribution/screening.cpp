@@ -46,13 +46,8 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
   if (model.base_is_random()) around_.responses = model.run(around_.state, training);
   fitter.mirror_failed(around_.state, around_.responses, std::span(requests).subspan(n_added), std::span(responses).subspan(n_added),
                        [&](const auto& down) { return model.run(down); });
-  whitening_ = fitter.whiten(around_);
-  weak_form_.emplace(model, whitening_);
-  rho_ = fitter.residual(around_.responses, whitening_);
-  nuisances_ = fitter.nuisance_columns(around_, whitening_);
-  const Eigen::Index m = nuisances_.cols();
-  nuisance_precision_inverse_ =
-      (nuisances_.transpose() * nuisances_ + Eigen::MatrixXd::Identity(m, m)).llt().solve(Eigen::MatrixXd::Identity(m, m));
+  metric_ = metric(widest_form_error), exact_ = metric(0);
+  weak_form_.emplace(model, metric_.whitening);
   std::size_t next = 0;
   const auto take = [&](int k, int n_forms) {
     for (int form = 0; form < n_forms; ++form) {
@@ -61,7 +56,7 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
         probed_[k].back().push_back(responses[next]);
         signatures_[k].back().push_back(finite(responses[next++].value - around_.responses[p].value));
       }
-      columns_[k].push_back(column(k, form, whitening_, rho_));
+      columns_[k].push_back(column(k, form, metric_.whitening, metric_.rho));
     }
   };
   for (const int k : candidates_) take(k, model.effects()[k].n_forms + model.effects()[k].n_deviations);
@@ -122,7 +117,7 @@ Eigen::VectorXd Screening::strengths_there(const Hypothesis& hypothesis) const {
 
 /// Prior and bounds of the strengths and the nuisances; the columns of the strengths are still to be filled.
 LinearModel Screening::linear_model(const Hypothesis& hypothesis, const Eigen::VectorXd& there) const {
-  const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(nuisances_.cols());
+  const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(metric_.nuisances.cols());
   LinearModel linear;
   linear.prior = Eigen::VectorXd::Zero(k + m);
   linear.prior.segment(k, m) = -around_.state.nuisances;
@@ -132,7 +127,7 @@ LinearModel Screening::linear_model(const Hypothesis& hypothesis, const Eigen::V
     linear.prior[e] = (effect.mean - there[e]) / effect.sd;
     linear.lower[e] = (effect.minimum - there[e]) / effect.sd, linear.upper[e] = (effect.maximum - there[e]) / effect.sd;
   }
-  linear.rho = rho_, linear.J.resize(rho_.size(), k + m), linear.J.rightCols(m) = nuisances_;
+  linear.rho = metric_.rho, linear.J.resize(metric_.rho.size(), k + m), linear.J.rightCols(m) = metric_.nuisances;
   return linear;
 }
 
@@ -144,7 +139,7 @@ void Screening::screen_leads(const Eigen::VectorXd& there, LinearModel& linear, 
   for (bool more = true; more;) {
     for (int e = 0; e < k; ++e) linear.J.col(e) = columns_.at(effects[e])[static_cast<std::size_t>(leads[static_cast<std::size_t>(e)])];
     const LinearSolution solution = solve(linear);
-    const double evidence = solution.log_evidence - 0.5 * whitening_.log_determinant;
+    const double evidence = solution.log_evidence - 0.5 * metric_.whitening.log_determinant;
     if (evidence > result.log_evidence) {
       result.log_evidence = evidence, result.forms = leads;
       for (int e = 0; e < k; ++e) result.theta[e] = there[e] + model_.effects()[effects[e]].sd * solution.d[e];
@@ -161,7 +156,7 @@ void Screening::screen_leads(const Eigen::VectorXd& there, LinearModel& linear, 
 void Screening::screen_shares(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const {
   const Screened first = result;
   const std::vector<int>& effects = first.hypothesis.effects;
-  const int k = static_cast<int>(effects.size()), m = static_cast<int>(nuisances_.cols());
+  const int k = static_cast<int>(effects.size()), m = static_cast<int>(metric_.nuisances.cols());
   Linearization at = around_;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (present(effects[e])) continue;
@@ -195,9 +190,9 @@ void Screening::screen_shares(const Eigen::VectorXd& there, LinearModel& linear,
 double Screening::weak_gain(int k) const {
   const auto& weak = *weak_form_;
   if (weak.size() == 0) return 0;
-  const auto m = nuisances_.cols();
-  LinearModel none{weak(rho_), Eigen::MatrixXd(weak.size(), m), -around_.state.nuisances, {}, {}};
-  for (Eigen::Index j = 0; j < m; ++j) none.J.col(j) = weak(nuisances_.col(j));
+  const auto m = metric_.nuisances.cols();
+  LinearModel none{weak(metric_.rho), Eigen::MatrixXd(weak.size(), m), -around_.state.nuisances, {}, {}};
+  for (Eigen::Index j = 0; j < m; ++j) none.J.col(j) = weak(metric_.nuisances.col(j));
   const double without = solve(none).log_evidence;
   const Effect& effect = model_.effects()[k];
   double best = -std::numeric_limits<double>::infinity();
@@ -212,19 +207,25 @@ double Screening::weak_gain(int k) const {
   return best;
 }
 
-double Screening::projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-  return a.dot(b) - (nuisances_.transpose() * a).dot(nuisance_precision_inverse_ * (nuisances_.transpose() * b));
+Screening::Metric Screening::metric(double form_error) const {
+  Metric metric;
+  metric.whitening = fitter_.whiten(around_, form_error);
+  metric.rho = fitter_.residual(around_.responses, metric.whitening);
+  metric.nuisances = fitter_.nuisance_columns(around_, metric.whitening);
+  const Eigen::MatrixXd& J = metric.nuisances;
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(J.cols(), J.cols());
+  metric.nuisance_covariance = (J.transpose() * J + one).llt().solve(one);
+  return metric;
+}
+
+double Screening::Metric::product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+  return a.dot(b) - (nuisances.transpose() * a).dot(nuisance_covariance * (nuisances.transpose() * b));
 }
 
 double Screening::detectability(int k) const {
-  const Whitening exact = fitter_.whiten(around_, 0);
   const Effect& effect = model_.effects()[k];
-  const Eigen::VectorXd own = column(k, 0, exact, fitter_.residual(around_.responses, exact));
-  const Eigen::MatrixXd J = fitter_.nuisance_columns(around_, exact);
-  const Eigen::VectorXd b = J.transpose() * own;
-  const Eigen::MatrixXd precision = J.transpose() * J + Eigen::MatrixXd::Identity(J.cols(), J.cols());
-  const double square = own.squaredNorm() - b.dot(precision.llt().solve(b));
-  return std::sqrt(std::max(0.0, square)) * std::abs(probe_strength(effect)) / effect.sd;
+  const Eigen::VectorXd own = column(k, 0, exact_.whitening, exact_.rho);
+  return std::sqrt(std::max(0.0, exact_.product(own, own))) * std::abs(probe_strength(effect)) / effect.sd;
 }
 
 bool Screening::changes_runs(int k) const {
@@ -240,24 +241,25 @@ std::string Screening::failure(int k) const {
 }
 
 double Screening::cosine(int a, int b) const {
-  const double norm = std::sqrt(
-      std::max(0.0, projected(columns_.at(a).front(), columns_.at(a).front()) * projected(columns_.at(b).front(), columns_.at(b).front())));
-  return norm > 0 ? projected(columns_.at(a).front(), columns_.at(b).front()) / norm : 0;
+  const Eigen::VectorXd &of_a = columns_.at(a).front(), &of_b = columns_.at(b).front();
+  const double norm = std::sqrt(std::max(0.0, metric_.product(of_a, of_a) * metric_.product(of_b, of_b)));
+  return norm > 0 ? metric_.product(of_a, of_b) / norm : 0;
 }
 
 double Screening::placebo_rate(std::uint64_t seed) const {
-  const int m = static_cast<int>(nuisances_.cols());
+  const int m = static_cast<int>(metric_.nuisances.cols());
   const auto first = fitter_.first_rows();
   const auto evidence = [&](const Eigen::VectorXd& own, const Effect& effect) {
-    LinearModel linear{rho_, Eigen::MatrixXd(rho_.size(), 1 + m), Eigen::VectorXd::Zero(1 + m), {}, {}};
-    linear.J.col(0) = own, linear.J.rightCols(m) = nuisances_;
+    LinearModel linear{metric_.rho, Eigen::MatrixXd(metric_.rho.size(), 1 + m), Eigen::VectorXd::Zero(1 + m), {}, {}};
+    linear.J.col(0) = own, linear.J.rightCols(m) = metric_.nuisances;
     linear.prior[0] = effect.mean / effect.sd;
     linear.lower = Eigen::VectorXd::Constant(1, effect.minimum / effect.sd),
     linear.upper = Eigen::VectorXd::Constant(1, effect.maximum / effect.sd);
     return solve(linear).log_evidence;
   };
   NormalNumbers random(seed);
-  double best = solve(LinearModel{rho_, nuisances_, Eigen::VectorXd::Zero(m), Eigen::VectorXd(), Eigen::VectorXd()}).log_evidence;
+  double best =
+      solve(LinearModel{metric_.rho, metric_.nuisances, Eigen::VectorXd::Zero(m), Eigen::VectorXd(), Eigen::VectorXd()}).log_evidence;
   std::vector<double> placebo;
   for (const int k : candidates_) {
     const Effect& effect = model_.effects()[k];

@@ -27,8 +27,8 @@ class Screening {
   Screened screen(const Hypothesis& hypothesis) const;
   /// Gain of one effect alone over none by the accelerations of the paths only (weak_form.hpp), nats; 0 where no path is long enough.
   double weak_gain(int candidate) const;
-  /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out, where the laws of what
-  /// acts already hold: an error of their form takes up what is still missing.
+  /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out, without an error of
+  /// form of the effects around which was screened: such an error takes up what is still missing.
   double detectability(int candidate) const;
   /// Whether any run with a candidate, in any of its forms, differs from that without it.
   bool changes_runs(int candidate) const;
@@ -45,7 +45,15 @@ class Screening {
   }
 
  private:
-  double projected(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  /// Whitened rows with one error of form of the effects around which was screened.
+  struct Metric {
+    Whitening whitening;
+    Eigen::VectorXd rho;
+    Eigen::MatrixXd nuisances, nuisance_covariance;
+    /// Of two columns, nuisances projected out.
+    double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  };
+  Metric metric(double form_error) const;
   Eigen::VectorXd column(int effect, int form, const Whitening& whitening, const Eigen::VectorXd& rho) const;
   bool present(int effect) const;
   Eigen::VectorXd strengths_there(const Hypothesis& hypothesis) const;
@@ -58,10 +66,8 @@ class Screening {
   Fitter& fitter_;
   std::vector<int> candidates_;
   Linearization around_;
-  Whitening whitening_;
+  Metric metric_, exact_;  // with the widest error of form, and with none
   std::optional<WeakForm> weak_form_;
-  Eigen::VectorXd rho_;
-  Eigen::MatrixXd nuisances_, nuisance_precision_inverse_;
   // By candidate and form; an effect around which was screened has the form that leads there only.
   std::map<int, std::vector<std::vector<Response>>> probed_;
   std::map<int, std::vector<std::vector<Eigen::VectorXd>>> signatures_;

@@ -14,7 +14,8 @@ namespace snag {
 namespace {
 
 constexpr double attributed = 0.9, suspected = 0.5;
-/// A set is named without the 6 nats of the rule where it is so likely, alone, that it is three times as likely as all else together.
+/// A set of effects is named without the 6 nats of the rule where its probability is this, three times that of all other hypotheses
+/// together.
 constexpr double likely_alone = 0.75;
 constexpr double check_limit = 1e-3, constancy_limit = 1e-3;
 /// Rankings by evidence and by points left out differ where the other leader is ahead by more than this; less is chance.
@@ -132,8 +133,9 @@ class Judge {
   }
 
  private:
-  // The probabilities know nothing of the price that the rule puts on a further effect. Where effects that act everywhere stand beside the
-  // leading ones, and this set alone is likely enough, it is named, as suspected. A mistake and a place have to bring the 6 nats.
+  // The probabilities know nothing of the price that the rule puts on a further effect. The likeliest set that holds the leading effects
+  // and further ones that act everywhere, if it is likely enough to be named as suspected; else the leading one. A mistake and a local
+  // effect have to bring the 6 nats.
   int likely_larger_set(int first) {
     const std::vector<int>& leading = a_.fits[static_cast<std::size_t>(first)].hypothesis.effects;
     if (leading.empty()) return first;
@@ -157,8 +159,8 @@ class Judge {
     const double p = probability_of(a_, effects, same_as, true);
     if (p < likely_alone) return first;
     v_.notes.push_back(a_.names[best] + " brings " + rounded(a_.log_evidence(best) - a_.log_evidence(first)) + " nats more than " +
-                       a_.names[first] + ", less than 6 a further effect; alone it has a probability of " + number_text(p) +
-                       ", and it is named as suspected.");
+                       a_.names[first] + ". To be attributed, each further effect has to bring 6 nats. The set has a probability of " +
+                       number_text(p) + ", so it is named as suspected.");
     is_below_rule_ = true;
     return best;
   }
@@ -244,7 +246,6 @@ class Judge {
     v_.effects = effect_names(model_, a_.fits[first]);
     // Whether a further effect acts that is too weak to be named does not make the named ones less certain.
     const double p = v_.p_effects = probability_of(a_, v_.effects, v_.same_as);
-    const bool several_points = model_.training().size() > 1;
     if (discrepancy_leads_by_ > 0) {
       tie({a_.names[first], "outside"});
       note_weak_second(first);
@@ -252,13 +253,13 @@ class Judge {
       tie(shared_verdict(a_));
     } else if (const int twin = equal_rival(first); twin >= 0) {
       tie({a_.names[first], a_.names[twin]});
-    } else if (several_points && predicts_better(rival, first) && a_.weight[rival] > a_.weight[first] - nats_of_rule) {
+    } else if (predicts_better(rival, first) && a_.weight[rival] > a_.weight[first] - nats_of_rule) {
       tie({a_.names[first], a_.names[rival]});
       note_better_predictor(rival, first);
     } else {
       v_.verdict = VerdictKind::effects;
-      const bool hold = guards_hold(first) && !(several_points && predicts_better(rival, first));
-      if (several_points && predicts_better(rival, first)) note_better_predictor(rival, first);
+      const bool hold = guards_hold(first) && !(predicts_better(rival, first));
+      if (predicts_better(rival, first)) note_better_predictor(rival, first);
       note_alternatives(first);
       v_.wording = p >= attributed && hold && !is_below_rule_ && v_.alternatives.empty() ? Wording::attributed : Wording::suspected;
       note_causes(first);
@@ -268,7 +269,9 @@ class Judge {
 
   // Predictions of the few points that are left out scatter more than the evidence does: another leader among them makes a tie where the
   // evidence does not distinguish the two by the nats of the rule, and a doubt where it does.
-  bool predicts_better(int rival, int first) const { return a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ; }
+  bool predicts_better(int rival, int first) const {
+    return model_.training().size() > 1 && a_.leave_one_out[rival] > a_.leave_one_out[first] + rankings_differ;
+  }
 
   void note_better_predictor(int rival, int first) {
     v_.notes.push_back("The evidence is for " + a_.names[first] + ", but " + a_.names[rival] +
@@ -295,8 +298,8 @@ class Judge {
     if (acting.size() <= v_.effects.size() || !std::all_of(v_.effects.begin(), v_.effects.end(), acts)) return;
     v_.notes.push_back("Likelier than " + a_.names[first] + " alone (" + number_text(v_.probability.at(a_.names[first])) + ") is " +
                        likeliest->first + " (" + number_text(likeliest->second) +
-                       "), but an effect beyond the first is named only where it brings 6 nats, or where all of them together have a "
-                       "probability of 0.75.");
+                       "), but a further effect is named only where it brings 6 nats, or where the set has a probability of " +
+                       number_text(likely_alone) + ".");
   }
 
   // Another hypothesis with as many effects that the data cannot tell from the first; -1 if there is none.

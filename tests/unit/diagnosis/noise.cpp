@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "diagnosis/data/summary.hpp"
+#include "diagnosis/fitting/response.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -37,20 +39,25 @@ NoiseModel found(double factor, double correlation, double growth, std::uint64_t
   return noise_of_repeats(experiment_of(factor, correlation, growth, seed)).front();
 }
 
-/// Is asked at the times of the samples; never run.
+/// Answers with the path of the experiment at the times of the samples; an effect by chance makes the spread between repeats a row.
 class AtSamples final : public Simulator {
  public:
   AtSamples() {
+    effects_.front().random = true;
     for (int k = 0; k < 20; ++k) slots_.push_back({0, step * (k + 1)});
   }
   const std::vector<Effect>& effects() const override { return effects_; }
   const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
   const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest>) override { return {}; }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
+    RunResult path;
+    for (int k = 0; k < 20; ++k) path.values.push_back(std::sin(k));
+    return std::vector<RunResult>(requests.size(), path);
+  }
   int n_runs() const override { return 0; }
 
  private:
-  std::vector<Effect> effects_;
+  std::vector<Effect> effects_{{.name = "eddies"}};
   std::vector<Nuisance> nuisances_;
   std::vector<Slot> slots_;
 };
@@ -112,6 +119,27 @@ TEST(Noise, SpreadIsAsUncertainAsItsRowSays) {
     std::printf("correlation %.1f: mean square of %d deviations %.2f\n", correlation, n, square / n);
     EXPECT_NEAR(square / n, 1, 0.25) << correlation;  // 3 standard deviations of that mean are 0.22
   }
+}
+
+/// Under the mistake of a unit the spread between repeats is that of the noise in the other unit.
+TEST(Noise, SpreadFollowsTheUnit) {
+  Experiment experiment = experiment_of(1, 0, 0, 7);
+  for (Datum& datum : experiment.data) datum.value *= 1000;
+  AtSamples simulator;
+  Responses responses(experiment, simulator);
+  const auto& effects = responses.effects();
+  const auto unit = std::find_if(effects.begin(), effects.end(), [](const Effect& effect) { return effect.name == "unit:m"; });
+  ASSERT_NE(unit, effects.end());
+  State state = responses.base();
+  state.effects = {{static_cast<int>(unit - effects.begin()), 1}};
+  const auto largest_of_spreads = [&](const State& of) {
+    const Response answer = responses.run(of, {0}).front();
+    const PointSummary& point = responses.points().front();
+    const Eigen::LLT<Eigen::MatrixXd> unscaled(Eigen::MatrixXd::Identity(point.n_gaussian, point.n_gaussian));
+    return residual(point, answer, unscaled).tail(3).cwiseAbs().maxCoeff();
+  };
+  EXPECT_GT(largest_of_spreads(responses.base()), 100);
+  EXPECT_LT(largest_of_spreads(state), 4);
 }
 
 TEST(Noise, GrowingScatterIsNoNoise) { EXPECT_EQ(found(1, 0, 0.2, 9).factor, 1); }
