@@ -49,10 +49,18 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       right_side_(workspace.scalar[2]),
       slope_(workspace.vector[0]),
       gradient_(workspace.vector[1]),
+      closed_cells_(closed_cells(mesh, squares_)),
       mean_gradient_(workspace.mean_gradient()),
       change_(workspace.face),
       given_(mesh.n_faces - mesh.n_interior),
       boundary_correction_(mesh.n_faces - mesh.n_interior) {
+  if (sum(mesh.comm, static_cast<std::int64_t>(closed_cells_.size())) > 0) {
+    std::vector<double> closed(static_cast<std::size_t>(mesh.n_all_cells()));
+    for (const int c : closed_cells_) closed[c] = 1;
+    mesh.halo.exchange(closed);
+    is_closed_.assign(closed.begin(), closed.end());
+    to_mean_.resize(closed.size());
+  }
   set_coefficients(boundary, 0);
 }
 
@@ -163,6 +171,8 @@ void Continuity::balance_reaction(Flow& flow) {
     const Vec3 at_face = blend(mesh_.weight[f], held[mesh_.owner[f]], held[mesh_.neighbour[f]]);
     reaction_excess_[f] = coefficient_[f] * (change_[f] - dot(at_face, mesh_.delta[f]));
   }
+  set_mean_flux(held);
+  for (std::size_t i = 0; i < closed_faces_.size(); ++i) reaction_excess_[closed_faces_[i]] += mean_flux_[i];
 }
 
 /// f~ of the header in all cells, into gradient_: with the sum of f.
@@ -187,7 +197,7 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
   const bool with_pressure = purpose != Purpose::projection, for_history = purpose != Purpose::correction;
   const auto& u = flow.velocity;
   const auto& g = flow.pressure_gradient;
-  // [grad p].S less the same with the compact difference along d: what remains is c times the difference of the two along d
+  // [g]_f.S - c (p_N - p_P) - T.[g]_f: what remains is c times the difference of the two along d
   const auto damping = [&](int f) {
     const int P = mesh_.owner[f], N = mesh_.neighbour[f];
     const double w = mesh_.weight[f];
@@ -201,6 +211,15 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
     const double psi = with_pressure ? history.pressure_share()[f] * damping(f) + history.inherited()[f] : 0;
     flow.flux[f] = interpolated_flux(mesh_, f, u_f, mean_gradient_) + psi;
     if (for_history) history.take(f, psi);
+  }
+  if (with_pressure) {
+    set_mean_flux(g);
+    for (std::size_t i = 0; i < closed_faces_.size(); ++i) {
+      const int f = closed_faces_[i];
+      const double less = history.pressure_share()[f] * mobility_ * mean_flux_[i];
+      flow.flux[f] -= less;
+      if (for_history) history.add(f, -less);
+    }
   }
   boundary_flux(flow, boundary, gradient, purpose);
 }
@@ -236,12 +255,34 @@ void Continuity::carry_history() {
     const double change = dot(blend(mesh_.weight[f], gradient_[P], gradient_[N]), mesh_.delta[f]) - (correction_[N] - correction_[P]);
     history.add(f, mobility_ * coefficient_[f] * change);
   }
+  set_mean_flux(gradient_);
+  for (std::size_t i = 0; i < closed_faces_.size(); ++i) history.add(closed_faces_[i], -mobility_ * mean_flux_[i]);
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     const int P = mesh_.owner[f];
     const double change = dot(gradient_[P], mesh_.delta[f]) - (given_[f - mesh_.n_interior] - correction_[P]);
     history.add(f, mobility_ * coefficient_[f] * change);  // c is 0 where the flux is given
   }
   history.end_step();
+}
+
+/// T.[g^ - g]_f of closed_faces_.
+void Continuity::set_mean_flux(const std::vector<Vec3>& g) {
+  if (is_closed_.empty()) return;
+  for (const int c : closed_cells_) to_mean_[c] = mean_of_neighbours(mesh_, c, g) - g[c];
+  mesh_.halo.exchange(to_mean_);
+  for (std::size_t i = 0; i < closed_faces_.size(); ++i) {
+    const int f = closed_faces_[i];
+    mean_flux_[i] = dot(cross_vector(f), blend(mesh_.weight[f], to_mean_[mesh_.owner[f]], to_mean_[mesh_.neighbour[f]]));
+  }
+}
+
+/// From face `first` on.
+void Continuity::find_closed_faces(int first) {
+  if (is_closed_.empty()) return;
+  std::erase_if(closed_faces_, [first](int f) { return f >= first; });
+  for (int f = first; f < mesh_.n_interior; ++f)
+    if (is_closed_[mesh_.owner[f]] || is_closed_[mesh_.neighbour[f]]) closed_faces_.push_back(f);
+  mean_flux_.resize(closed_faces_.size());
 }
 
 /// From face `first` on: turning does not change the others.
@@ -254,6 +295,7 @@ void Continuity::set_coefficients(const BoundarySet& boundary, int first) {
       coefficient_[f] = fixed ? conductance(mesh_.face_vector[f], mesh_.delta[f]) : 0;
   }
   poisson_.set_coefficients(coefficient_);
+  find_closed_faces(first);
 }
 
 /// Fills imbalance_; p' begins at zero.
@@ -280,6 +322,7 @@ ContinuityReport Continuity::solve(Flow& flow) {
       squares_.gradient(correction_, given_, slope_);
       fill_boundary(mesh_, squares_, correction_, slope_, given_, boundary_correction_);
       gauss_gradient(mesh_, squares_, correction_, boundary_correction_, slope_, gradient_);
+      set_mean_flux(gradient_);
       add_cross_flux();
     }
     const double tolerance = k == settings_.n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
@@ -323,6 +366,10 @@ void Continuity::add_cross_flux() {
     right_side_[P] += cross;
     right_side_[N] -= cross;
   }
+  for (std::size_t i = 0; i < closed_faces_.size(); ++i) {
+    right_side_[mesh_.owner[closed_faces_[i]]] += mean_flux_[i];
+    right_side_[mesh_.neighbour[closed_faces_[i]]] -= mean_flux_[i];
+  }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f)
     if (coefficient_[f] != 0) right_side_[mesh_.owner[f]] += dot(cross_vector(f), gradient_[mesh_.owner[f]]);
 }
@@ -335,6 +382,8 @@ void Continuity::correct_flux(std::vector<double>& flux, bool with_gradient) {
     if (with_gradient) across += dot(cross_vector(f), blend(mesh_.weight[f], gradient_[P], gradient_[N]));
     flux[f] -= mobility_ * across;
   }
+  if (with_gradient)
+    for (std::size_t i = 0; i < closed_faces_.size(); ++i) flux[closed_faces_[i]] -= mobility_ * mean_flux_[i];
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) {
     if (coefficient_[f] == 0) continue;
     const int P = mesh_.owner[f];

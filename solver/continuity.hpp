@@ -4,11 +4,11 @@
 //   flux~ = [u*]_f.S + sigma (m D + psi~/a0),   D = [grad p - f~]_f.S - ((S.grad p)_f - [f]_f.S)       m = dt/(a0 rho): mobility, m3 s/kg
 //   m div(grad p') = div(flux~),    flux = flux~ - m (S.grad p')_f,    u = u* - m grad p',    p <- p + p'
 //
-// [..]_f is interpolation, (S.grad p)_f the compact difference across the face: their difference D damps pressure that alternates from cell
-// to cell. psi~ is what the face inherits, sigma = 1/(1 + kappa dt/(a0 C)) with the rate kappa of convection and diffusion through its
-// cells (solver/flux_history.hpp). Let R multiply an error of the pressure when the compact Laplacian is solved for the divergence of its
-// interpolated cell gradients, and b = 1/(1 + kappa dt/a0) an error of the velocity in the momentum equation. A correction multiplies the
-// error by the roots of
+// [..]_f is interpolation, (S.grad p)_f = c (p_N - p_P) + T.[g^]_f the difference across the face (solver/fields/face.hpp): D damps
+// pressure that alternates from cell to cell. psi~ is what the face inherits, sigma = 1/(1 + kappa dt/(a0 C)) with the rate kappa of
+// convection and diffusion through its cells (solver/flux_history.hpp). Let R multiply an error of the pressure when the compact Laplacian
+// is solved for the divergence of its interpolated cell gradients, and b = 1/(1 + kappa dt/a0) an error of the velocity in the momentum
+// equation. A correction multiplies the error by the roots of
 //
 //   x^2 - (1 + b - 2 b R + sigma (R - 1)) x + b (1 - R) (1 - sigma)
 //
@@ -16,6 +16,14 @@
 // axis in 24 to 72 sectors R is 1.2 to 1.4: Gauss' gradient along the ring takes the pressures of two thirds of the radius for those in the
 // middle of the faces, at half of it, and is up to 4/3 of the compact difference. With sigma = 1 the larger root would be R where b is
 // small: such cells ran away in long steps, and swung from step to step in shorter ones.
+//
+// g^ is the Gauss gradient g of a cell; in a cell with a skew face, or aslant over a boundary face, it is the mean of g over the
+// neighbours. A pressure for which c (p_N - p_P) and T.[g^]_f cancel in the sum over the faces of every cell moves no flux. Nothing bounds
+// such a pressure: each correction adds to it. It is an eigenvector with the eigenvalue 1 of K = A^-1 X, with A the sum of -c (p_N - p_P)
+// and X that of T.[g^]_f; n corrections for non-orthogonality multiply a pressure by 1 + K + ... + K^n instead of 1/(1 - K). With g in all
+// cells K reached 1.0003 on a generated pump of two vanes: in one tetrahedron with a skew face, 66 degrees aslant over its wall, least
+// squares give the pressure at two of four faces, and g depends mainly on the pressure of the cell itself. The water in this cell reached
+// 268 m/s in 43 steps. With g^ no |K| is above 0.50 on that mesh.
 //
 // Cell gradients of pressure are of the Gauss form: the sum of V grad p over the cells is the pressure on the boundary. Fluxes and
 // velocities share p', so that u balances momentum with the new pressure exactly.
@@ -34,6 +42,7 @@
 // So a force that pressure can hold leaves the water at rest: exactly where it is normal to layers of hexahedra, to second order on
 // tetrahedra. Sources: balanced forces, Francois et al. (2006), J. Comput. Phys. 213, 141-173; for screens and actuator discs, Rethore and
 // Sorensen (2012), Wind Energy 15, 915-926.
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -118,6 +127,9 @@ class Continuity {
   void set_right_side();
   void add_cross_flux();
   void correct_flux(std::vector<double>& flux, bool with_gradient);
+  void find_closed_faces(int first);
+  /// What g^ instead of g adds to the cross part of closed faces. Collective.
+  void set_mean_flux(const std::vector<Vec3>& g);
   /// T of a face, m2.
   Vec3 cross_vector(int f) const { return mesh_.face_vector[f] - coefficient_[f] * mesh_.delta[f]; }
   void correct_cells(Flow& flow, bool with_pressure);
@@ -134,10 +146,17 @@ class Continuity {
   double preconditioner_angle_ = 0;                            // rad
   std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]
   std::vector<Vec3>&slope_, &gradient_;                        // of p': least squares, Gauss; gradient_ also f~
-  MeanGradient mean_gradient_;                                 // of velocity, while fluxes are predicted
-  std::vector<double>& change_;                                // of the pressure that holds f, from cell to cell, [n_faces]
-  std::vector<double> given_, boundary_correction_;            // p' or its slope at the boundary as given; p' there
-  std::vector<double> facet_pressure_, facet_correction_;      // [n_interior - first_facet], p and p'
+  // Cells whose g^ is the mean of their neighbours: owned, ascending; 1 for these, [n_all_cells], empty where no rank has some; their
+  // faces, interior, ascending; g^ - g, [n_all_cells], and T.[g^ - g]_f of the faces
+  std::vector<int> closed_cells_;
+  std::vector<std::uint8_t> is_closed_;
+  std::vector<int> closed_faces_;
+  std::vector<Vec3> to_mean_;
+  std::vector<double> mean_flux_;
+  MeanGradient mean_gradient_;                             // of velocity, while fluxes are predicted
+  std::vector<double>& change_;                            // of the pressure that holds f, from cell to cell, [n_faces]
+  std::vector<double> given_, boundary_correction_;        // p' or its slope at the boundary as given; p' there
+  std::vector<double> facet_pressure_, facet_correction_;  // [n_interior - first_facet], p and p'
 };
 
 }  // namespace snag

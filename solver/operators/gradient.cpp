@@ -359,4 +359,24 @@ void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, st
   sum_over_faces(mesh, squares, of_face, boundary, slope, g, {});
 }
 
+std::vector<int> closed_cells(const Mesh& mesh, const LeastSquares& squares) {
+  std::vector<int> cells = skew_cells(mesh);
+  for (const int f : squares.aslant_faces()) cells.push_back(mesh.owner[f]);
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g) {
+  Vec3 sum;
+  double weight = 0;
+  for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell)) {
+    if (f >= mesh.n_interior) continue;
+    const double share = share_of_face(mesh, f, mesh.owner[f] == cell);
+    sum += share * g[mesh.owner[f] + mesh.neighbour[f] - cell];
+    weight += share;
+  }
+  return weight > 0 ? sum / weight : g[cell];
+}
+
 }  // namespace snag

@@ -122,4 +122,12 @@ void gauss_gradient(const Mesh& mesh, const LeastSquares& squares, std::span<con
 void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, std::span<const double> change, std::span<double> boundary,
                                std::span<const Vec3> slope, std::vector<Vec3>& g);
 
+/// Owned cells with a skew face, or aslant over a boundary face: cells whose Gauss gradient contains values from least squares. Ascending.
+/// Local.
+std::vector<int> closed_cells(const Mesh& mesh, const LeastSquares& squares);
+
+/// Mean of g over the neighbours of an owned cell, a facet counts with its share; g of the cell itself where it has none. `g`
+/// [n_all_cells], ghosts filled. Exact for linear fields. Local.
+Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g);
+
 }  // namespace snag

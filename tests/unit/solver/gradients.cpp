@@ -2,6 +2,8 @@
 // long ranks: 2
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "parallel/sum.hpp"
 #include "solver/operators/cell_matrix.hpp"
 #include "solver/operators/gradient.hpp"
@@ -44,6 +46,17 @@ TEST(Gradients, exact_for_linear_fields) {
 
 // Where the boundary gives nothing, cells with too few neighbours take the open directions from them instead of dividing by almost nothing.
 TEST(Gradients, bounded_where_nothing_is_known) { EXPECT_LT(largest_error(tetrahedra(), Side::none), 20); }
+
+// The mean of neighbours leaves a constant gradient as it is, across ranks too, and takes none of the cell's own gradient.
+TEST(Gradients, mean_of_neighbours) {
+  const Mesh mesh = tetrahedra();
+  std::vector<Vec3> g(mesh.n_all_cells(), slope);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    const Vec3 own = std::exchange(g[c], 100 * slope);
+    EXPECT_LT(norm(mean_of_neighbours(mesh, c, g) - slope), 1e-14) << "cell " << mesh.cell_id[c];
+    g[c] = own;
+  }
+}
 
 // The sum of V grad p over the cells is the sum of p S over the boundary, whatever p.
 TEST(Gradients, gauss_form_telescopes) {
