@@ -22,9 +22,9 @@ inline void add_product(Vec3& g, double a, const Vec3& e) { g += a * e; }
 /// The first eight of the nine numbers in one instruction: a compiler adds them one by one.
 inline void add_product(Mat3& g, const Vec3& a, const Vec3& e) {
   using Eight = double __attribute__((vector_size(8 * sizeof(double))));
-  using Places = std::int64_t __attribute__((vector_size(8 * sizeof(std::int64_t))));
-  const Eight a_in_places = __builtin_shuffle(Eight{a.x, a.y, a.z}, Places{0, 0, 0, 1, 1, 1, 2, 2});
-  const Eight e_in_places = __builtin_shuffle(Eight{e.x, e.y, e.z}, Places{0, 1, 2, 0, 1, 2, 0, 1});
+  const Eight of_a{a.x, a.y, a.z}, of_e{e.x, e.y, e.z};
+  const Eight a_in_places = __builtin_shufflevector(of_a, of_a, 0, 0, 0, 1, 1, 1, 2, 2);
+  const Eight e_in_places = __builtin_shufflevector(of_e, of_e, 0, 1, 2, 0, 1, 2, 0, 1);
   void* const place = g.data();
   Eight most;
   std::memcpy(&most, place, sizeof most);
