@@ -9,6 +9,7 @@
 
 #include "diagnosis/attribution/attribution.hpp"
 #include "diagnosis/attribution/emulated_fit.hpp"
+#include "diagnosis/attribution/local_causes.hpp"
 
 namespace snag {
 
@@ -61,9 +62,10 @@ class Attributor {
   /// Effects beyond the first, and mistakes, have to bring the nats of the rule.
   double log_prior_of_verdict(const Hypothesis& hypothesis) const;
   void add(Fit fit);
-  /// What the places of the gates of its local effects take from the evidence of a set that was fitted or screened at its best ones only:
-  /// as much as from each of these effects alone. That of one local effect alone is that of all places already.
-  double log_share_of_places(const Hypothesis& hypothesis) const;
+  /// What all places of the gate of its local effect take from the evidence of a set that was screened or fitted at one place: by
+  /// screening as much as from that effect alone, whose evidence is that of all places already.
+  double screened_share_of_places(const Hypothesis& hypothesis) const;
+  double fitted_share_of_places(const Fit& fit);
   /// An input that does the same as an effect (the flow of all points as operating_point, the drag law as drag_magnitude) is that effect.
   bool is_effect_by_another_name(const Screening& screening, int k) const;
   void forget(const std::string& name);
@@ -136,9 +138,9 @@ class Attributor {
   const std::function<void(const std::string&, double)>& progress_;
   Attribution result_;
   std::vector<int> candidates_, random_;
-  std::map<int, double> log_share_of_place_;  // of each local effect
-  int n_singles_ = 1, n_mistakes_ = 0;        // live effects, mistakes
-  double none_screened_ = 0;                  // log evidence of the base model in the screening
+  std::map<int, LocalPlace> places_;    // of each local effect
+  int n_singles_ = 1, n_mistakes_ = 0;  // live effects, mistakes
+  double none_screened_ = 0;            // log evidence of the base model in the screening
 };
 
 }  // namespace snag

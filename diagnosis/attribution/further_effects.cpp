@@ -111,7 +111,7 @@ void Attributor::fit_round(int found_so_far, int without) {
       continue;
     }
     Screened screened = further.screen(with(found, k));
-    const double reached = screened.log_evidence + price_of_inputs(around) + log_share_of_places(screened.hypothesis);
+    const double reached = screened.log_evidence + price_of_inputs(around) + screened_share_of_places(screened.hypothesis);
     const bool promises = reached > around.log_evidence + gain_wanted;
     // Of what promises and is not fitted, the budget or the rounds have nothing more to say: as if it brought nothing.
     result_.one_more.push_back({found_so_far, name_of(screened.hypothesis, model_.effects()),

@@ -69,10 +69,12 @@ struct Profile {
   }
 };
 
-Profile profile_of(Responses& model, const Fitter& fitter, const Fit& fit, const GateFamily& family, double place, double step) {
+/// `effect`: the local one of the fit.
+Profile profile_of(Responses& model, const Fitter& fitter, const Fit& fit, int effect, const GateFamily& family, double place,
+                   double step) {
   Profile profile;
   std::vector<Responses::Request> requests;
-  const Gate* own = model.gate_of(fit.hypothesis.effects.front());
+  const Gate* own = model.gate_of(effect);
   for (int i = -n_beside; i <= n_beside; ++i) {
     const double other = place + i * step;
     if (other < family.low || other > family.high) continue;
@@ -90,6 +92,11 @@ Profile profile_of(Responses& model, const Fitter& fitter, const Fit& fit, const
     profile.log_evidence.push_back(solve(linear).log_evidence);
   }
   return profile;
+}
+
+/// Log evidence of all places less that of the gate's own; `total`: log of the integral over the places.
+double log_share_of(const Fit& fit, double total, const GateFamily& family) {
+  return total - solve(fit.linear).log_evidence - std::log(family.high - family.low);
 }
 
 }  // namespace
@@ -148,7 +155,7 @@ LocalFit fit_local_cause(Responses& model, Fitter& fitter, int effect, const Sca
   const GateFamily& family = scanned.family;
   double place = scanned.place, step = 0.5 * spacing(family);
   Fit fit = fitter.fit({{effect}}, Eigen::VectorXd::Constant(1, scanned.theta));
-  Profile profile = profile_of(model, fitter, fit, family, place, step);
+  Profile profile = profile_of(model, fitter, fit, effect, family, place, step);
   // Nearer with each turn, until the places of a profile stand closer than what the evidence is known to.
   constexpr int turns = 3;
   for (int turn = 0; turn < turns && affordable(fitter.runs_of_fit(1)); ++turn) {
@@ -160,15 +167,14 @@ LocalFit fit_local_cause(Responses& model, Fitter& fitter, int effect, const Sca
       fit = fitter.fit({{effect}}, fit.theta, fit.at.state.forms);
     }
     if (!at_end) step *= 0.4;
-    profile = profile_of(model, fitter, fit, family, place, step);
+    profile = profile_of(model, fitter, fit, effect, family, place, step);
   }
   const std::vector<double> terms = profile.log_terms();
   const double total = log_sum_exp(terms);
   double mean = 0, square = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) mean += std::exp(terms[i] - total) * profile.places[i];
   for (std::size_t i = 0; i < terms.size(); ++i) square += std::exp(terms[i] - total) * std::pow(profile.places[i] - mean, 2);
-  const double own = solve(fit.linear).log_evidence;
-  const double log_share = total - own - std::log(family.high - family.low);
+  const double log_share = log_share_of(fit, total, family);
   fit.log_evidence += log_share;
   LocalCause cause{.effect = model.gate_of(effect)->effect,
                    .coordinate = family.name(),
@@ -176,7 +182,15 @@ LocalFit fit_local_cause(Responses& model, Fitter& fitter, int effect, const Sca
                    .is_upwards = family.is_upwards,
                    .mean = mean,
                    .sd = std::max(std::sqrt(square), step / std::sqrt(12.0))};
-  return {std::move(fit), std::move(cause), log_share};
+  const double apart = std::max(step, cause.sd);
+  return {std::move(fit), std::move(cause), {family, place, apart, log_share}};
+}
+
+int runs_of_places() { return 2 * n_beside + 1; }
+
+double log_share_beside_others(Responses& model, const Fitter& fitter, const Fit& fit, int effect, const LocalPlace& alone) {
+  const Profile profile = profile_of(model, fitter, fit, effect, alone.family, alone.place, alone.step);
+  return log_share_of(fit, log_sum_exp(profile.log_terms()), alone.family);
 }
 
 }  // namespace snag

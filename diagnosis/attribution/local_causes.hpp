@@ -29,14 +29,26 @@ int runs_of_scan(const Responses& model, const std::vector<int>& candidates, con
 LocalScan scan_local_causes(Responses& model, const Fitter& fitter, const std::vector<int>& candidates,
                             const std::vector<GateFamily>& families);
 
+/// Where the gate of a local effect was fitted without other effects.
+struct LocalPlace {
+  GateFamily family;
+  double place = 0, step = 0;  // step: that of a profile which shows the evidence beside the place
+  double log_share = 0;        // log evidence of all places less that of the gate's own
+};
+
 struct LocalFit {
   Fit fit;  // its evidence is that of all places
   LocalCause cause;
-  double log_share = 0;  // log evidence of all places less that of the gate's own
+  LocalPlace place;
 };
 
 /// `effect`: a local one (Responses::add_local), whose gate is moved to where the evidence is largest. Refits while `affordable` says yes.
 LocalFit fit_local_cause(Responses& model, Fitter& fitter, int effect, const ScannedLocal& scanned,
                          const std::function<bool(int runs_per_point)>& affordable);
+
+/// LocalPlace::log_share of a fit of the local effect and others, which may move the place that is best. Takes runs_of_places() runs a
+/// training point.
+double log_share_beside_others(Responses& model, const Fitter& fitter, const Fit& fit, int effect, const LocalPlace& alone);
+int runs_of_places();
 
 }  // namespace snag

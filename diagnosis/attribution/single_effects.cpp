@@ -4,7 +4,6 @@
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/attributor.hpp"
-#include "diagnosis/attribution/local_causes.hpp"
 #include "diagnosis/statistics/statistics.hpp"
 
 namespace snag {
@@ -77,16 +76,24 @@ double Attributor::log_prior_of_verdict(const Hypothesis& hypothesis) const {
   return std::log(best) - n_priced * nats_of_rule;
 }
 
-double Attributor::log_share_of_places(const Hypothesis& hypothesis) const {
+double Attributor::screened_share_of_places(const Hypothesis& hypothesis) const {
+  if (hypothesis.effects.size() < 2) return 0;
   double sum = 0;
-  if (hypothesis.effects.size() < 2) return sum;
   for (const int k : hypothesis.effects)
-    if (const auto found = log_share_of_place_.find(k); found != log_share_of_place_.end()) sum += found->second;
+    if (const auto found = places_.find(k); found != places_.end()) sum += found->second.log_share;
   return sum;
 }
 
+double Attributor::fitted_share_of_places(const Fit& fit) {
+  const std::vector<int>& effects = fit.hypothesis.effects;
+  const auto local = std::find_if(effects.begin(), effects.end(), [&](int k) { return places_.contains(k); });
+  if (effects.size() < 2 || local == effects.end()) return 0;
+  if (!affordable(runs_of_places())) return screened_share_of_places(fit.hypothesis);
+  return log_share_beside_others(model_, fitter_, fit, *local, places_.at(*local));
+}
+
 void Attributor::add(Fit fit) {
-  fit.log_evidence += log_share_of_places(fit.hypothesis);
+  fit.log_evidence += fitted_share_of_places(fit);
   result_.names.push_back(name_of(fit.hypothesis, model_.effects()));
   result_.not_fitted.erase(result_.names.back());
   result_.log_prior.push_back(log_prior(fit.hypothesis)), result_.evidence_penalty.push_back(0);
@@ -226,7 +233,7 @@ void Attributor::fit_local_causes() {
     report("fit of " + model_.effects()[local].name, 0.84);
     LocalFit found = fit_local_cause(model_, fitter_, local, one, [&](int runs) { return affordable(runs); });
     result_.local[model_.effects()[local].name] = found.cause;
-    result_.other_name_of[local] = one.effect, log_share_of_place_[local] = found.log_share;
+    result_.other_name_of[local] = one.effect, places_[local] = found.place;
     add(std::move(found.fit));
   }
 }

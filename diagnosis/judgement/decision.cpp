@@ -135,10 +135,11 @@ class Judge {
  private:
   // The probabilities know nothing of the price that the rule puts on a further effect. The likeliest set that holds the leading effects
   // and further ones that act everywhere, if it is likely enough to be named as suspected; else the leading one. A mistake and a local
-  // effect have to bring the 6 nats.
+  // effect have to bring the 6 nats, and so has an effect beside mistakes alone: these are to be mended first, and the data diagnosed
+  // again.
   int likely_larger_set(int first) {
     const std::vector<int>& leading = a_.fits[static_cast<std::size_t>(first)].hypothesis.effects;
-    if (leading.empty()) return first;
+    if (std::all_of(leading.begin(), leading.end(), [&](int k) { return model_.effects()[k].is_mistake; })) return first;
     int best = first;
     for (int i = 1; i < static_cast<int>(a_.fits.size()); ++i) {
       const std::vector<int>& all = a_.fits[static_cast<std::size_t>(i)].hypothesis.effects;

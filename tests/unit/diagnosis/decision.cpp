@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "tests/verification/diagnosis/formula.hpp"
 
@@ -48,15 +49,21 @@ TEST(Decision, WhatShrinksOrCannotBeMeasuredStays) {
   }
 }
 
-/// The attribution of data with lift, changed before it is judged.
+/// Times of the measurement are written down `late` s too early.
+Experiment experiment_of(const formula::Theta& effects, double late = 0) {
+  Experiment experiment = formula::experiment({.effects = effects}, 4, 0, 3, 5e-4, 71);
+  std::erase_if(experiment.data, [&](const Datum& d) { return d.time < late; });
+  for (Datum& d : experiment.data) d.time -= late;
+  return experiment;
+}
+
+/// The attribution of the data, by default those of lift alone, changed before it is judged.
 template <class Change>
-Verdict judged_after(const Change& change) {
-  const Experiment experiment = formula::experiment({.effects = {{"lift", 1}}}, 4, 0, 3, 5e-4, 71);
+Verdict judged_after(const Change& change, const Experiment& experiment = experiment_of({{"lift", 1}})) {
   formula::Sphere sphere(experiment);
   Responses model(experiment, sphere);
   Fitter fitter(model);
   Attribution attribution = attribute(model, fitter, {});
-  EXPECT_EQ(attribution.names[static_cast<std::size_t>(attribution.first())], "lift");
   change(attribution);
   Verdict verdict;
   judge(model, attribution, verdict);
@@ -93,6 +100,56 @@ TEST(Decision, TieWithOutsideSaysThatAPairIsLikelier) {
     EXPECT_EQ(verdict.tie, (std::vector<std::string>{"lift", "outside"}));
     EXPECT_EQ(has_note(verdict, "Likelier than lift alone"), of_pair > 0) << of_pair;
   }
+}
+
+/// A fit that is not the leading one.
+std::size_t place_of(const Attribution& a, const std::string& name) {
+  const auto found = std::find(a.names.begin(), a.names.end(), name);
+  if (found == a.names.end()) throw std::runtime_error(name + " was not fitted");
+  return static_cast<std::size_t>(found - a.names.begin());
+}
+
+TEST(Decision, BetterPredictorMakesATieOrADoubt) {
+  for (const double ahead : {1.0, 3.0})       // among left-out points
+    for (const double behind : {5.0, 7.0}) {  // by evidence
+      const Verdict verdict = judged_after([&](Attribution& a) {
+        const auto first = static_cast<std::size_t>(a.first()), rival = place_of(a, "drag_magnitude");
+        for (std::size_t i = 0; i < a.fits.size(); ++i)
+          if (i != first) a.weight[i] = a.weight[first] - 20, a.leave_one_out[i] = a.leave_one_out[first] - 20;
+        a.weight[rival] = a.weight[first] - behind, a.leave_one_out[rival] = a.leave_one_out[first] + ahead;
+        Fit& fit = a.fits[rival];
+        fit.solution.d = fit.linear.prior;  // it does not live on its nuisances, and is clear of nothing
+        fit.theta[0] = 0.3, fit.theta_sd[0] = 0.01;
+      });
+      const bool is_tie = ahead > 2 && behind<6, is_doubt = ahead> 2 || behind < 6;
+      EXPECT_EQ(verdict.verdict, is_tie ? VerdictKind::tie : VerdictKind::effects) << ahead << " " << behind;
+      EXPECT_EQ(verdict.wording, is_tie     ? Wording::undecided
+                                 : is_doubt ? Wording::suspected
+                                            : Wording::attributed)
+          << ahead << " " << behind;
+      EXPECT_EQ(has_note(verdict, "The evidence is for lift, but drag_magnitude predicts"), ahead > 2) << ahead << " " << behind;
+    }
+}
+
+// Two effects with a probability above 0.75, the second of which brings less than the 6 nats of the rule.
+TEST(Decision, LikelyEffectIsSuspectedBesideAnEffectAndNotBesideAMistake) {
+  const auto leads_and_pair_is_likely = [](const std::string& leader, const std::string& pair) {
+    return [leader, pair](Attribution& a) {
+      const std::size_t first = place_of(a, leader), both = place_of(a, pair);
+      std::fill(a.weight.begin(), a.weight.end(), -20.0);
+      a.weight[first] = 0, a.weight[both] = -1;
+      const double of_first = a.log_evidence(static_cast<int>(first)), of_both = a.log_evidence(static_cast<int>(both));
+      a.fits[both].log_evidence += of_first + 8 - of_both;
+    };
+  };
+  const Verdict effects =
+      judged_after(leads_and_pair_is_likely("added_mass", "added_mass+lift"), experiment_of({{"lift", 1}, {"added_mass", 0.5}}));
+  EXPECT_GT(effects.probability.at("added_mass+lift"), 0.75);
+  EXPECT_EQ(formula::said(effects), "added_mass+lift");
+  EXPECT_EQ(effects.wording, Wording::suspected);
+  const Verdict mistake = judged_after(leads_and_pair_is_likely("clock", "clock+lift"), experiment_of({{"lift", 1}}, 0.04));
+  EXPECT_GT(mistake.probability.at("clock+lift"), 0.75);
+  EXPECT_EQ(formula::said(mistake), "clock");
 }
 
 TEST(Decision, CheckThatFailsIsNotedAndDecidesNothing) {

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
+#include <vector>
 
+#include "diagnosis/attribution/attribution.hpp"
 #include "diagnosis/attribution/local_causes.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
@@ -71,6 +74,36 @@ TEST(LocalCauses, TheOnsetIsKnownAsWellAsItsPlacesStand) {
   EXPECT_NEAR(found[1].sd / (0.4 * of_profile / even), 1, 1e-9);
   EXPECT_NEAR(found[9].sd / (0.4 * 0.4 * 0.4 * of_profile / even), 1, 1e-9);
   for (const auto& [turns, cause] : found) EXPECT_LT(std::abs(cause.mean - gate.from), 3 * cause.sd) << turns;
+}
+
+/// Requirement: the evidence of a local cause beside another effect is the mean of exp of the evidence over all places, as that of a local
+/// cause alone is; the place that fits best is no prior knowledge.
+TEST(LocalCauses, PlaceHasItsPriceBesideAnotherEffect) {
+  constexpr double duration = 0.8;
+  Gate gate;
+  gate.effect = "lift", gate.from = 0.35;
+  const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.04}, {"lift", 3}}, .gate = gate}, 4, 3, 5, 5e-4, 8301);
+  formula::Sphere sphere(experiment, false, false, true);
+  Responses model(experiment, sphere);
+  Fitter fitter(model);
+  const Attribution a = attribute(model, fitter, {});
+  const auto found = std::find(a.names.begin(), a.names.end(), "added_mass+lift@t");
+  ASSERT_NE(found, a.names.end());
+  const Fit& fit = a.fits[static_cast<std::size_t>(found - a.names.begin())];
+  const auto local = *std::find_if(fit.hypothesis.effects.begin(), fit.hypothesis.effects.end(), [&](int k) { return model.gate_of(k); });
+  const GateFamily family{.axis = -1, .is_upwards = true, .low = 0, .high = duration};
+  const LocalCause& cause = a.local.at("lift@t");
+  constexpr int n = 16;  // places on each side, half a standard deviation apart: the other effect moves the best place
+  const double step = cause.sd / 2;
+  std::vector<double> terms;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = -n; i <= n; ++i) {
+    model.set_gate(local, family.at(cause.mean + i * step));
+    const double log_evidence = fitter.fit(fit.hypothesis, fit.theta, fit.at.state.forms).log_evidence;
+    best = std::max(best, log_evidence), terms.push_back(log_evidence + std::log(step / duration));
+  }
+  std::printf("evidence of the set %.2f, of its best place %.2f, mean over all places %.2f\n", fit.log_evidence, best, log_sum_exp(terms));
+  EXPECT_NEAR(fit.log_evidence, log_sum_exp(terms), 0.5);
 }
 
 TEST(LocalCauses, WhatActsAllTheTimeIsNotLocal) {
