@@ -121,13 +121,12 @@ TEST(Decision, BetterPredictorMakesATieOrADoubt) {
         fit.solution.d = fit.linear.prior;  // it does not live on its nuisances, and is clear of nothing
         fit.theta[0] = 0.3, fit.theta_sd[0] = 0.01;
       });
-      const bool is_tie = ahead > 2 && behind<6, is_doubt = ahead> 2 || behind < 6;
+      const bool predicts_better = ahead > 2, is_close = behind < 6;
+      const Wording wording = predicts_better || is_close ? Wording::suspected : Wording::attributed;
+      const bool is_tie = predicts_better && is_close;
       EXPECT_EQ(verdict.verdict, is_tie ? VerdictKind::tie : VerdictKind::effects) << ahead << " " << behind;
-      EXPECT_EQ(verdict.wording, is_tie     ? Wording::undecided
-                                 : is_doubt ? Wording::suspected
-                                            : Wording::attributed)
-          << ahead << " " << behind;
-      EXPECT_EQ(has_note(verdict, "The evidence is for lift, but drag_magnitude predicts"), ahead > 2) << ahead << " " << behind;
+      EXPECT_EQ(verdict.wording, is_tie ? Wording::undecided : wording) << ahead << " " << behind;
+      EXPECT_EQ(has_note(verdict, "The evidence is for lift, but drag_magnitude predicts"), predicts_better) << ahead << " " << behind;
     }
 }
 
