@@ -1,5 +1,5 @@
 # timeout: 200
-"""Requirement: a pump of several vanes that `snag mesh pump` made is fit by `snag mesh --info`, and water runs through it in second order, at 12 degrees a step too; single cells do not run away."""
+"""Requirement: `snag mesh --info` accepts the pumps of several vanes that `snag mesh pump` makes. Snag computes their water in second order, with steps of 12 degrees too. In no cell does the velocity grow without bound."""
 import numpy
 
 import harness
