@@ -36,7 +36,8 @@ Tile tile_of_sphere(const SphereState& state) {
   const auto mark = [](AlignedDoubles& marks, int place) { marks[static_cast<std::size_t>(place)] = 1; };
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) {
-      const bool row = i == 1 || norm(state.next_in_row) > 0, column = j == 1 || norm(state.next_row) > 0;
+      const bool row = i == 1 || (norm(state.next_in_row) > 0 && !(state.begins_row && i == 0)),
+                 column = j == 1 || norm(state.next_row) > 0;
       const int k = tile.index(i, j);
       tile.set_vector(Tile::x, k, state.position + (i - 1) * state.next_in_row + (j - 1) * state.next_row);
       tile.set_vector(Tile::vx, k, state.velocity);

@@ -72,6 +72,7 @@ struct SphereState {
   double wall_distance = 1e9;                                                     // m
   Vec3 wall_normal{0, 0, 1};
   Vec3 next_in_row, next_row;  // to the bonded neighbours on both sides, that move with the sphere; zero: none; m
+  bool begins_row = false;     // without the neighbour at -next_in_row
   double step = 1e-3;          // s
 };
 

@@ -30,6 +30,7 @@
 #include <array>
 #include <span>
 
+#include "mesh/geometry.hpp"
 #include "mesh/skewness.hpp"
 #include "solver/fields/mean_gradient.hpp"
 
@@ -50,6 +51,19 @@ inline Vec3 transposed_product(const Mat3& m, const Vec3& v) { return v.x * m[0]
 /// Of the face of the owner's or the neighbour's cell, how much an interior face is: a facet is a part of it, 1 otherwise.
 inline double share_of_face(const Mesh& mesh, int f, bool of_owner) {
   return f < mesh.first_facet ? 1 : mesh.facet_share[static_cast<std::size_t>(f - mesh.first_facet)][of_owner ? 0 : 1];
+}
+
+/// act(neighbour, share) for the interior faces of an owned cell; returns the sum of their shares.
+template <class Act>
+[[gnu::always_inline]] inline double for_each_neighbour(const Mesh& mesh, int cell, const Act& act) {
+  double sum = 0;
+  for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell)) {
+    if (f >= mesh.n_interior) continue;
+    const double share = share_of_face(mesh, f, mesh.owner[f] == cell);
+    act(mesh.owner[f] + mesh.neighbour[f] - cell, share);
+    sum += share;
+  }
+  return sum;
 }
 
 /// What gradients add to [u]_f.S of an interior face for its skewness, m3/s.

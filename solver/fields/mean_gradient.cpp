@@ -9,15 +9,9 @@ namespace snag {
 
 [[gnu::always_inline]] inline void MeanGradient::set_cell(const Mesh& mesh, std::span<const Mat3> G, int c) {
   Mat3 sum{};
-  double weight = 0;
-  for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
-    const int f = mesh.cell_face[k];
-    if (f >= mesh.n_interior) continue;
-    const double share = share_of_face(mesh, f, mesh.owner[f] == c);
-    const Mat3& other = G[static_cast<std::size_t>(mesh.owner[f] + mesh.neighbour[f] - c)];
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += share * other[i];
-    weight += share;
-  }
+  const double weight = for_each_neighbour(mesh, c, [&](int other, double share) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += share * G[static_cast<std::size_t>(other)][i];
+  });
   const Mat3& mean = weight > 0 ? sum : G[static_cast<std::size_t>(c)];
   for (std::size_t i = 0; i < 3; ++i) row_[i][c] = 1 / (weight > 0 ? weight : 1) * mean[i];
 }

@@ -210,15 +210,7 @@ void LeastSquares::fill_open(std::vector<Gradient>& g) const {
   std::vector<Gradient> filled;
   for (const CellMoments::OpenCell& cell : open_) {
     Gradient mean{};
-    double weight = 0;
-    for (int k = mesh_.cell_face_start[cell.cell]; k < mesh_.cell_face_start[cell.cell + 1]; ++k) {
-      const int f = mesh_.cell_face[k];
-      if (f >= mesh_.n_interior) continue;
-      const bool owns = mesh_.owner[f] == cell.cell;
-      const double share = share_of_face(mesh_, f, owns);
-      add(mean, scaled(share, g[owns ? mesh_.neighbour[f] : mesh_.owner[f]]));
-      weight += share;
-    }
+    const double weight = for_each_neighbour(mesh_, cell.cell, [&](int other, double share) { add(mean, scaled(share, g[other])); });
     Gradient whole = g[cell.cell];
     if (weight > 0) {
       Mat3 open = cell.open;
@@ -369,13 +361,7 @@ std::vector<int> closed_cells(const Mesh& mesh, const LeastSquares& squares) {
 
 Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g) {
   Vec3 sum;
-  double weight = 0;
-  for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell)) {
-    if (f >= mesh.n_interior) continue;
-    const double share = share_of_face(mesh, f, mesh.owner[f] == cell);
-    sum += share * g[mesh.owner[f] + mesh.neighbour[f] - cell];
-    weight += share;
-  }
+  const double weight = for_each_neighbour(mesh, cell, [&](int other, double share) { sum += share * g[other]; });
   return weight > 0 ? sum / weight : g[cell];
 }
 

@@ -96,7 +96,7 @@ radius_m = {RADIUS}
 [[particle]]
 diameter_m = {p["diameter"]}
 density_kg_m3 = {p["density"]}
-shear_modulus_Pa = 1e4
+shear_modulus_Pa = 100
 position_m = [0, {p["start_y"]}, {p["start_z"]}]
 [coupling]
 mode = "one_way"

@@ -193,6 +193,35 @@ TEST(Forces, DragOfAFibreByItsAxis) {
   for (const SphereState& other : {cloth, sphere}) EXPECT_EQ(load_on_sphere(*law, other).force, base_load(other).force);
 }
 
+// Requirement: of two particles in a row at the angle i to the slip each has the share 1 - theta cos(i)^2 of its drag with form "mutual".
+// With form "wake" only the one behind has it. With form "bonded" each has 1 - theta/4 at any angle.
+TEST(Forces, ShelterInARow) {
+  const auto law = fluid_forces().make("shielding", "test");
+  const double theta = 0.5;
+  set_strength(*law, "shielding", theta);
+  const auto choose = [&](const char* form) {
+    for (const auto& parameter : law->parameters())
+      if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose(form);
+  };
+  for (const double i : {0.0, 0.6, 1.5}) {
+    SphereState ahead;
+    ahead.begins_row = true;
+    ahead.fluid_velocity = {0.4, 0, 0};
+    ahead.next_in_row = ahead.diameter * Vec3{std::cos(i), std::sin(i), 0};  // its neighbour is downstream
+    SphereState behind = ahead;
+    behind.next_in_row = -1 * ahead.next_in_row;
+    const double drag = base_load(ahead).force.x, sheltered = (1 - theta * std::cos(i) * std::cos(i)) * drag;
+    const auto expect = [&](const char* form, double of_ahead, double of_behind) {
+      choose(form);
+      EXPECT_NEAR(load_on_sphere(*law, ahead).force.x, of_ahead, 1e-12 * drag) << form << ", angle " << i;
+      EXPECT_NEAR(load_on_sphere(*law, behind).force.x, of_behind, 1e-12 * drag) << form << ", angle " << i;
+    };
+    expect("mutual", sheltered, sheltered);
+    expect("wake", drag, sheltered);
+    expect("bonded", (1 - theta / 4) * drag, (1 - theta / 4) * drag);
+  }
+}
+
 // Requirement: the slope given for the implicit step is what a stable step needs: not negative, finite at rest, and F = K w for a drag.
 TEST(Forces, SlopeIsFiniteAndNotNegative) {
   for_each_force([](FluidForce& force, const std::string&) {
