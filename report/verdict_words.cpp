@@ -19,6 +19,18 @@ std::string strength_in_words(const Verdict& v, const std::string& name) {
   return " = " + rounded(e.mean) + " ± " + rounded(e.sd) + (e.unit == "1" ? "" : " " + e.unit);
 }
 
+/// Of an effect that the improved case contains: what it has there, and the estimate where that differs.
+std::string strength_in_case(const Verdict& v, const std::string& name) {
+  constexpr double negligible = 0.1;  // standard deviations
+  const auto found = v.parameters.find(name);
+  if (found == v.parameters.end() || found->second.sd == 0 || v.improved.runs.empty()) return strength_in_words(v, name);
+  const auto& effects = v.improved.runs.front().effects;
+  const auto there = effects.find(name);
+  const EffectEstimate& e = found->second;
+  if (there == effects.end() || std::abs(there->second - e.mean) <= negligible * e.sd) return strength_in_words(v, name);
+  return " = " + rounded(there->second) + (e.unit == "1" ? "" : " " + e.unit) + " (estimate" + strength_in_words(v, name).substr(2) + ")";
+}
+
 /// Of causes whose strength says more than their name: before and after it.
 struct Words {
   const char *before, *after;
@@ -130,7 +142,7 @@ std::string verdict_advice(const Verdict& v) {
   for (const std::string& name : v.effects) {
     const std::string one = correction(v, name);
     if (one.empty())
-      held.push_back(name + strength_in_words(v, name));
+      held.push_back(name + strength_in_case(v, name));
     else
       text += (text.empty() ? "" : " ") + one;
   }

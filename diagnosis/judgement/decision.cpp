@@ -128,6 +128,7 @@ class Judge {
                                                                                              : a_.best_with_effect();
     for (const int i : std::set<int>{reported, a_.best_with_effect()}) note_parameters(i);
     note_inputs(a_.fits[first]);
+    if (v_.verdict == VerdictKind::effects) note_ranges(a_.fits[first]);
     note_checks(first);
     return reported;
   }
@@ -363,6 +364,20 @@ class Judge {
       if (std::abs(off) > far)
         v_.notes.push_back("With " + name_of(fit.hypothesis, model_.effects()) + ", " + name + " is fitted " + rounded(std::abs(off)) +
                            " of its standard uncertainties " + (off > 0 ? "above" : "below") + " what is stated: check it.");
+    }
+  }
+
+  // Of named effects. No effect at all is no end of a range.
+  void note_ranges(const Fit& fit) {
+    constexpr double near = 0.5;  // standard deviations
+    for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e) {
+      const Effect& effect = model_.effects()[fit.hypothesis.effects[e]];
+      const double strength = fit.theta[static_cast<Eigen::Index>(e)], sd = fit.theta_sd[static_cast<Eigen::Index>(e)];
+      const std::string unit = effect.unit == "1" ? "" : " " + effect.unit;
+      for (const double end : {effect.minimum, effect.maximum})
+        if (end != 0 && std::abs(end - strength) < near * sd)
+          v_.notes.push_back("The strength of " + effect.name + ", " + rounded(strength) + unit + ", is at the end of its range, " +
+                             rounded(end) + unit + ": what lies beyond was not tried.");
     }
   }
 

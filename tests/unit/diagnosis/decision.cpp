@@ -89,6 +89,21 @@ TEST(Decision, EffectLessThanTwoDeviationsClearIsRefused) {
   }
 }
 
+TEST(Decision, StrengthAtTheEndOfItsRangeIsNoted) {
+  constexpr double most = 4;  // of lift in formula.hpp
+  for (const double away : {0.3, 0.7}) {
+    const Verdict verdict = judged_after([&](Attribution& a) {
+      for (Fit& fit : a.fits)
+        if (fit.theta.size() == 1) fit.theta[0] = most - away * fit.theta_sd[0];
+    });
+    ASSERT_EQ(verdict.effects, std::vector<std::string>{"lift"}) << away;
+    const bool is_noted = std::any_of(verdict.notes.begin(), verdict.notes.end(), [](const std::string& note) {
+      return note.ends_with(", is at the end of its range, 4: what lies beyond was not tried.");
+    });
+    EXPECT_EQ(is_noted, away < 0.5) << away;
+  }
+}
+
 TEST(Decision, TieWithOutsideSaysThatAPairIsLikelier) {
   for (const double of_pair : {-9.0, 9.0}) {
     const Verdict verdict = judged_after([&](Attribution& a) {

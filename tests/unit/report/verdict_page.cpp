@@ -38,6 +38,17 @@ TEST(VerdictPage, AttributedCauseIsOnHand) {
   EXPECT_FALSE(holds(page, "more repeats"));
 }
 
+// Requirement: the strength that stands with the improved case is the one in it. Where the estimate is another one, it stands beside it.
+TEST(VerdictPage, StrengthIsThatOfTheImprovedCase) {
+  Verdict v = of(VerdictKind::effects, Wording::attributed, {"added_mass"}, 0.999);
+  v.improved.files = {"case_with_effects.toml"}, v.improved.runs.resize(1);
+  double& strength = v.improved.runs[0].effects["added_mass"];
+  strength = 0.465;
+  EXPECT_EQ(verdict_advice(v), "Go on with case_with_effects.toml; it contains added_mass = 0.465 (estimate 0.48 ± 0.02).");
+  strength = 0.481;
+  EXPECT_EQ(verdict_advice(v), "Go on with case_with_effects.toml; it contains added_mass = 0.48 ± 0.02.");
+}
+
 TEST(VerdictPage, WaterOfAPipeInWords) {
   EXPECT_EQ(verdict_sentence(of(VerdictKind::effects, Wording::attributed, {"swirl"}, 0.999)),
             "The gap comes from swirl: the water swirls by 0.48 ± 0.02 of its mean speed at the wall of the pipe: attributed, probability "
