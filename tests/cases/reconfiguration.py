@@ -26,7 +26,7 @@ class Reconfiguration(harness.CaseTest):
     def plate(self, C, *settings):
         """Run of the case and R at a speed that gives C."""
         speed = math.sqrt(C / 10)
-        words = [word for s in (f"flow.velocity_m_s=[{speed!r},0,0]", f"time.end_s={PLATES[C]}", *settings) for word in ("--set", s)]
+        words = [word for s in (f"flow.velocity_m_s=[{speed!r},0,0]", f"time.end_s={PLATES[C]}", "output.report=false", *settings) for word in ("--set", s)]
         run = self.run_case(FOLDER / "case.toml", 1, *words, out=f"{len(list(self.work.iterdir()))}")
         return run, self.drag(run, speed)
 
