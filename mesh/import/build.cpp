@@ -2,6 +2,10 @@
 //
 // Order: owned cells by reverse Cuthill-McKee on the graph of faces, ghosts by (rank, number there), interior faces by (lower, higher local
 // cell), boundary faces by (patch, cell), nodes by first use: loops over faces then walk through memory nearly in sequence.
+//
+// Measured on 198,000 tetrahedra and two ranks: with cells along a Hilbert curve a step takes 35 % longer, because cells that follow each
+// other are neighbours then, and loops wait for what they have just written. Blocks of 2,000 to 30,000 cells, each in this order, bring
+// nothing.
 #include <petscmat.h>
 
 #include <algorithm>
