@@ -44,8 +44,9 @@ void WaterPrediction::predict(std::span<const int> cells) {
   const RotatingZone* zone = flow_.rotating_zone;
   const Vec3 omega = zone ? zone->rotation_speed(flow_.time) : Vec3{};
   for (auto* field : {&velocity_, &change_, &acceleration_}) field->resize(mesh.n_cells);
+  is_settled_.resize(mesh.n_cells, 0);
   for (const int c : cells) {
-    if (!resumed_) velocity_[c] = start_velocity(c);
+    if (!resumed_ && !(flow_.frozen && is_settled_[c])) velocity_[c] = start_velocity(c), is_settled_[c] = known_;
     const Vec3& u = flow_.velocity[c];
     const Mat3& G = flow_.velocity_gradient[c];
     Vec3 change, by_rags;

@@ -93,6 +93,7 @@ class WaterPrediction {
   bool resumed_ = false;            // u^n is that of a checkpoint: its fluxes of the sliding interface are not kept
   std::vector<Vec3> rate_;          // r of the last step, of the owned cells, m/s2
   std::vector<Vec3> velocity_;      // u^n, m/s
+  std::vector<char> is_settled_;    // u^n is that of the fluxes: for good where the flow is frozen
   std::vector<Vec3> change_;        // m/s
   std::vector<Vec3> acceleration_;  // m/s2
 };

@@ -91,6 +91,7 @@ void FlowSolver::advance_frozen(double dt) {
   initialise(flow.time);
   flow.velocity_older = flow.velocity_old = flow.velocity;
   flow.time += dt, flow.time_step_size = dt, ++flow.time_step;
+  flow.frozen = true;
 }
 
 /// The velocity as it was given becomes divergence-free, as an impulsive start makes it.

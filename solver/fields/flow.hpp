@@ -31,6 +31,7 @@ struct Flow {
   double dynamic_viscosity = 1.003e-3;          // Pa s
   double time = 0;                              // s
   double time_step_size = 0;                    // of the last step, s; 0 before the first
+  bool frozen = false;                          // steps change nothing but the time
   std::int64_t time_step = 0;                   // steps done
 
   // [n_all_cells], ghosts up to date after every step
