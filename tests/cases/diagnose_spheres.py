@@ -14,8 +14,8 @@ class Spheres(ScoredSets):
         self.assert_targets(sphere, rows + self.several() + [self.local_cause()])
 
     def several(self):
-        """Three effects each, of which two lead with a remainder and two others without."""
-        rows = self.rows(sphere, {"several": (2, 3)}, seed=1)
+        """All three effects of each set are named."""
+        rows = self.rows(sphere, {"several": (2, 4)}, seed=1)
         for row in rows:
             self.assertTrue(row["right"], row)
         return rows
