@@ -19,7 +19,7 @@ std::string strength_in_words(const Verdict& v, const std::string& name) {
   return " = " + rounded(e.mean) + " ± " + rounded(e.sd) + (e.unit == "1" ? "" : " " + e.unit);
 }
 
-/// Of an effect that the improved case contains: what it has there, and the estimate where that differs.
+/// The strength of an effect in the improved case, and the estimate in brackets if the two differ.
 std::string strength_in_case(const Verdict& v, const std::string& name) {
   constexpr double negligible = 0.1;  // standard deviations
   const auto found = v.parameters.find(name);

@@ -134,6 +134,12 @@ void set_strength(FluidForce& force, const std::string& name, double theta) {
   FAIL() << key << " is no key of " << name;
 }
 
+/// Does nothing where the force has one form only.
+void choose_form(FluidForce& force, const std::string& form) {
+  for (const auto& parameter : force.parameters())
+    if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose(form);
+}
+
 // Requirement: a candidate of the diagnosis at strength zero is the base model to the bit, and at its prior mean it is not, where the state
 // has all it can need; all of the range of its prior is allowed by its key, in each of its forms.
 TEST(Forces, CandidatesAreTheBaseModelAtZero) {
@@ -146,8 +152,7 @@ TEST(Forces, CandidatesAreTheBaseModelAtZero) {
       if (parameter.key == "form") forms = parameter.choices;
     for (const std::string& form : forms) {
       SCOPED_TRACE(form);
-      for (const auto& parameter : force.parameters())
-        if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose(form);
+      choose_form(force, form);
       const bool on_drag = force.description().role != Role::force;
       for (const double extreme : {prior.minimum, prior.maximum}) set_strength(force, name, extreme);
       bool is_seen = false;
@@ -177,8 +182,7 @@ TEST(Forces, DragOfAFibreByItsAxis) {
   SphereState s;
   s.next_in_row = {s.diameter, 0, 0};
   const double across = 0.5, rho = s.fluid_density, d = s.diameter;
-  for (const auto& parameter : law->parameters())
-    if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose("swept");
+  choose_form(*law, "swept");
   for (const double along : {0.0, 0.5, 5.0}) {
     s.fluid_velocity = {along, across, 0};
     const double Re = rho * std::hypot(along, across) * d / s.dynamic_viscosity, sine = across / std::hypot(along, across);
@@ -199,10 +203,6 @@ TEST(Forces, ShelterInARow) {
   const auto law = fluid_forces().make("shielding", "test");
   const double theta = 0.5;
   set_strength(*law, "shielding", theta);
-  const auto choose = [&](const char* form) {
-    for (const auto& parameter : law->parameters())
-      if (parameter.key == "form") std::get<AnyChoice*>(parameter.target)->choose(form);
-  };
   for (const double i : {0.0, 0.6, 1.5}) {
     SphereState ahead;
     ahead.begins_row = true;
@@ -212,7 +212,7 @@ TEST(Forces, ShelterInARow) {
     behind.next_in_row = -1 * ahead.next_in_row;
     const double drag = base_load(ahead).force.x, sheltered = (1 - theta * std::cos(i) * std::cos(i)) * drag;
     const auto expect = [&](const char* form, double of_ahead, double of_behind) {
-      choose(form);
+      choose_form(*law, form);
       EXPECT_NEAR(load_on_sphere(*law, ahead).force.x, of_ahead, 1e-12 * drag) << form << ", angle " << i;
       EXPECT_NEAR(load_on_sphere(*law, behind).force.x, of_behind, 1e-12 * drag) << form << ", angle " << i;
     };

@@ -38,7 +38,7 @@ TEST(VerdictPage, AttributedCauseIsOnHand) {
   EXPECT_FALSE(holds(page, "more repeats"));
 }
 
-// Requirement: the strength that stands with the improved case is the one in it. Where the estimate is another one, it stands beside it.
+// Requirement: the advice gives the strength that the improved case contains. If the estimate differs from it, the advice gives both.
 TEST(VerdictPage, StrengthIsThatOfTheImprovedCase) {
   Verdict v = of(VerdictKind::effects, Wording::attributed, {"added_mass"}, 0.999);
   v.improved.files = {"case_with_effects.toml"}, v.improved.runs.resize(1);
