@@ -33,6 +33,7 @@ struct Prior {
   double minimum = 0, maximum = 1e9;  // physical range of theta
   bool random = false;                // runs with another seed (key `seed` of the same table) give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
+  bool exclusive_forms = false;       // its law is exactly one of its forms (key `form`); else it may lie between them
   std::vector<Need> needs = {};
 };
 

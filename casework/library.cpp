@@ -154,6 +154,7 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
                                                                     : reason_against(p, facts),
                    // The mean of random runs is no mixture of their forms.
                    .n_forms = p.random ? 1 : effect.n_forms(),
+                   .exclusive_forms = p.exclusive_forms,
                    .may_be_local = effect.is_force && facts.prescribed && !p.random});
   }
   for (const std::string& name : effect_models().names()) all.push_back(effect_models().make(name, "diagnosis")->effect(facts));

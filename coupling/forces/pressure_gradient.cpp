@@ -39,7 +39,8 @@ struct PressureGradient final : FluidForce {
                            .mean = 1,
                            .sd = 0.4,
                            .minimum = 0,
-                           .maximum = 3}};
+                           .maximum = 3,
+                           .exclusive_forms = true}};  // statements of which acceleration acts, no approximations of one law
   }
   std::vector<Parameter> parameters() override {
     return {{"coefficient", &coefficient, "1", 0, 10, Basis::literature, "Factor theta on the force; 1 by theory."},

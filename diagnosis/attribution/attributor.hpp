@@ -126,6 +126,10 @@ class Attributor {
   void fit_local_causes();
   /// A hypothesis with effect k at place e, as strong by its own measure as what was there.
   Screened with_instead(const Hypothesis& hypothesis, const Eigen::VectorXd& theta, std::size_t e, int k) const;
+  /// The input that a fit puts furthest from what is stated, and by how many of its standard uncertainties.
+  std::pair<std::string, double> furthest_input(const Fit& fit) const;
+  /// One more effect beside those of the fit around which was screened. Where an input is far off, it may stand for that effect.
+  Screened screened_beside(const Screening& screening, const Fit& found, int k) const;
   /// What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model
   /// reaches: its screened evidence is too low.
   double price_of_inputs(const Fit& fit) const;

@@ -41,7 +41,7 @@ void Attributor::fit_pairs(const Screening& first_screening) {
     const Screening second(model_, fitter_, candidates_, single.at);
     for (const int k : candidates_) {
       if (k == own || second.detectability(k) < least_of_further) continue;
-      Screened screened = second.screen(pair_of(own, k));
+      Screened screened = screened_beside(second, single, k);
       const std::string name = name_of(screened.hypothesis, model_.effects());
       if (screened.log_evidence + price_of_inputs(single) < result_.fits[singles.front()].log_evidence + gain_wanted) {
         const NotFitted as_screened{screened.log_evidence, log_prior(screened.hypothesis)};
@@ -110,7 +110,7 @@ void Attributor::fit_round(int found_so_far, int without) {
       result_.one_more.push_back({found_so_far, name_of(with(found, k), model_.effects()), 0, log_prior(with(found, k))});
       continue;
     }
-    Screened screened = further.screen(with(found, k));
+    Screened screened = screened_beside(further, around, k);
     const double reached = screened.log_evidence + price_of_inputs(around) + screened_share_of_places(screened.hypothesis);
     const bool promises = reached > around.log_evidence + gain_wanted;
     // Of what promises and is not fitted, the budget or the rounds have nothing more to say: as if it brought nothing.
@@ -142,7 +142,7 @@ int Attributor::fit_exchange(int leader) {
       if (std::count(all.hypothesis.effects.begin(), all.hypothesis.effects.end(), k) > 0 || is_in_part(all.hypothesis, k) ||
           others.detectability(k) < least_of_further)
         continue;
-      Screened screened = others.screen(with(rest->hypothesis, k));
+      Screened screened = screened_beside(others, *rest, k);
       if (const double reached = by_rule(screened.hypothesis, screened.log_evidence + price);
           reached > best && !is_fitted(screened.hypothesis))
         best = reached, exchanged = std::move(screened);
@@ -291,13 +291,30 @@ Screened Attributor::with_instead(const Hypothesis& hypothesis, const Eigen::Vec
   return swapped;
 }
 
+std::pair<std::string, double> Attributor::furthest_input(const Fit& fit) const {
+  std::pair<std::string, double> furthest;
+  for (std::size_t j = 0; j < model_.nuisances().size(); ++j) {
+    const auto i = fit.linear.lower.size() + static_cast<Eigen::Index>(j);
+    if (const double deviation = std::abs(fit.solution.d[i] - fit.linear.prior[i]); deviation > furthest.second)
+      furthest = {model_.nuisances()[j].name, deviation};
+  }
+  return furthest;
+}
+
 double Attributor::price_of_inputs(const Fit& fit) const {
-  const auto m = static_cast<Eigen::Index>(model_.nuisances().size());
   constexpr double by_chance = 2;  // standard uncertainties
-  double furthest = 0;
-  for (const double deviation : (fit.solution.d - fit.linear.prior).segment(fit.linear.lower.size(), m).eval())
-    furthest = std::max(furthest, std::abs(deviation));
+  const double furthest = furthest_input(fit).second;
   return 0.5 * std::max(0.0, furthest * furthest - by_chance * by_chance);
+}
+
+Screened Attributor::screened_beside(const Screening& screening, const Fit& found, int k) const {
+  const Hypothesis hypothesis = with(found.hypothesis, k);
+  Screened screened = screening.screen(hypothesis);
+  constexpr double far = 3;  // standard uncertainties, from which an input is named
+  const auto [input, deviation] = furthest_input(found);
+  if (deviation < far || model_.effects()[k].is_mistake || model_.base_is_random()) return screened;
+  Screened in_its_place = screening.screen_in_place_of(input, k, hypothesis);
+  return in_its_place.log_evidence > screened.log_evidence ? in_its_place : screened;
 }
 
 std::vector<Screened> Attributor::best_first(std::map<std::string, Screened>&& by_name) {

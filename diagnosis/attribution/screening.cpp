@@ -92,13 +92,46 @@ Eigen::MatrixXd Screening::share_columns(const Screened& screened, const Whiteni
 }
 
 Screened Screening::screen(const Hypothesis& hypothesis) const {
+  return screen_from({strengths_there(hypothesis), around_.state.nuisances, around_.responses}, hypothesis);
+}
+
+Screened Screening::screen_in_place_of(const std::string& input, int added, const Hypothesis& hypothesis) const {
+  const Screened first = screen(hypothesis);
+  const auto at = std::find(hypothesis.effects.begin(), hypothesis.effects.end(), added) - hypothesis.effects.begin();
+  const int form = first.forms[static_cast<std::size_t>(at)];
+  Start start{strengths_there(hypothesis), around_.state.nuisances, {}};
+  Eigen::VectorXd missing = Eigen::VectorXd::Zero(metric_.rho.size());
+  for (Eigen::Index j = 0; j < start.nuisances.size(); ++j) {
+    if (model_.nuisances()[static_cast<std::size_t>(j)].name != input) continue;
+    missing += start.nuisances[j] * metric_.nuisances.col(j);
+    start.nuisances[j] = 0;
+  }
+  const Effect& effect = model_.effects()[added];
+  const Eigen::VectorXd& own = columns_.at(added)[static_cast<std::size_t>(form)];
+  const std::vector<Response> leading = model_.run(lead_of(around_.state), model_.training());
+  double& theta = start.strengths[at];
+  constexpr int steps = 2;  // the first is linear, the second mends what is not
+  for (int step = 0; step < steps; ++step) {
+    theta = std::clamp(theta + effect.sd * own.dot(missing) / own.squaredNorm(), effect.minimum, effect.maximum);
+    if (!std::isfinite(theta) || theta == 0) return {hypothesis, -std::numeric_limits<double>::infinity(), first.theta, first.forms};
+    State state = lead_of(around_.state);
+    state.nuisances = start.nuisances, state.forms.resize(state.effects.size(), 0);
+    state.effects.emplace_back(added, theta), state.forms.push_back(form);
+    start.responses = model_.run(state, model_.training());
+    for (std::size_t p = 0; p < leading.size(); ++p)
+      start.responses[p] = beside(around_.responses[p], leading[p], std::move(start.responses[p]));
+    missing = metric_.rho - fitter_.residual(start.responses, metric_.whitening);
+  }
+  return screen_from(start, hypothesis);
+}
+
+Screened Screening::screen_from(const Start& start, const Hypothesis& hypothesis) const {
   const auto k = static_cast<Eigen::Index>(hypothesis.effects.size());
   Screened result{hypothesis, -std::numeric_limits<double>::infinity(), Eigen::VectorXd(k), std::vector<int>(hypothesis.effects.size(), 0)};
-  const Eigen::VectorXd there = strengths_there(hypothesis);
-  LinearModel linear = linear_model(hypothesis, there);
-  screen_leads(there, linear, result);
+  LinearModel linear = linear_model(hypothesis, start);
+  screen_leads(start, linear, result);
   if (k == 0) return result;
-  screen_shares(there, linear, result);
+  screen_shares(start, linear, result);
   // Forms of the effects that are there.
   for (std::size_t e = 0; e < hypothesis.effects.size(); ++e)
     for (std::size_t i = 0; i < around_.state.effects.size(); ++i)
@@ -116,23 +149,25 @@ Eigen::VectorXd Screening::strengths_there(const Hypothesis& hypothesis) const {
 }
 
 /// Prior and bounds of the strengths and the nuisances; the columns of the strengths are still to be filled.
-LinearModel Screening::linear_model(const Hypothesis& hypothesis, const Eigen::VectorXd& there) const {
+LinearModel Screening::linear_model(const Hypothesis& hypothesis, const Start& start) const {
   const int k = static_cast<int>(hypothesis.effects.size()), m = static_cast<int>(metric_.nuisances.cols());
   LinearModel linear;
   linear.prior = Eigen::VectorXd::Zero(k + m);
-  linear.prior.segment(k, m) = -around_.state.nuisances;
+  linear.prior.segment(k, m) = -start.nuisances;
   linear.lower.resize(k), linear.upper.resize(k);
   for (int e = 0; e < k; ++e) {
     const Effect& effect = model_.effects()[hypothesis.effects[e]];
-    linear.prior[e] = (effect.mean - there[e]) / effect.sd;
-    linear.lower[e] = (effect.minimum - there[e]) / effect.sd, linear.upper[e] = (effect.maximum - there[e]) / effect.sd;
+    const double there = start.strengths[e];
+    linear.prior[e] = (effect.mean - there) / effect.sd;
+    linear.lower[e] = (effect.minimum - there) / effect.sd, linear.upper[e] = (effect.maximum - there) / effect.sd;
   }
-  linear.rho = metric_.rho, linear.J.resize(metric_.rho.size(), k + m), linear.J.rightCols(m) = metric_.nuisances;
+  linear.rho = fitter_.residual(start.responses, metric_.whitening), linear.J.resize(metric_.rho.size(), k + m),
+  linear.J.rightCols(m) = metric_.nuisances;
   return linear;
 }
 
 /// Without an error of form, each form in the lead by turns: evidence, forms and strengths of the best.
-void Screening::screen_leads(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const {
+void Screening::screen_leads(const Start& start, LinearModel& linear, Screened& result) const {
   const std::vector<int>& effects = result.hypothesis.effects;
   const int k = static_cast<int>(effects.size());
   std::vector<int> leads(effects.size(), 0);
@@ -142,7 +177,7 @@ void Screening::screen_leads(const Eigen::VectorXd& there, LinearModel& linear, 
     const double evidence = solution.log_evidence - 0.5 * metric_.whitening.log_determinant;
     if (evidence > result.log_evidence) {
       result.log_evidence = evidence, result.forms = leads;
-      for (int e = 0; e < k; ++e) result.theta[e] = there[e] + model_.effects()[effects[e]].sd * solution.d[e];
+      for (int e = 0; e < k; ++e) result.theta[e] = start.strengths[e] + model_.effects()[effects[e]].sd * solution.d[e];
     }
     more = false;
     for (std::size_t e = 0; e < leads.size() && !more; ++e) {
@@ -153,7 +188,7 @@ void Screening::screen_leads(const Eigen::VectorXd& there, LinearModel& linear, 
 }
 
 /// With an error of form, and with shares of the forms that do not lead: both follow the strength that is known without them.
-void Screening::screen_shares(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const {
+void Screening::screen_shares(const Start& start, LinearModel& linear, Screened& result) const {
   const Screened first = result;
   const std::vector<int>& effects = first.hypothesis.effects;
   const int k = static_cast<int>(effects.size()), m = static_cast<int>(metric_.nuisances.cols());
@@ -168,21 +203,22 @@ void Screening::screen_shares(const Eigen::VectorXd& there, LinearModel& linear,
   std::vector<double> evidence;
   for (const double form : form_errors) {
     const Whitening whitening = fitter_.whiten(at, form);
-    linear.rho = fitter_.residual(around_.responses, whitening);
-    const Eigen::MatrixXd shares = share_columns(first, whitening, linear.rho);
+    const Eigen::VectorXd rho = fitter_.residual(around_.responses, whitening);
+    linear.rho = fitter_.residual(start.responses, whitening);
+    const Eigen::MatrixXd shares = share_columns(first, whitening, rho);
     const auto s = static_cast<int>(shares.cols());
     linear.J.resize(linear.rho.size(), k + m + s), linear.prior.conservativeResize(k + m + s);
     linear.prior.tail(s).setZero();
     // Shares that the fit around which was screened has already; effects that are there come before those that are added.
     const Eigen::Index given = std::min<Eigen::Index>(s, around_.state.shares.size());
     linear.prior.segment(k + m, given) = -around_.state.shares.head(given);
-    for (int e = 0; e < k; ++e) linear.J.col(e) = column(effects[e], first.forms[static_cast<std::size_t>(e)], whitening, linear.rho);
+    for (int e = 0; e < k; ++e) linear.J.col(e) = column(effects[e], first.forms[static_cast<std::size_t>(e)], whitening, rho);
     linear.J.middleCols(k, m) = fitter_.nuisance_columns(around_, whitening);
     linear.J.rightCols(s) = shares;
     const LinearSolution solution = solve(linear);
     evidence.push_back(solution.log_evidence - 0.5 * whitening.log_determinant);
     for (int e = 0; e < k && evidence.back() >= *std::max_element(evidence.begin(), evidence.end()); ++e)
-      result.theta[e] = there[e] + model_.effects()[effects[e]].sd * solution.d[e];
+      result.theta[e] = start.strengths[e] + model_.effects()[effects[e]].sd * solution.d[e];
   }
   result.log_evidence = log_sum_exp(evidence) - std::log(static_cast<double>(form_errors.size()));
 }

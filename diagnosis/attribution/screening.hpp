@@ -25,6 +25,10 @@ class Screening {
 
   /// Evidence of a hypothesis: the effects around which was screened are free too.
   Screened screen(const Hypothesis& hypothesis) const;
+  /// The same from a state in which the input of this name is as stated and `added`, an effect of the hypothesis around which was not
+  /// screened, does what its deviation did, by least squares. What an input does that is far off is more than a linear model reaches over.
+  /// Minus infinity where the effect cannot do it within its range.
+  Screened screen_in_place_of(const std::string& input, int added, const Hypothesis& hypothesis) const;
   /// Gain of one effect alone over none by the accelerations of the paths only (weak_form.hpp), nats; 0 where no path is long enough.
   double weak_gain(int candidate) const;
   /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out, without an error of
@@ -53,13 +57,20 @@ class Screening {
     /// Of two columns, nuisances projected out.
     double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   };
+  /// Where the linear model begins; its derivatives are those of the state around which was screened.
+  struct Start {
+    Eigen::VectorXd strengths;  // of the effects of the hypothesis
+    Eigen::VectorXd nuisances;
+    std::vector<Response> responses;
+  };
+  Screened screen_from(const Start& start, const Hypothesis& hypothesis) const;
   Metric metric(double form_error) const;
   Eigen::VectorXd column(int effect, int form, const Whitening& whitening, const Eigen::VectorXd& rho) const;
   bool present(int effect) const;
   Eigen::VectorXd strengths_there(const Hypothesis& hypothesis) const;
-  LinearModel linear_model(const Hypothesis& hypothesis, const Eigen::VectorXd& there) const;
-  void screen_leads(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const;
-  void screen_shares(const Eigen::VectorXd& there, LinearModel& linear, Screened& result) const;
+  LinearModel linear_model(const Hypothesis& hypothesis, const Start& start) const;
+  void screen_leads(const Start& start, LinearModel& linear, Screened& result) const;
+  void screen_shares(const Start& start, LinearModel& linear, Screened& result) const;
   Eigen::MatrixXd share_columns(const Screened& screened, const Whitening& whitening, const Eigen::VectorXd& rho) const;
 
   Responses& model_;

@@ -24,6 +24,7 @@ struct Effect {
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
   std::string blind{};                // why this base case cannot show it; empty: it can
   int n_forms = 1;                    // functional forms under which its law is written; a run takes one by its index
+  bool exclusive_forms = false;       // its law is exactly one of them; else it may lie between them
   int n_deviations = 0;               // indices after them: one standard deviation of something else that its law leaves open
   double least = 0;                   // strengths below this size are not named
   bool is_mistake = false;            // of inputs or data (mistakes.hpp), no effect that the model lacks

@@ -20,6 +20,13 @@ double coarseness(double objective, Eigen::Index n_rows) {
   return std::max(1.0, share * (objective - static_cast<double>(n_rows)));
 }
 
+// The form of each effect that leads.
+std::vector<int> leads_of(const Fit& fit) {
+  std::vector<int> leads = fit.at.state.forms;
+  leads.resize(fit.hypothesis.effects.size(), 0);
+  return leads;
+}
+
 }  // namespace
 
 std::string name_of(const Hypothesis& hypothesis, const std::vector<Effect>& effects) {
@@ -207,22 +214,61 @@ Fit Fitter::fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& 
   return fit;
 }
 
-Fit Fitter::fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms) {
+// Where a form that does not exclude the others has most of the share, it leads.
+Fit Fitter::fit_with_best_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms) {
   Fit fit = fit_with_leads(hypothesis, start, forms);
   const auto others = other_forms(fit.at.state, model_.effects());
-  std::vector<int> leads = fit.at.state.forms;
-  leads.resize(hypothesis.effects.size(), 0);
+  std::vector<int> leads = leads_of(fit);
   std::vector<double> most(leads.size(), 0.5);
   for (std::size_t s = 0; s < others.size(); ++s) {
     const double share = others[s].sd * fit.at.state.shares[static_cast<Eigen::Index>(s)];
     const bool may_lead = others[s].form < model_.effects()[hypothesis.effects[others[s].effect]].n_forms;
     if (may_lead && share > most[others[s].effect]) most[others[s].effect] = share, leads[others[s].effect] = others[s].form;
   }
-  std::vector<int> led = fit.at.state.forms;
-  led.resize(leads.size(), 0);
-  if (leads == led || runs_left() < runs_of_fit(static_cast<int>(leads.size())) * static_cast<int>(model_.training().size())) return fit;
+  if (leads == leads_of(fit) || !may_fit(hypothesis)) return fit;
   Fit other = fit_with_leads(hypothesis, fit.theta, leads);
   return other.log_evidence > fit.log_evidence ? other : fit;
+}
+
+Fit Fitter::fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms) {
+  Fit best = fit_with_best_leads(hypothesis, start, forms);
+  for (std::size_t e = 0; e < hypothesis.effects.size(); ++e)
+    if (model_.effects()[hypothesis.effects[e]].exclusive_forms) fit_exclusive_forms(best, e);
+  return best;
+}
+
+void Fitter::fit_exclusive_forms(Fit& best, std::size_t e) {
+  constexpr double hopeless = 50;  // nats: half of them may be an error of the linear model
+  const Fit first = best;
+  const auto runs_with = [&](const std::vector<int>& leads) {
+    State state = lead_of(first.at.state);
+    state.forms = leads;
+    return model_.run(state, model_.training());
+  };
+  const Eigen::VectorXd of_first = residual(runs_with(leads_of(first)), first.whitening);
+  LinearModel linear = first.linear;
+  std::vector<double> evidence{first.log_evidence};
+  for (int form = 0; form < model_.effects()[first.hypothesis.effects[e]].n_forms && may_fit(first.hypothesis); ++form) {
+    std::vector<int> leads = leads_of(first);
+    if (leads[e] == form) continue;
+    leads[e] = form;
+    linear.rho = first.linear.rho + residual(runs_with(leads), first.whitening) - of_first;
+    const double reached = first.log_evidence + solve(linear).log_evidence - first.solution.log_evidence;
+    if (linear.rho.isApprox(first.linear.rho, 1e-9)) {
+      evidence.push_back(first.log_evidence);
+    } else if (reached < first.log_evidence - hopeless) {
+      evidence.push_back(reached);
+    } else {
+      Fit with_form = fit_with_best_leads(first.hypothesis, first.theta, leads);
+      evidence.push_back(with_form.log_evidence);
+      if (with_form.log_evidence > best.log_evidence) best = std::move(with_form);
+    }
+  }
+  best.log_evidence = log_sum_exp(evidence) - std::log(static_cast<double>(evidence.size()));
+}
+
+bool Fitter::may_fit(const Hypothesis& hypothesis) const {
+  return runs_left() >= runs_of_fit(static_cast<int>(hypothesis.effects.size())) * static_cast<int>(model_.training().size());
 }
 
 }  // namespace snag

@@ -149,7 +149,7 @@ std::vector<OtherForm> other_forms(const State& state, const std::vector<Effect>
   std::vector<OtherForm> others;
   for (std::size_t e = 0; e < state.effects.size(); ++e) {
     const Effect& effect = effects[state.effects[e].first];
-    for (int form = 0; form < effect.n_forms + effect.n_deviations; ++form)
+    for (int form = effect.exclusive_forms ? effect.n_forms : 0; form < effect.n_forms + effect.n_deviations; ++form)
       if (form != state.form(e)) others.push_back({e, form, form < effect.n_forms ? between_forms : 1});
   }
   return others;

@@ -25,7 +25,7 @@ struct State {
 /// Another form of an effect than the one that leads. A state answers with the mixture
 ///   f = f_lead + sum over the other forms of sd share (f_form - f_lead),
 /// so that what lies between or beyond the forms has a place too. The law that holds is taken to be one of the forms give or take a third
-/// of what they differ by; a deviation is one standard deviation as it is.
+/// of what they differ by, unless these exclude each other; a deviation is one standard deviation as it is.
 struct OtherForm {
   std::size_t effect = 0;  // position in State::effects
   int form = 0;

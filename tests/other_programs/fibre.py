@@ -46,7 +46,7 @@ INPUTS = {"flow.amplitude": 0.05, "fibre.density_kg_m3": 0.005, "fibre.youngs_mo
 EXPECTED = {"added_mass": 0.5, "pressure_gradient": 1.0, "history": 1.0, "lift": 1.0, "wall": 1.0, "drag_magnitude": 0.3, "drag_exponent": 0.2,
             "torque": 1.0, "shielding": 0.5, "reconfiguration": -0.67, "entrained_water": 1.0}
 SAME_CAUSE = {"entrained_water": "added_mass"}
-FORMS = {"along": "pressure_gradient"}  # as of sphere.py
+FORMS = {}
 LOCAL = ["drag_magnitude", "wall", "pressure_gradient", "added_mass", "shielding"]
 WRONG_INPUTS = {
     "fibre.density_kg_m3": (4, 12, ["input:fibre.density_kg_m3"]),

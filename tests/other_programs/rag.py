@@ -43,7 +43,7 @@ INPUTS = {"flow.amplitude": 0.05, "rag.mass_per_area_kg_m2": 0.02, "flow.kinemat
 EXPECTED = {"added_mass": 0.5, "pressure_gradient": 1.0, "history": 1.0, "drag_magnitude": 0.3, "drag_exponent": 0.2, "shielding": 0.5,
             "reconfiguration": -0.67, "sheet_drag": 0.8, "entrained_water": 1.0}
 SAME_CAUSE = {"entrained_water": "added_mass"}
-FORMS = {"along": "pressure_gradient"}  # as of sphere.py
+FORMS = {}
 LOCAL = ["drag_magnitude", "pressure_gradient", "entrained_water", "shielding"]
 WRONG_INPUTS = {
     "rag.mass_per_area_kg_m2": (5, 15, ["input:rag.mass_per_area_kg_m2"]),

@@ -24,7 +24,7 @@ strength (each 100 times its signal), all by differences of this program's own r
 C: variances of the means of the repeats, with the true noise. `detectability` is that of the least clear of what acts. `clear_of_library`:
 the same with all effects of the library free: what is small there no diagnosis can tell from the library. `clear_of_forms`: the least clear
 again, with the laws of what acts free between their two forms by a third of the difference, as far as a diagnosis leaves it open
-(docs/theory.md, "Forms of a law"): the force S v_z along x, by which the two forms of the pressure gradient differ, is much like lift.
+(docs/theory.md, "Forms of a law"). The two forms of the pressure gradient exclude each other, and nothing between them is open.
 
 The truth goes to sealed/NAME.json; NAME does not tell it, and its SHA-256 is in sealed.log before the set is diagnosed.
 """
@@ -150,7 +150,7 @@ class Clarity:
         return clear
 
     def of_forms(self):
-        """The least clear effect that acts, given the others and the open forms."""
+        """The least clear effect that acts, given the others and the forms that are open."""
         program, columns = self.runs.program, []
         for flag, effect in program.FORMS.items():
             if effect in self.theta:

@@ -32,8 +32,8 @@ OBSERVABLES = [{"id": id, "unit": "mm", "kind": "gaussian", "factor": 1e3, "nois
 INPUTS = {"flow.amplitude": 0.05, "particle.density_kg_m3": 0.002, "flow.kinematic_viscosity_m2_s": 0.02, "drag_law_uncertainty": 0.05}
 EXPECTED = {"added_mass": 0.5, "pressure_gradient": 1.0, "history": 1.0, "lift": 1.0, "wall": 1.0, "drag_magnitude": 0.3, "drag_exponent": 0.2}
 SAME_CAUSE = {}
-# Numbers of a point, 0 or 1, that choose between two forms of the law of an effect.
-FORMS = {"along": "pressure_gradient", "first": "history"}
+# Numbers of a point, 0 or 1, that choose between two forms of the law of an effect, of which a diagnosis leaves open what lies between.
+FORMS = {"first": "history"}
 LOCAL = ["drag_magnitude", "wall", "lift", "pressure_gradient", "added_mass"]
 # How far off a wrong input is, in stated standard uncertainties, and how it may be named.
 WRONG_INPUTS = {

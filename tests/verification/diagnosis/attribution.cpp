@@ -211,8 +211,8 @@ TEST(Attribution, WeakSecondEffect) {
     return std::any_of(verdict.notes.begin(), verdict.notes.end(),
                        [&](const std::string& note) { return note.starts_with(begin) && note.find(part) != std::string::npos; });
   };
-  for (int i = 0; i < 12; ++i) {
-    const Verdict verdict = judged({.effects = {{"added_mass", 0.5}, {"measurement", 0.002 + 0.001 * i}}}, 3100 + i, false, 0);
+  for (int i = 0; i < 24; ++i) {
+    const Verdict verdict = judged({.effects = {{"added_mass", 0.5}, {"measurement", 0.004 + 0.0005 * i}}}, 3100 + i, false, 0);
     if (verdict.verdict != VerdictKind::effects) continue;
     const double alone = verdict.probability.at("added_mass"), both = verdict.probability.at("added_mass+measurement");
     const std::string said = joined_effects(verdict);
@@ -229,7 +229,7 @@ TEST(Attribution, WeakSecondEffect) {
       ++suspected;
     }
   }
-  std::printf("weak second effects of 12: %d told, %d suspected\n", told, suspected);
+  std::printf("weak second effects of 24: %d told, %d suspected\n", told, suspected);
   EXPECT_GE(told, 1);
   EXPECT_GE(suspected, 1);
 }
