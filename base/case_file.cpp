@@ -37,30 +37,20 @@ CaseNode::Resolved resolved_entry(const Parameter& parameter, const std::string&
   return {key, toml_text(path.string()), first_key, identity, identity};
 }
 
-void fill(CaseNode& node, const toml::table& table) {
+void fill(CaseNode& node, const toml::table& table, bool is_override) {
   node.present = true;
-  if (node.line == 0) node.line = static_cast<int>(table.source().begin.line);
-  for (auto&& entry : table) {
-    const std::string key(entry.first.str());
-    const toml::node& value = entry.second;
-    const auto child = [&](const toml::table& sub) {
-      auto made = std::make_unique<CaseNode>();
-      made->name = made->first_name = node.name.empty() ? key : node.name + "." + key;
-      made->file = node.file;
-      fill(*made, sub);
-      node.tables[key].push_back(std::move(made));
-    };
-    if (const auto* sub = value.as_table()) {
-      child(*sub);
-    } else if (const auto* array = value.as_array(); array && is_table_array(*array)) {
-      for (const toml::node& element : *array) child(*element.as_table());
-    } else {
-      value.visit([&](const auto& concrete) {
-        node.values[key] = {std::make_shared<std::remove_cvref_t<decltype(concrete)>>(concrete),
-                            static_cast<int>(value.source().begin.line)};
-      });
-    }
-  }
+  if (node.line == 0 && !is_override) node.line = static_cast<int>(table.source().begin.line);
+  for (auto&& entry : table) put(node, std::string(entry.first.str()), entry.second, is_override);
+}
+
+/// What a file gave, not what was read of it.
+std::unique_ptr<CaseNode> copy_of_unread(const CaseNode& node) {
+  auto copy = std::make_unique<CaseNode>();
+  copy->name = node.name, copy->first_name = node.first_name, copy->file = node.file, copy->line = node.line;
+  copy->present = node.present, copy->of_list = node.of_list, copy->values = node.values;
+  for (const auto& [key, list] : node.tables)
+    for (const auto& child : list) copy->tables[key].push_back(copy_of_unread(*child));
+  return copy;
 }
 
 void reject_unread_in(const CaseNode& node) {
@@ -117,6 +107,26 @@ void write_resolved(const CaseNode& node, bool repeated, std::string CaseNode::R
 }
 
 }  // namespace
+
+void put(CaseNode& node, const std::string& key, const toml::node& value, bool is_override) {
+  const auto child = [&](const toml::table& table, bool of_list) {
+    auto made = std::make_unique<CaseNode>();
+    made->name = made->first_name = node.name.empty() ? key : node.name + "." + key;
+    made->file = node.file, made->of_list = of_list;
+    fill(*made, table, is_override);
+    node.tables[key].push_back(std::move(made));
+  };
+  if (const auto* table = value.as_table()) {
+    child(*table, false);
+  } else if (const auto* array = value.as_array(); array && is_table_array(*array)) {
+    for (const toml::node& element : *array) child(*element.as_table(), true);
+  } else {
+    value.visit([&](const auto& concrete) {
+      node.values[key] = {std::make_shared<std::remove_cvref_t<decltype(concrete)>>(concrete),
+                          is_override ? line_of_override : static_cast<int>(value.source().begin.line)};
+    });
+  }
+}
 
 bool Table::present() const {
   node_->presence_asked = true;
@@ -242,19 +252,27 @@ CaseFile CaseFile::read(const std::filesystem::path& path, const std::vector<std
 }
 
 CaseFile CaseFile::parse(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
-  CaseFile made;
-  made.root_ = std::make_shared<CaseNode>();
-  made.root_->file = name;
+  return Text(text, name).with(overrides);
+}
+
+CaseFile::Text::Text(const std::string& text, const std::string& name) {
+  auto root = std::make_shared<CaseNode>();
+  root->file = name;
   try {
-    toml::table table = toml::parse(text, name);
-    for (const std::string& override_text : overrides) apply_override(table, override_text);
-    fill(*made.root_, table);
-    adopt_split_keys(*made.root_);
-    made.root_->line = 0;
+    fill(*root, toml::parse(text, name), false);
   } catch (const toml::parse_error& failure) {
     throw Error(ExitCode::usage,
                 name + ":" + std::to_string(failure.source().begin.line) + ": no valid TOML: " + shortened(failure.description()));
   }
+  root->line = 0;
+  root_ = std::move(root);
+}
+
+CaseFile CaseFile::Text::with(const std::vector<std::string>& overrides) const {
+  CaseFile made;
+  made.root_ = copy_of_unread(*root_);
+  for (const std::string& override_text : overrides) apply_override(*made.root_, override_text);
+  adopt_split_keys(*made.root_);
   return made;
 }
 

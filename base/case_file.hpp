@@ -55,6 +55,17 @@ class CaseFile {
   /// The same from text; `name` stands in messages.
   static CaseFile parse(const std::string& text, const std::string& name = "case", const std::vector<std::string>& overrides = {});
 
+  /// Many files from one text, which is parsed once: each is what parse() makes of the text with these overrides.
+  class Text {
+   public:
+    /// Throws Error(usage) where the text is no TOML.
+    Text(const std::string& text, const std::string& name);
+    CaseFile with(const std::vector<std::string>& overrides) const;
+
+   private:
+    std::shared_ptr<const CaseNode> root_;
+  };
+
   Table root() const;
   /// Throws Error(usage) if a key of the file was never read: a misspelt key must not be ignored.
   void reject_unread() const;

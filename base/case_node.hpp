@@ -28,6 +28,7 @@ struct CaseNode {
   std::string file;        // for messages
   int line = 0;
   bool present = false;
+  bool of_list = false;         // written as [[name]]
   bool presence_asked = false;  // the program asks whether this table is given
   std::map<std::string, std::vector<std::unique_ptr<CaseNode>>> tables;
   struct Value {
@@ -57,6 +58,9 @@ struct CaseNode {
 };
 
 inline constexpr int line_of_override = 0;
+
+/// Puts what a file holds, or an override, into a node: a value or tables, with their lines.
+void put(CaseNode& node, const std::string& key, const toml::node& value, bool is_override);
 
 /// Where a value stands, for messages: "case.toml:12", "case.toml, --set".
 inline std::string place_of(const std::string& file, int line) {

@@ -29,7 +29,7 @@ std::optional<toml::table> parsed_value(const std::string& value) {
 
 }  // namespace
 
-void apply_override(toml::table& root, const std::string& text) {
+void apply_override(CaseNode& root, const std::string& text) {
   const auto equals = text.find('=');
   const auto fail = [&](const std::string& why) {
     return Error(ExitCode::usage, "--set " + shortened(text) + ": " + why + "; write section.key=value, for instance --set time.end_s=0.1");
@@ -39,35 +39,27 @@ void apply_override(toml::table& root, const std::string& text) {
   const std::optional<toml::table> parsed = parsed_value(text.substr(equals + 1));
   if (!parsed) throw fail("its value is not valid TOML");
   const std::vector<std::string> steps = split(path, '.');
-  toml::node* at = &root;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
+  CaseNode* at = &root;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     const std::string& step = steps[i];
-    const bool last = i + 1 == steps.size();
-    if (auto* array = at->as_array()) {
-      std::size_t index = 0;
-      const auto [end, code] = std::from_chars(step.data(), step.data() + step.size(), index);
-      if (code != std::errc() || end != step.data() + step.size() || index >= array->size())
-        throw fail("\"" + shortened(step) + "\" is not the number of one of the " + std::to_string(array->size()) + " tables there");
-      at = array->get(index);
-      if (last) throw fail("names a table, not a key");
-      continue;
+    if (at->values.contains(step)) throw fail("\"" + step + "\" is a value, not a table");
+    if (!at->tables.contains(step)) put(*at, step, toml::table{}, true);
+    const auto& list = at->tables.at(step);
+    // [[rag]] with a single element may be addressed without its index.
+    const std::string& next = steps[i + 1];
+    const bool has_index = !next.empty() && std::isdigit(static_cast<unsigned char>(next[0]));
+    std::size_t index = 0;
+    if (list.front()->of_list && (has_index || list.size() > 1)) {
+      const auto [end, code] = std::from_chars(next.data(), next.data() + next.size(), index);
+      if (code != std::errc() || end != next.data() + next.size() || index >= list.size())
+        throw fail("\"" + shortened(next) + "\" is not the number of one of the " + std::to_string(list.size()) + " tables there");
+      if (++i + 1 == steps.size()) throw fail("names a table, not a key");
     }
-    auto* table = at->as_table();
-    if (!table) throw fail("\"" + steps[i - 1] + "\" is a value, not a table");
-    if (last) {
-      const toml::node* before = table->get(step);
-      if (before && (before->is_table() || (before->is_array() && is_table_array(*before->as_array()))))
-        throw fail("names a section, not a key");
-      table->insert_or_assign(step, *parsed->get("v"));
-    } else {
-      if (!table->contains(step)) table->insert(step, toml::table{});
-      at = table->get(step);
-      // [[rag]] with a single element may be addressed without its index.
-      if (auto* array = at->as_array();
-          array && array->size() == 1 && (steps[i + 1].empty() || !std::isdigit(static_cast<unsigned char>(steps[i + 1][0]))))
-        at = array->get(0);
-    }
+    at = list[index].get();
   }
+  if (at->tables.contains(steps.back())) throw fail("names a section, not a key");
+  at->values.erase(steps.back());
+  put(*at, steps.back(), *parsed->get("v"), true);
 }
 
 }  // namespace snag

@@ -159,6 +159,7 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   if (!run.rags) throw Error(ExitCode::usage, file.string() + ": has no particle, fibre or rag; a diagnosis needs one");
   case_file_ = read;
   resolved_ = read.resolved(), sha256_ = read.sha256();
+  text_.emplace(resolved_, file.string());
   tree_->root = toml::parse(resolved_);
   geometry_ = geometry_values(tree_->root);
   number_geometry(tree_->root, geometry_);
@@ -411,7 +412,5 @@ std::string PointCase::resolved_with(const std::vector<std::string>& overrides, 
   const Simulation run(file, ranks_of(file), {}, store, prepared);
   return file.resolved();
 }
-
-CaseFile PointCase::with(const std::vector<std::string>& overrides) const { return CaseFile::parse(resolved_, file_.string(), overrides); }
 
 }  // namespace snag

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,7 @@ class PointCase {
   /// The case of such a run with all its keys, built once: an error in it is thrown.
   std::string resolved_with(const std::vector<std::string>& overrides, FlowCache* store, Prepared* prepared) const;
   /// The case file of such a run.
-  CaseFile with(const std::vector<std::string>& overrides) const;
+  CaseFile with(const std::vector<std::string>& overrides) const { return text_->with(overrides); }
   /// Throws Error(usage) unless a relative deviation of this key can be applied: "flow.amplitude" (the whole flow field),
   /// drag_law_uncertainty (all drag, alike at all points), drag_law_uncertainty_per_point (all drag, at each point on its own: Reynolds
   /// numbers far apart), or a number of the case by its resolved key, such as "particle.density_kg_m3".
@@ -94,7 +95,8 @@ class PointCase {
   std::filesystem::path file_;
   CaseFile case_file_;
   std::string resolved_, sha256_;
-  std::unique_ptr<Tree> tree_;  // of resolved_
+  std::optional<CaseFile::Text> text_;  // of resolved_
+  std::unique_ptr<Tree> tree_;          // the same with the numbers of the geometry
   CaseFeatures facts_;
   PipeFlow pipe_flow_;
   bool crumpled_ = false;          // a piece starts crumpled, by its seed

@@ -66,9 +66,9 @@ void FluidLoad::begin_step(std::span<const Tile> tiles, double time) {
   field_.sample(tiles, needed_);
   elapsed_.assign(tiles.size(), 0.0);
   sums_.reset(tiles, n_sums);
-  scratch_size_ = 0;
-  for (const Tile& tile : tiles) scratch_size_ = std::max(scratch_size_, tile.exists.size());
-  scratch_.assign(n_arrays * scratch_size_, 0.0);
+  std::size_t largest = 0;
+  for (const Tile& tile : tiles) largest = std::max(largest, tile.exists.size());
+  if (largest != scratch_size_) scratch_size_ = largest, scratch_.assign(n_arrays * largest, 0.0);
 }
 
 void FluidLoad::set_missed_rates(std::span<Tile> tiles, std::span<const Vec3> rates) {

@@ -314,7 +314,7 @@ std::string passage_section(const std::vector<RagPassage>& passages, const PumpR
   const Radii radii = radii_of(case_text);
   std::string content;
   for (const RagPassage& passage : passages) {
-    const std::string own = section_of(passage, pump, radii);
+    std::string own = section_of(passage, pump, radii);
     if (passages.size() == 1) return own;
     content += "<details" + std::string(content.empty() ? " open" : "") + "><summary>" + name_of(passage, false) + "</summary>\n" + own +
                "</details>\n";

@@ -55,7 +55,7 @@ MeasuredRange checked_range(const Table& table, const Parameter& range, double m
 }
 
 Table direction_of(const Table& test, int direction) {
-  const Table table = test.table(direction_key[direction]);
+  Table table = test.table(direction_key[direction]);
   if (!table.present())
     throw Error(ExitCode::usage, test.where() + ": the test " + direction_name[direction] +
                                      " is missing; both directions are needed, add the table of " + direction_key[direction] +

@@ -151,6 +151,16 @@ TEST(CaseFile, Overrides) {
 }
 
 // The resolved case reads back as the same case, so its hash is that of the physics and not of the spelling.
+TEST(CaseFile, TextGivesEachFileItsOverridesAlone) {
+  const CaseFile::Text text("[fluid]\ndensity_kg_m3 = 1000\n", "water.toml");
+  const auto density = [&](const std::vector<std::string>& overrides) {
+    return text.with(overrides).root().table("fluid").numbers().front().second;
+  };
+  EXPECT_EQ(density({"fluid.density_kg_m3=998"}), 998);
+  EXPECT_EQ(density({}), 1000);
+  EXPECT_EQ(text.with({}).root().table("fluid").where(), "water.toml:1: [fluid]");
+}
+
 TEST(CaseFile, ResolvedCaseIsTheSameCase) {
   const auto read = [](const std::string& text, Settings& s) {
     const auto file = CaseFile::parse(text);
