@@ -128,7 +128,8 @@ class Attributor {
   Screened with_instead(const Hypothesis& hypothesis, const Eigen::VectorXd& theta, std::size_t e, int k) const;
   /// The input that a fit puts furthest from what is stated, and by how many of its standard uncertainties.
   std::pair<std::string, double> furthest_input(const Fit& fit) const;
-  /// One more effect beside those of the fit around which was screened. Where an input is far off, it may stand for that effect.
+  /// One more effect beside those of the fit around which was screened. Where an input is far off, the effect is screened in its place,
+  /// too.
   Screened screened_beside(const Screening& screening, const Fit& found, int k) const;
   /// What the furthest input costs beyond chance, nats. A second effect that saves it lies further from the fit than a linear model
   /// reaches: its screened evidence is too low.

@@ -25,9 +25,9 @@ class Screening {
 
   /// Evidence of a hypothesis: the effects around which was screened are free too.
   Screened screen(const Hypothesis& hypothesis) const;
-  /// The same from a state in which the input of this name is as stated and `added`, an effect of the hypothesis around which was not
-  /// screened, does what its deviation did, by least squares. What an input does that is far off is more than a linear model reaches over.
-  /// Minus infinity where the effect cannot do it within its range.
+  /// The same from another state: the input of this name is as stated, and `added` does what the deviation of the input did, by least
+  /// squares. `added` is an effect of the hypothesis that is new beside the state around which was screened. A linear model alone does not
+  /// reach as far as the deviation of an input that is far off. Minus infinity where the range of the effect does not allow it.
   Screened screen_in_place_of(const std::string& input, int added, const Hypothesis& hypothesis) const;
   /// Gain of one effect alone over none by the accelerations of the paths only (weak_form.hpp), nats; 0 where no path is long enough.
   double weak_gain(int candidate) const;

@@ -214,7 +214,7 @@ Fit Fitter::fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& 
   return fit;
 }
 
-// Where a form that does not exclude the others has most of the share, it leads.
+// Where another form has most of the share, it leads.
 Fit Fitter::fit_with_best_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms) {
   Fit fit = fit_with_leads(hypothesis, start, forms);
   const auto others = other_forms(fit.at.state, model_.effects());

@@ -103,12 +103,12 @@ class Fitter {
                      std::span<Response> responses, const Runs& run) const;
   /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
   /// share it takes the lead, and the better of the two fits is kept. Of forms that exclude each other each is fitted and as likely as the
-  /// others: the best fit is kept, with the evidence of all. Both as far as the budget goes.
+  /// others: the best fit is kept, with the mean of their evidence. Both as far as the budget goes.
   Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
 
  private:
   Fit fit_with_best_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms);
-  /// Of one effect, beside the fit with one of them.
+  /// Fits the other forms of an effect whose forms exclude each other; `best` comes with one of them.
   void fit_exclusive_forms(Fit& best, std::size_t effect);
   bool may_fit(const Hypothesis& hypothesis) const;
   Fit fit_with_leads(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms);
