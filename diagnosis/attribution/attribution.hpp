@@ -59,9 +59,9 @@ struct Attribution {
   /// Fits of causes that could stand in the place of this one's: less than `nats_of_rule` behind it by weight, and neither part of it nor
   /// larger sets with all of it, which say nothing else of its effects.
   std::vector<int> alternatives_to(int fit) const;
-  /// Nats by which the process alone explains the data better than this fit. What a further effect is priced at is a rule among sets of
-  /// effects: a process has shapes of its own, which its evidence pays for.
-  double outside_leads_by(int fit) const;
+  /// Nats by which outside is likelier than the likeliest fit, by evidence and prior. What a further effect is priced at is a rule among
+  /// sets of effects: a process has shapes of its own, which its evidence pays for.
+  double outside_leads_by() const;
   /// Evidence of a fit with the choice of a remainder, without what a guard takes away.
   double log_evidence(int fit) const;
 };

@@ -6,6 +6,7 @@
 // fitted to sets whose truth is known: what the models leave is in the hypotheses themselves (errors of form, remainder, outside).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/attribution.hpp"
@@ -69,7 +70,11 @@ std::vector<int> Attribution::alternatives_to(int fit) const {
   return alternatives;
 }
 
-double Attribution::outside_leads_by(int fit) const { return discrepancy.log_evidence - log_evidence(fit); }
+double Attribution::outside_leads_by() const {
+  double likeliest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < fits.size(); ++i) likeliest = std::max(likeliest, log_prior[i] + log_evidence(static_cast<int>(i)));
+  return std::log(prior_outside) + discrepancy.log_evidence - likeliest;
+}
 
 double Attribution::log_evidence(int fit) const {
   const auto i = static_cast<std::size_t>(fit);

@@ -72,9 +72,9 @@ void drop_surplus_effects(const Responses& model, Attribution& a) {
   }
 }
 
-// Hypotheses that hold nine tenths of the probability together, the likeliest first. What was not fitted has its share, but no verdict
-// rests on it.
-std::vector<std::string> shared_verdict(const Attribution& a) {
+// Hypotheses that hold nine tenths of the probability together, the likeliest first, and the one that leads by the rule. What was not
+// fitted has its share, but no verdict rests on it.
+std::vector<std::string> shared_verdict(const Attribution& a, int leading) {
   std::vector<std::pair<double, std::string>> order;
   for (const auto& [name, p] : a.probability) order.emplace_back(-p, name);
   std::sort(order.begin(), order.end());
@@ -85,6 +85,8 @@ std::vector<std::string> shared_verdict(const Attribution& a) {
     sum -= minus_p;
     if (sum >= attributed) break;
   }
+  const std::string& name = a.names[static_cast<std::size_t>(leading)];
+  if (std::count(shared.begin(), shared.end(), name) == 0) shared.push_back(name);
   return shared;
 }
 
@@ -112,7 +114,7 @@ class Judge {
     }
     v_.log_evidence["outside"] = a_.discrepancy.log_evidence - a_.fits[0].log_evidence;
     const int first = likely_larger_set(a_.first());
-    discrepancy_leads_by_ = a_.outside_leads_by(first);
+    discrepancy_leads_by_ = a_.outside_leads_by();
     v_.checks = predictive_checks(model_, a_.fits[first], model_.experiment().seed);
     if (discrepancy_leads_by_ > nats_of_rule)
       discrepancy();
@@ -207,7 +209,7 @@ class Judge {
     for (int i = 1; i < static_cast<int>(a_.fits.size()); ++i)
       if (a_.log_evidence(i) > none + speaks) against += v_.probability.at(a_.names[static_cast<std::size_t>(i)]);
     if (against > v_.probability.at("none")) {
-      tie(shared_verdict(a_));
+      tie(shared_verdict(a_, 0));
       return;
     }
     v_.verdict = all_blind(model_, a_) ? VerdictKind::blind : VerdictKind::none;
@@ -252,7 +254,7 @@ class Judge {
       tie({a_.names[first], "outside"});
       note_weak_second(first);
     } else if (p < suspected) {
-      tie(shared_verdict(a_));
+      tie(shared_verdict(a_, first));
     } else if (const int twin = equal_rival(first); twin >= 0) {
       tie({a_.names[first], a_.names[twin]});
     } else if (predicts_better(rival, first) && a_.weight[rival] > a_.weight[first] - nats_of_rule) {
@@ -391,7 +393,7 @@ class Judge {
   const Responses& model_;
   Attribution& a_;
   Verdict& v_;
-  double discrepancy_leads_by_ = 0;  // nats over the fit that is judged
+  double discrepancy_leads_by_ = 0;  // nats over the likeliest fit
   bool is_below_rule_ = false;       // named for its probability; a further effect of it brings less than 6 nats
 };
 

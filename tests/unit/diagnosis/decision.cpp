@@ -124,6 +124,26 @@ std::size_t place_of(const Attribution& a, const std::string& name) {
   return static_cast<std::size_t>(found - a.names.begin());
 }
 
+/// One effect that does not live on its nuisances, and is clear of nothing.
+void make_clear(Fit& fit) {
+  fit.solution.d = fit.linear.prior;
+  fit.theta[0] = 0.3, fit.theta_sd[0] = 0.01;
+}
+
+// The rule puts one cause first, and nearly all of the probability is another's.
+TEST(Decision, TieNamesTheLeadingCauseToo) {
+  const Verdict verdict = judged_after([&](Attribution& a) {
+    const auto first = static_cast<std::size_t>(a.first()), rival = place_of(a, "drag_magnitude");
+    std::fill(a.weight.begin(), a.weight.end(), -20.0);
+    a.weight[first] = 0, a.weight[rival] = -8;
+    make_clear(a.fits[rival]);
+    a.fits[rival].log_evidence += a.log_evidence(static_cast<int>(first)) + 30 - a.log_evidence(static_cast<int>(rival));
+  });
+  EXPECT_GT(verdict.probability.at("drag_magnitude"), 0.9);
+  EXPECT_EQ(verdict.verdict, VerdictKind::tie);
+  EXPECT_EQ(verdict.tie, (std::vector<std::string>{"drag_magnitude", "lift"}));
+}
+
 TEST(Decision, BetterPredictorMakesATieOrADoubt) {
   for (const double ahead : {1.0, 3.0})       // among left-out points
     for (const double behind : {5.0, 7.0}) {  // by evidence
@@ -132,9 +152,7 @@ TEST(Decision, BetterPredictorMakesATieOrADoubt) {
         for (std::size_t i = 0; i < a.fits.size(); ++i)
           if (i != first) a.weight[i] = a.weight[first] - 20, a.leave_one_out[i] = a.leave_one_out[first] - 20;
         a.weight[rival] = a.weight[first] - behind, a.leave_one_out[rival] = a.leave_one_out[first] + ahead;
-        Fit& fit = a.fits[rival];
-        fit.solution.d = fit.linear.prior;  // it does not live on its nuisances, and is clear of nothing
-        fit.theta[0] = 0.3, fit.theta_sd[0] = 0.01;
+        make_clear(a.fits[rival]);
       });
       const bool predicts_better = ahead > 2, is_close = behind < 6;
       const Wording wording = predicts_better || is_close ? Wording::suspected : Wording::attributed;

@@ -92,14 +92,19 @@ TEST(Probabilities, AlternativesAreLessThanSixNatsBehind) {
   EXPECT_EQ(attribution.alternatives_to(1), std::vector<int>{});
 }
 
-/// Requirement: the process alone is weighed against the evidence of the leading set of effects; the price of a further effect is a matter
+/// Requirement: outside is weighed against the likeliest set of effects, by evidence and prior; the price of a further effect is a matter
 /// among sets of effects.
-TEST(Probabilities, OutsideLeadsByEvidence) {
+TEST(Probabilities, OutsideLeadsOverTheLikeliestSet) {
   Attribution attribution = with_evidence(0, 80, 2, 100, 104);
   attribution.weight = {0, 80, 2, 94};  // a further effect costs 6
-  EXPECT_NEAR(attribution.outside_leads_by(3), 4, 1e-12);
+  const double prior_pair = prior_effect * prior_effect / prior_none;
+  EXPECT_NEAR(attribution.outside_leads_by(), 4 + std::log(prior_discrepancy / prior_pair), 1e-12);
   attribution.remainder[3].gain = 3, attribution.weight[3] += 3;
-  EXPECT_NEAR(attribution.outside_leads_by(3), 1, 1e-12);
+  EXPECT_NEAR(attribution.outside_leads_by(), 1 + std::log(prior_discrepancy / prior_pair), 1e-12);
+  attribution.fits[2].log_evidence = 102;  // one effect is likelier than two of a little more evidence
+  EXPECT_NEAR(attribution.outside_leads_by(), 2 + std::log(prior_discrepancy / prior_effect), 1e-12);
+  set_probabilities(attribution);
+  EXPECT_NEAR(std::log(attribution.probability.at("outside") / attribution.probability.at("b")), attribution.outside_leads_by(), 1e-9);
 }
 
 /// Requirement: an effect acts in every hypothesis that holds it; one whose name is part of another's does not.
