@@ -34,6 +34,7 @@ struct Prior {
   bool random = false;                // runs with another seed (key `seed` of the same table) give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed
   bool exclusive_forms = false;       // its law is exactly one of its forms (key `form`); else it may lie between them
+  bool is_share = false;              // of one law in the place of another: there is nothing beyond 1
   std::vector<Need> needs = {};
 };
 

@@ -147,6 +147,7 @@ std::vector<Effect> library_effects(const CaseFeatures& facts, const std::vector
                    .sd = p.sd,
                    .minimum = p.minimum,
                    .maximum = p.maximum,
+                   .is_share = p.is_share,
                    .random = p.random,
                    .acts_on_water = p.acts_on_water,
                    .blind = holds(effect.name)                      ? "the base case already contains it"

@@ -36,6 +36,7 @@ struct FibreDrag final : FluidForce {
                            .sd = 0.4,
                            .minimum = 0,
                            .maximum = 1,
+                           .is_share = true,
                            .needs = {Need::fibre}}};
   }
   std::vector<Parameter> parameters() override {

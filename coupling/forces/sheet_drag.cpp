@@ -102,6 +102,7 @@ struct SheetDrag final : FluidForce {
                            .sd = 0.4,
                            .minimum = 0,
                            .maximum = 1,
+                           .is_share = true,
                            .needs = {Need::sheet}}};
   }
   std::vector<Parameter> parameters() override {

@@ -19,6 +19,7 @@ struct Effect {
   std::string unit = "1";             // of theta
   double mean = 0, sd = 1;            // prior of theta given that the effect is there
   double minimum = 0, maximum = 1e9;  // physical range of theta
+  bool is_share = false;              // of one law in the place of another: there is nothing beyond 1
   bool fixed = false;                 // there or not, at its mean: nothing of it is fitted
   bool random = false;                // runs with another seed give another result
   bool acts_on_water = false;         // cannot be expressed where the water is prescribed or replayed

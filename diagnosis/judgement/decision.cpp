@@ -369,7 +369,7 @@ class Judge {
     }
   }
 
-  // Of named effects. No effect at all is no end of a range.
+  // Of named effects. No effect at all is no end of a range, nor is the whole of a law that takes the place of another.
   void note_ranges(const Fit& fit) {
     constexpr double near = 0.5;  // standard deviations
     for (std::size_t e = 0; e < fit.hypothesis.effects.size(); ++e) {
@@ -377,7 +377,7 @@ class Judge {
       const double strength = fit.theta[static_cast<Eigen::Index>(e)], sd = fit.theta_sd[static_cast<Eigen::Index>(e)];
       const std::string unit = effect.unit == "1" ? "" : " " + effect.unit;
       for (const double end : {effect.minimum, effect.maximum})
-        if (end != 0 && std::abs(end - strength) < near * sd)
+        if (end != 0 && !(effect.is_share && end == effect.maximum) && std::abs(end - strength) < near * sd)
           v_.notes.push_back("The strength of " + effect.name + ", " + rounded(strength) + unit + ", is at the end of its range, " +
                              rounded(end) + unit + ": what lies beyond was not tried.");
     }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tests/verification/diagnosis/formula.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
@@ -57,11 +58,10 @@ Experiment experiment_of(const formula::Theta& effects, double late = 0) {
   return experiment;
 }
 
-/// The attribution of the data, by default those of lift alone, changed before it is judged.
+/// The attribution, changed before it is judged.
 template <class Change>
-Verdict judged_after(const Change& change, const Experiment& experiment = experiment_of({{"lift", 1}})) {
-  formula::Sphere sphere(experiment);
-  Responses model(experiment, sphere);
+Verdict judged_after(const Change& change, const Experiment& experiment, Simulator& simulator) {
+  Responses model(experiment, simulator);
   Fitter fitter(model);
   Attribution attribution = attribute(model, fitter, {});
   change(attribution);
@@ -70,8 +70,16 @@ Verdict judged_after(const Change& change, const Experiment& experiment = experi
   return verdict;
 }
 
-bool has_note(const Verdict& verdict, const std::string& begin) {
-  return std::any_of(verdict.notes.begin(), verdict.notes.end(), [&](const std::string& note) { return note.starts_with(begin); });
+/// Of data of spheres, by default those of lift alone.
+template <class Change>
+Verdict judged_after(const Change& change, const Experiment& experiment = experiment_of({{"lift", 1}})) {
+  formula::Sphere sphere(experiment);
+  return judged_after(change, experiment, sphere);
+}
+
+bool has_note(const Verdict& verdict, const std::string& begin, const std::string& end = "") {
+  return std::any_of(verdict.notes.begin(), verdict.notes.end(),
+                     [&](const std::string& note) { return note.starts_with(begin) && note.ends_with(end); });
 }
 
 TEST(Decision, EffectLessThanTwoDeviationsClearIsRefused) {
@@ -97,10 +105,38 @@ TEST(Decision, StrengthAtTheEndOfItsRangeIsNoted) {
         if (fit.theta.size() == 1) fit.theta[0] = most - away * fit.theta_sd[0];
     });
     ASSERT_EQ(verdict.effects, std::vector<std::string>{"lift"}) << away;
-    const bool is_noted = std::any_of(verdict.notes.begin(), verdict.notes.end(), [](const std::string& note) {
-      return note.ends_with(", is at the end of its range, 4: what lies beyond was not tried.");
-    });
-    EXPECT_EQ(is_noted, away < 0.5) << away;
+    EXPECT_EQ(has_note(verdict, "The strength of lift", ", is at the end of its range, 4: what lies beyond was not tried."), away < 0.5)
+        << away;
+  }
+}
+
+/// A law in the place of another, of which the data have the whole.
+class InPlaceOfAnother final : public TestSimulator {
+ public:
+  explicit InPlaceOfAnother(bool is_share) {
+    effects_ = {{.name = "sheet", .mean = 0.8, .sd = 0.4, .maximum = 1, .is_share = is_share}};
+    for (int i = 1; i <= 20; ++i) slots_.push_back({0, 0.05 * i});
+  }
+
+ private:
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    std::vector<double> path;
+    for (const Slot& slot : slots_) path.push_back(number_of(request.effects, "sheet") * slot.time);
+    return path;
+  }
+};
+
+TEST(Decision, TheWholeOfALawIsNoEndOfItsRange) {
+  Experiment experiment;
+  experiment.observables = {{.id = "x", .unit = "m", .noise_u = 0.01, .calibration_group = "", .numerics_u = 0}};
+  experiment.points = {{.id = "A", .case_file = {}}};
+  NormalNumbers random(7);
+  for (int i = 1; i <= 20; ++i) experiment.data.push_back({.time = 0.05 * i, .value = 0.05 * i + 0.01 * random()});
+  for (const bool is_share : {false, true}) {
+    InPlaceOfAnother simulator(is_share);
+    const Verdict verdict = judged_after([](Attribution&) {}, experiment, simulator);
+    ASSERT_EQ(verdict.effects, std::vector<std::string>{"sheet"}) << is_share;
+    EXPECT_EQ(has_note(verdict, "The strength of sheet", "is at the end of its range, 1: what lies beyond was not tried."), !is_share);
   }
 }
 

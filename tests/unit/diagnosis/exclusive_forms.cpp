@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/fitting/fit.hpp"
-#include "diagnosis/statistics/statistics.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
@@ -18,36 +18,26 @@ double answer(double pressure_strength, int form, double lift_strength, double t
   return pressure_strength * (t + (form == 1 ? std::sin(6 * t) : 0)) + lift_strength * std::sin(6 * t) / 3;
 }
 
-class Forms final : public Simulator {
+class Forms final : public TestSimulator {
  public:
   /// `only`: the one form that the law has; -1: all three.
   Forms(bool exclusive, int only) : only_(only) {
-    effects_[pressure].exclusive_forms = exclusive;
-    effects_[pressure].n_forms = only < 0 ? 3 : 1;
+    effects_ = {
+        {.name = "lift", .mean = 1, .sd = 0.5, .maximum = 4},
+        {.name = "pressure_gradient", .mean = 1, .sd = 0.4, .maximum = 3, .n_forms = only < 0 ? 3 : 1, .exclusive_forms = exclusive}};
     for (int i = 0; i < n_times; ++i) slots_.push_back({0, time_of(i)});
   }
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    std::vector<RunResult> results;
-    for (const RunRequest& request : requests) {
-      const auto strength = [&](const char* name) { return request.effects.contains(name) ? request.effects.at(name) : 0.0; };
-      const int form = only_ >= 0 ? only_ : request.forms.contains("pressure_gradient") ? request.forms.at("pressure_gradient") : 0;
-      results.emplace_back();
-      for (const Slot& slot : slots_)
-        results.back().values.push_back(answer(strength("pressure_gradient"), form, strength("lift"), slot.time));
-    }
-    return results;
-  }
-  int n_runs() const override { return 0; }
 
  private:
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    const auto chosen = request.forms.find("pressure_gradient");
+    const int form = only_ >= 0 ? only_ : chosen == request.forms.end() ? 0 : chosen->second;
+    std::vector<double> values;
+    for (const Slot& slot : slots_)
+      values.push_back(answer(number_of(request.effects, "pressure_gradient"), form, number_of(request.effects, "lift"), slot.time));
+    return values;
+  }
   int only_;
-  std::vector<Effect> effects_{{.name = "lift", .mean = 1, .sd = 0.5, .maximum = 4},
-                               {.name = "pressure_gradient", .mean = 1, .sd = 0.4, .maximum = 3}};
-  std::vector<Nuisance> nuisances_;
-  std::vector<Slot> slots_;
 };
 
 Experiment experiment(double pressure_strength, int form, double lift_strength) {

@@ -8,38 +8,29 @@
 #include "diagnosis/attribution/discrepancy.hpp"
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/response.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
 
 /// 3 + 20 times the relative deviation of a length, which has no room beyond `most`, nor below `least`. The effect is that deviation, too.
-class Narrow final : public Simulator {
+class Narrow final : public TestSimulator {
  public:
-  Narrow(double least, double most) : least_(least), most_(most) {}
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    std::vector<RunResult> results;
-    for (const RunRequest& request : requests) {
-      const auto length = request.nuisances.find("length");
-      const auto effect = request.effects.find("longer");
-      const double deviation =
-          (length == request.nuisances.end() ? 0 : length->second) + (effect == request.effects.end() ? 0 : effect->second);
-      if (deviation >= least_ && deviation <= most_)
-        results.push_back({{3 + 20 * deviation}, ""});
-      else
-        results.push_back({{std::numeric_limits<double>::quiet_NaN()}, "no room"});
-    }
-    return results;
+  Narrow(double least, double most) : least_(least), most_(most) {
+    effects_ = {{.name = "longer", .minimum = -1}}, nuisances_ = {{"length", 0.05, {0}}}, slots_ = {{}};
   }
-  int n_runs() const override { return 0; }
 
  private:
+  static double deviation(const RunRequest& request) {
+    return number_of(request.nuisances, "length") + number_of(request.effects, "longer");
+  }
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    return {failure(request).empty() ? 3 + 20 * deviation(request) : std::numeric_limits<double>::quiet_NaN()};
+  }
+  std::string failure(const RunRequest& request) const override {
+    return deviation(request) >= least_ && deviation(request) <= most_ ? "" : "no room";
+  }
   double least_, most_;
-  std::vector<Effect> effects_{{.name = "longer", .minimum = -1}};
-  std::vector<Nuisance> nuisances_{{"length", 0.05, {0}}};
-  std::vector<Slot> slots_{{}};
 };
 
 /// Requirement: where a run with an input moved up fails, the derivative is that of the other side; where that fails too there is none.

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "diagnosis/attribution/screening.hpp"
-#include "diagnosis/statistics/statistics.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
@@ -16,31 +16,20 @@ double time_of(int i) { return (i + 1.0) / n_times; }
 /// An input and an effect that do the same, far from linear.
 double answer(double phase, double t) { return std::sin(6 * t + 4 * phase * t); }
 
-class Phase final : public Simulator {
+class Phase final : public TestSimulator {
  public:
   Phase() {
+    effects_ = {{.name = "effect", .mean = 0.4, .sd = 0.2, .minimum = -1, .maximum = 2}}, nuisances_ = {{"input", 0.05, {0}}};
     for (int i = 0; i < n_times; ++i) slots_.push_back({0, time_of(i)});
   }
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    std::vector<RunResult> results;
-    for (const RunRequest& request : requests) {
-      const auto input = request.nuisances.find("input");
-      const auto effect = request.effects.find("effect");
-      const double phase = (input == request.nuisances.end() ? 0 : input->second) + (effect == request.effects.end() ? 0 : effect->second);
-      results.emplace_back();
-      for (const Slot& slot : slots_) results.back().values.push_back(answer(phase, slot.time));
-    }
-    return results;
-  }
-  int n_runs() const override { return 0; }
 
  private:
-  std::vector<Effect> effects_{{.name = "effect", .mean = 0.4, .sd = 0.2, .minimum = -1, .maximum = 2}};
-  std::vector<Nuisance> nuisances_{{"input", 0.05, {0}}};
-  std::vector<Slot> slots_;
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    std::vector<double> values;
+    for (const Slot& slot : slots_)
+      values.push_back(answer(number_of(request.nuisances, "input") + number_of(request.effects, "effect"), slot.time));
+    return values;
+  }
 };
 
 TEST(InputForEffect, ScreeningInItsPlacePromisesWhatTheFitReaches) {

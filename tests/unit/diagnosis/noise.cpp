@@ -10,7 +10,7 @@
 
 #include "diagnosis/data/summary.hpp"
 #include "diagnosis/fitting/response.hpp"
-#include "diagnosis/statistics/statistics.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
@@ -40,26 +40,19 @@ NoiseModel found(double factor, double correlation, double growth, std::uint64_t
 }
 
 /// Answers with the path of the experiment at the times of the samples; an effect by chance makes the spread between repeats a row.
-class AtSamples final : public Simulator {
+class AtSamples final : public TestSimulator {
  public:
   AtSamples() {
-    effects_.front().random = true;
+    effects_ = {{.name = "eddies", .random = true}};
     for (int k = 0; k < 20; ++k) slots_.push_back({0, step * (k + 1)});
   }
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    RunResult path;
-    for (int k = 0; k < 20; ++k) path.values.push_back(std::sin(k));
-    return std::vector<RunResult>(requests.size(), path);
-  }
-  int n_runs() const override { return 0; }
 
  private:
-  std::vector<Effect> effects_{{.name = "eddies"}};
-  std::vector<Nuisance> nuisances_;
-  std::vector<Slot> slots_;
+  std::vector<double> values(const RunRequest&, NormalNumbers&) const override {
+    std::vector<double> path;
+    for (int k = 0; k < 20; ++k) path.push_back(std::sin(k));
+    return path;
+  }
 };
 
 TEST(Noise, AsStated) {

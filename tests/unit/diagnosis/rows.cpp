@@ -7,7 +7,7 @@
 #include "diagnosis/fitting/fit.hpp"
 #include "diagnosis/fitting/response.hpp"
 #include "diagnosis/localisation/gap_cells.hpp"
-#include "diagnosis/statistics/statistics.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
@@ -26,38 +26,25 @@ TEST(Rows, CovarianceKeepsUnitsApart) {
 }
 
 /// Answers every slot with one number, or with none.
-class Constant : public Simulator {
+class Constant final : public TestSimulator {
  public:
-  explicit Constant(double value) : value_(value) {}
-  std::vector<Nuisance> known{};
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return known; }
-  const std::vector<Slot>& slots(int) const override { return slots_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    return std::vector<RunResult>(requests.size(), {{value_}, ""});
-  }
-  int n_runs() const override { return 0; }
+  explicit Constant(double value, const std::vector<Nuisance>& known = {}) : value_(value) { nuisances_ = known, slots_ = {{}}; }
 
  private:
+  std::vector<double> values(const RunRequest&, NormalNumbers&) const override { return {value_}; }
   double value_;
-  std::vector<Effect> effects_;
-  std::vector<Slot> slots_{{}};
 };
 
 /// Answers with another normal number of this scatter for each seed.
-class Scattered final : public Constant {
+class Scattered final : public TestSimulator {
  public:
-  Scattered(double mean, double scatter) : Constant(mean), mean_(mean), scatter_(scatter) {}
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    std::vector<RunResult> results;
-    for (const RunRequest& request : requests) {
-      const double share = static_cast<double>(request.seed % 8) + 0.5;
-      results.push_back({{mean_ + scatter_ * normal_quantile(share / 8)}, ""});
-    }
-    return results;
-  }
+  Scattered(double mean, double scatter) : mean_(mean), scatter_(scatter) { slots_ = {{}}; }
 
  private:
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    const double share = static_cast<double>(request.seed % 8) + 0.5;
+    return {mean_ + scatter_ * normal_quantile(share / 8)};
+  }
   double mean_, scatter_;
 };
 
@@ -92,45 +79,21 @@ TEST(Rows, ScatterOfRepeatsIsCompared) {
   EXPECT_TRUE(other.significant);
 }
 
-/// Answers the slots of a path with its measured places.
-class Straight final : public Constant {
+/// Answers the slots of a path with its measured places, as far as the runs go.
+class Straight final : public TestSimulator {
  public:
-  explicit Straight(int n) : Constant(0) {
-    for (int i = 0; i < n; ++i) path_.push_back({.observable = 0, .time = 0.1 * i});
+  explicit Straight(int n, double end = std::numeric_limits<double>::infinity()) : end_(end) {
+    for (int i = 0; i < n; ++i) slots_.push_back({.observable = 0, .time = 0.1 * i});
   }
-  const std::vector<Slot>& slots(int) const override { return path_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    RunResult result;
-    for (const Slot& slot : path_) result.values.push_back(slot.time);
-    return std::vector<RunResult>(requests.size(), result);
-  }
-
- private:
-  std::vector<Slot> path_;
-};
-
-/// As above, of runs that end before the last samples.
-class EndsEarly final : public Simulator {
- public:
-  explicit EndsEarly(double end) : end_(end) {
-    for (int i = 0; i < 10; ++i) path_.push_back({.observable = 0, .time = 0.1 * i});
-  }
-  const std::vector<Effect>& effects() const override { return effects_; }
-  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
-  const std::vector<Slot>& slots(int) const override { return path_; }
   double run_end(int) const override { return end_; }
-  std::vector<RunResult> run(std::span<const RunRequest> requests) override {
-    RunResult result;
-    for (const Slot& slot : path_) result.values.push_back(slot.time <= end_ ? slot.time : std::numeric_limits<double>::quiet_NaN());
-    return std::vector<RunResult>(requests.size(), result);
-  }
-  int n_runs() const override { return 0; }
 
  private:
+  std::vector<double> values(const RunRequest&, NormalNumbers&) const override {
+    std::vector<double> path;
+    for (const Slot& slot : slots_) path.push_back(slot.time <= end_ ? slot.time : std::numeric_limits<double>::quiet_NaN());
+    return path;
+  }
   double end_;
-  std::vector<Effect> effects_;
-  std::vector<Nuisance> nuisances_;
-  std::vector<Slot> path_;
 };
 
 /// Requirement: rows that are left out because the runs end before them are told with their number and the remedy.
@@ -138,7 +101,7 @@ TEST(Rows, ThoseAfterTheEndOfARunAreTold) {
   std::vector<Datum> data;
   for (int i = 0; i < 10; ++i) data.push_back({.time = 0.1 * i, .value = 0.1 * i});
   const Experiment experiment = of_one_row({.id = "x", .unit = "m", .noise_u = 0.01, .calibration_group = ""}, data);
-  EndsEarly early(0.65), whole(1);
+  Straight early(10, 0.65), whole(10, 1);
   const Responses some(experiment, early), all(experiment, whole);
   ASSERT_EQ(some.notes().size(), 1);
   EXPECT_EQ(some.notes().front(),
@@ -190,8 +153,8 @@ TEST(Rows, BiasIsCountedOnce) {
       of_one_row({.id = "x", .unit = "m", .noise_u = 1e-4, .bias_u = 1e-3, .calibration_group = ""}, {{.value = 0.5}});
   Constant simulator(0.4);
   EXPECT_EQ(Responses(experiment, simulator).nuisances().size(), 1u);
-  simulator.known = {{"bias of x", 1, {0}}};
-  const Responses responses(experiment, simulator);
+  Constant biased(0.4, {{"bias of x", 1, {0}}});
+  const Responses responses(experiment, biased);
   ASSERT_EQ(responses.nuisances().size(), 1u);
   EXPECT_TRUE(responses.nuisances()[0].of_data);
 }

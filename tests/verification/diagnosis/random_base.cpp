@@ -8,7 +8,7 @@
 #include <map>
 
 #include "diagnosis/diagnose.hpp"
-#include "tests/verification/diagnosis/random_simulator.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 using namespace snag;
 
@@ -16,17 +16,12 @@ namespace {
 
 using Theta = std::map<std::string, double>;
 
-double get(const Theta& map, const std::string& name) {
-  const auto found = map.find(name);
-  return found == map.end() ? 0 : found->second;
-}
-
 /// A crumpled piece behind a bend in three numbers: velocity, m/s, height in the pipe, m, area, m2. How it crumples (its size s, its place
 /// at the start h) is chance. `drag` lets it follow the water, `pressure` holds it back from the outer wall, its mass lets it sink.
 std::array<double, 3> passage(int point, const Theta& effects, const Theta& nuisances, NormalNumbers& random) {
-  const double water = (0.6 + 0.4 * point) * (1 + get(nuisances, "flow.amplitude")), mass = 1 + get(nuisances, "rag.mass");
+  const double water = (0.6 + 0.4 * point) * (1 + number_of(nuisances, "flow.amplitude")), mass = 1 + number_of(nuisances, "rag.mass");
   const double s = std::exp(0.15 * random()), h = 5e-3 * random();
-  const double follows = (1 + get(effects, "drag")) * s / mass, thrown = 0.06 * (1 - 0.5 * get(effects, "pressure"));
+  const double follows = (1 + number_of(effects, "drag")) * s / mass, thrown = 0.06 * (1 - 0.5 * number_of(effects, "pressure"));
   const double vx = water * (1 - 0.4 * std::exp(-follows) + 0.02 * random());
   return {vx, h + thrown * std::exp(-0.3 * follows) * water / (1 + water) - 0.06 * mass / water, 0.014 * s / (1 + 0.3 * water)};
 }
@@ -34,7 +29,7 @@ std::array<double, 3> passage(int point, const Theta& effects, const Theta& nuis
 /// Index of the case of a point: points of one case are of one condition.
 int condition(const OperatingPoint& point) { return point.case_file.string().front() - 'a'; }
 
-class Pipe final : public RandomSimulator {
+class Pipe final : public TestSimulator {
  public:
   explicit Pipe(const Experiment& experiment) : points_(experiment.points) {
     effects_ = {{.name = "drag", .parameter = "", .mean = 0.3, .sd = 0.2, .minimum = -0.6, .maximum = 2},
@@ -142,7 +137,7 @@ TEST(RandomBase, SeriesDiffer) {
 
 /// A crumple behind a bend: a kernel of this width brings the height down, and lets the shapes of the crumples differ less. No width brings
 /// the shape of the measured ones.
-class Bend final : public RandomSimulator {
+class Bend final : public TestSimulator {
  public:
   explicit Bend(const Experiment& experiment) {
     effects_ = {{.name = "width", .parameter = "", .mean = 20, .sd = 15, .minimum = 0, .maximum = 60},
@@ -152,9 +147,9 @@ class Bend final : public RandomSimulator {
 
  private:
   std::vector<double> values(const RunRequest& r, NormalNumbers& random) const override {
-    const double width = get(r.effects, "width"), alike = std::exp(-width / 10);
+    const double width = number_of(r.effects, "width"), alike = std::exp(-width / 10);
     const double shape = 5.2 + alike * random();
-    return {shape, 30 - 0.7 * width - 3 * get(r.effects, "weight") + 0.5 * random()};
+    return {shape, 30 - 0.7 * width - 3 * number_of(r.effects, "weight") + 0.5 * random()};
   }
 };
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "diagnosis/diagnose.hpp"
-#include "tests/verification/diagnosis/random_simulator.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 using namespace snag;
 
@@ -27,7 +27,7 @@ Passage passage(int point, double sticking, double slip, NormalNumbers& random) 
   return p;
 }
 
-class Pump final : public RandomSimulator {
+class Pump final : public TestSimulator {
  public:
   explicit Pump(bool with_twin = false) {
     effects_ = {{.name = "slip", .parameter = "", .mean = 1, .sd = 0.5, .minimum = 0, .maximum = 4},
@@ -38,7 +38,7 @@ class Pump final : public RandomSimulator {
 
  private:
   std::vector<double> values(const RunRequest& r, NormalNumbers& random) const override {
-    const auto theta = [&](const char* name) { return r.effects.contains(name) ? r.effects.at(name) : 0; };
+    const auto theta = [&](const char* name) { return number_of(r.effects, name); };
     const Passage p = passage(r.point, theta("sticking") + theta("twin"), theta("slip"), random);
     return {p.time, p.recirculations, p.exited};
   }
