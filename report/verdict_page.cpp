@@ -50,11 +50,14 @@ std::string which(const Verdict& v) {
   for (const auto& [name, p] : v.acts) sorted.emplace_back(p, name);
   for (const char* name : {"none", "outside"}) sorted.emplace_back(v.probability.at(name), name);
   std::sort(sorted.rbegin(), sorted.rend());
+  const std::vector<std::string> strong = names_of(v);
   std::vector<Bar> all;
   for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 10); ++i)
-    all.push_back({sorted[i].second, probability_in_words(sorted[i].first), sorted[i].first, i == 0});
+    all.push_back({sorted[i].second, probability_in_words(sorted[i].first), sorted[i].first,
+                   std::count(strong.begin(), strong.end(), sorted[i].second) > 0});
   return bars(all) +
-         "<p>The bar of an effect is the probability that it acts, alone or together with another. For an effect that these data cannot "
+         "<p>The bar of an effect is the probability that it acts, alone or together with another; blue is what the verdict names. For an "
+         "effect that these data cannot "
          "show it is the probability before the data. None: no effect is missing. Outside: the cause is not in the library.</p>\n";
 }
 

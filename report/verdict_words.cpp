@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <vector>
 
 #include "base/words.hpp"
 
@@ -159,6 +158,25 @@ std::string verdict_advice(const Verdict& v) {
     text += " The fit combines several forms of a law, and a case can use one only: its run differs from the fit by up to " +
             rounded(v.improved.off_by_forms) + " standard uncertainties, so adjust the strength there.";
   return text;
+}
+
+std::vector<std::string> names_of(const Verdict& v) {
+  switch (v.verdict) {
+    case VerdictKind::effects:
+      return v.effects;
+    case VerdictKind::outside:
+      return {"outside"};
+    case VerdictKind::tie: {
+      std::vector<std::string> all;
+      for (const std::string& hypothesis : v.tie)
+        for (const std::string& name : split(hypothesis, '+')) all.push_back(name);
+      return all;
+    }
+    case VerdictKind::none:
+    case VerdictKind::blind:
+      break;
+  }
+  return {"none"};
 }
 
 }  // namespace snag

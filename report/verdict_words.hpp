@@ -1,6 +1,7 @@
 #pragma once
 // A verdict in sentences: what was found, and what an engineer does about it.
 #include <string>
+#include <vector>
 
 #include "diagnosis/data/verdict.hpp"
 
@@ -10,6 +11,9 @@ namespace snag {
 std::string verdict_sentence(const Verdict& verdict);
 /// What to do now, in one sentence or two.
 std::string verdict_advice(const Verdict& verdict);
+
+/// What the verdict names: all causes of it, of a tie those of each hypothesis, or "none", "outside".
+std::vector<std::string> names_of(const Verdict& verdict);
 
 /// "98 %"; "-" where there is no number.
 std::string share_in_words(double share);

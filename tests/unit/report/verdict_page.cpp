@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/verdict_words.hpp"
@@ -53,6 +54,31 @@ TEST(VerdictPage, WaterOfAPipeInWords) {
   EXPECT_EQ(verdict_sentence(of(VerdictKind::effects, Wording::attributed, {"swirl"}, 0.999)),
             "The gap comes from swirl: the water swirls by 0.48 ± 0.02 of its mean speed at the wall of the pipe: attributed, probability "
             "over 99 %.");
+}
+
+/// Labels of the bars that stand out.
+std::vector<std::string> strong_bars(const std::string& page) {
+  std::vector<std::string> labels;
+  const std::string bars = page.substr(0, page.find("</svg>")), blue = "fill=\"#0072b2\"/>", label = "text-anchor=\"end\">";
+  for (std::size_t at = bars.find(blue); at != std::string::npos; at = bars.find(blue, at + 1)) {
+    const std::size_t begin = bars.rfind(label, at) + label.size();
+    labels.push_back(bars.substr(begin, bars.find('<', begin) - begin));
+  }
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+TEST(VerdictPage, BarsOfWhatIsNamedStandOut) {
+  using Names = std::vector<std::string>;
+  Verdict v = of(VerdictKind::effects, Wording::attributed, {"added_mass", "lift"}, 0.99);
+  v.acts["wall"] = 0.995;
+  EXPECT_EQ(strong_bars(verdict_page(v)), (Names{"added_mass", "lift"}));
+  v.verdict = VerdictKind::tie, v.wording = Wording::undecided, v.tie = {"added_mass+wall", "outside"};
+  EXPECT_EQ(strong_bars(verdict_page(v)), (Names{"added_mass", "outside", "wall"}));
+  v.verdict = VerdictKind::outside, v.wording = Wording::outside;
+  EXPECT_EQ(strong_bars(verdict_page(v)), Names{"outside"});
+  v.verdict = VerdictKind::none, v.wording = Wording::no_gap;
+  EXPECT_EQ(strong_bars(verdict_page(v)), Names{"none"});
 }
 
 TEST(VerdictPage, SuspectedCauseIsCheckedFirst) {
