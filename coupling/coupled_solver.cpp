@@ -71,7 +71,7 @@ void CoupledSolver::step(double dt) {
     laps.add_to(seconds_.coupling);
     advance_flow_(dt);
     laps.add_to(seconds_.flow);
-    if (coupling_.settings.two_way()) load_->set_missed_rates(rags_.tiles(), kernel_field_->missed_rates(impulses_));
+    if (coupling_.settings.two_way()) load_->set_missed_rates(rags_.tiles(), kernel_field_->missed_rates(load_->impulses(rags_.tiles())));
     if (flow_->mesh.turning.zone >= 0) mesh_moved();
     prediction_->end_step();
   }
@@ -116,26 +116,26 @@ std::optional<Vec3> CoupledSolver::water_velocity(int rag) {
 
 void CoupledSolver::spread(double dt) {
   report_ = {};
-  impulses_ = load_->impulses(rags_.tiles());
+  impulses_ = load_->impulses_with_unfelt(rags_.tiles());
   if (!flow_) return;
+  const std::vector<Vec3> felt = load_->impulses(rags_.tiles());
   const ParticleList& particles = kernel_field_->particles();
   std::vector<double> volume(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
   std::vector<double> screen(screens_ ? particles.size() : 0);
   for (std::size_t b = 0; b < screen.size(); ++b) screen[b] = load_->screen(particles.tile(b), particles.place(b));
-  const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .impulse = impulses_}, dt);
+  const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .impulse = felt}, dt);
   report_.max_solid_fraction = balance.max_solid_fraction;
   judge_packing();
   if (!coupling_.settings.two_way()) return;
   check_momentum(balance);
-  report_.force_on_rags = balance.on_rags / dt;
   report_.force_on_water = balance.on_water / dt;
   report_.momentum_exchange = balance.relative();
   std::vector<int> rag_of(particles.size());
   std::vector<Vec3> mean_places(particles.size());
   for (std::size_t b = 0; b < particles.size(); ++b)
     rag_of[b] = rags_.tiles()[particles.tile(b)].rag, mean_places[b] = kernel_field_->mean_place(b);
-  report_.places = force_places(rags_.comm(), kernel_field_->places(), mean_places, impulses_, rag_of, rags_.rags().size());
+  report_.places = force_places(rags_.comm(), kernel_field_->places(), mean_places, felt, rag_of, rags_.rags().size());
   double largest = 0;
   for (std::size_t b = 0; b < particles.size(); ++b)
     largest = std::max(largest, load_->slope(particles.tile(b), particles.place(b)) * kernel_field_->response(b));
@@ -161,7 +161,7 @@ void CoupledSolver::write_report(double dt) {
   const MPI_Comm comm = rags_.comm();
   report_.time = rags_.time();
   report_.max_stiffness = maximum(comm, load_->max_stiffness(rags_.tiles()));
-  if (!coupling_.settings.two_way()) report_.force_on_rags = sum(comm, std::span<const Vec3>(load_->impulses(rags_.tiles()))) / dt;
+  report_.force_on_rags = sum(comm, std::span<const Vec3>(impulses_)) / dt;
   if (!kernel_) return;
   const auto [least, largest] = kernel_->width_over_cell_size();
   report_.width_over_cell_least = least, report_.width_over_cell_largest = largest;

@@ -17,7 +17,7 @@ namespace snag {
 /// What one step exchanged, for monitors; the same on every rank.
 struct CouplingReport {
   double time = 0;                     // s
-  Vec3 force_on_rags, force_on_water;  // means over the step, N
+  Vec3 force_on_rags, force_on_water;  // means over the step, N; of the first only what reacts is the opposite of the second
   double momentum_exchange = 0;        // lost of what was exchanged, 1
   ForcePlaces places;
   double max_solid_fraction = 0;  // 1; above 1 rags are folded closer than the kernel resolves
@@ -54,8 +54,8 @@ class CoupledSolver {
   const Coupling& coupling() const { return coupling_; }
   const CouplingReport& report() const { return report_; }
   const CouplingSeconds& seconds() const { return seconds_; }
-  /// What the water gave each particle of this rank in the last step, N s, in the order of ParticleList; without forces that do not react
-  /// on the water (weight, buoyancy, pressure gradient). Empty before the first step.
+  /// What the water gave each particle of this rank in the last step, N s, in the order of ParticleList; without weight and buoyancy.
+  /// Empty before the first step.
   const std::vector<Vec3>& impulses() const { return impulses_; }
 
   /// Columns of monitors/coupling.csv, of a report.

@@ -101,6 +101,29 @@ Section CouplingSettings::section() {
 
 double Coupling::kernel_width(const std::vector<Rag>& rags) const { return settings.kernel_width.value_or(automatic_width(rags)); }
 
+namespace {
+
+/// Each law of drag is that of the whole drag: one of them acts. What changes a drag has one to change.
+void check_drag(const std::string& where, const std::vector<std::unique_ptr<FluidForce>>& forces) {
+  std::string law, modifier;
+  bool is_there = false;
+  for (const auto& force : forces) {
+    const ForceDescription description = force->description();
+    if (description.role == Role::drag && !law.empty())
+      throw Error(ExitCode::usage, where + " forces: \"" + law + "\" and \"" + description.name +
+                                       "\" are both laws of the whole drag, and would add up; write one of them");
+    if (description.role == Role::drag) law = description.name;
+    if (description.role == Role::drag_modifier && modifier.empty()) modifier = description.name;
+    is_there = is_there || description.role == Role::drag || description.role == Role::drag_replacement;
+  }
+  if (!modifier.empty() && !is_there)
+    throw Error(ExitCode::usage, where + " forces: \"" + modifier +
+                                     "\" changes the drag, but no force of the list gives one; add a law of drag such as "
+                                     "\"schiller_naumann\", of cloth \"sheet_drag\"");
+}
+
+}  // namespace
+
 Coupling read_coupling(const Table& root, bool two_way_possible) {
   Coupling coupling;
   CouplingSettings& settings = coupling.settings;
@@ -127,6 +150,7 @@ Coupling read_coupling(const Table& root, bool two_way_possible) {
     const bool acts = settings.mode != CouplingSettings::Mode::none || name == gravity;
     if (acts) coupling.forces.push_back(std::move(force));
   }
+  check_drag(table.where(), coupling.forces);
   return coupling;
 }
 

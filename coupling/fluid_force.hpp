@@ -66,7 +66,8 @@ enum class Role {
   drag,              // adds drag
   drag_replacement,  // takes the place of a share of the drag that `force` and `slope` hold by then
   drag_modifier,     // changes the drag that `force` and `slope` hold by then; force = slope w, unless a model before made it anisotropic
-  force              // adds a force
+  force,             // adds a force
+  weight             // weight and buoyancy: what water at rest does, which no output counts as a force of the water
 };
 
 /// What a model is, for the manual.

@@ -8,7 +8,7 @@
 namespace snag {
 
 namespace {
-enum Sum { impulse_x, impulse_y, impulse_z, slope_integral, screen_integral, n_sums };
+enum Sum { impulse_x, impulse_y, impulse_z, slope_integral, screen_integral, unfelt_x, unfelt_y, unfelt_z, n_sums };
 enum Array {
   two_way_force = 0,
   slope_sum = 3,
@@ -28,8 +28,12 @@ enum Array {
   step_impulse = 29,
   slip_growth = 32,
   screen_now = 33,
-  n_arrays = 34
+  unfelt_force = 34,
+  n_arrays = 37
 };
+
+/// A force of the water that does not react on it.
+bool is_unfelt(const ForceDescription& description) { return !description.reacts_on_fluid && description.role != Role::weight; }
 
 /// Mean of the relaxation over a sub-step.
 inline double mean_relaxation(double theta) { return (1 + theta / 6) / (1 + theta * (2.0 / 3 + theta / 6)); }
@@ -42,10 +46,11 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
             [](const auto& a, const auto& b) { return std::tie(a.first.role, a.first.name) < std::tie(b.first.role, b.first.name); });
   for (const auto& [description, force] : descriptions) {
     needed_ = needed_ | description.samples;
-    forces_.push_back({force, description.reacts_on_fluid, description.role, n_particle_state_});
+    forces_.push_back({force, description.reacts_on_fluid, is_unfelt(description), description.role, n_particle_state_});
     n_particle_state_ += description.n_particle_state;
     changes_fluid_ = changes_fluid_ || description.role == Role::fluid;
     all_react_ = all_react_ && description.reacts_on_fluid;
+    unfelt_ = unfelt_ || is_unfelt(description);
     torque_ = torque_ || description.gives_torque, added_mass_ = added_mass_ || description.gives_added_mass;
     screen_ = screen_ || description.gives_screen;
     needs_impulse_ = needs_impulse_ || description.needs_impulse, needs_drag_ = needs_drag_ || description.needs_drag;
@@ -99,18 +104,22 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
       slopes[k] += exists[k] * hK;
     }
     for (int i = 0; i < 3; ++i) {
-      const double *R = array(two_way_force + i), *N = array(one_way_force + i), *r = rate[i];
+      const double *R = array(two_way_force + i), *N = array(one_way_force + i), *U = array(unfelt_force + i), *r = rate[i];
       double *f = tile.field(Tile::fx + i), *J = sums_.field(index, impulse_x + i);
       double* of_step = needs_impulse_ ? last_impulse(tile, i) : array(step_impulse + i);
 #pragma omp simd
       for (int k = first; k < end; ++k) {
-        const double other = f[k] + N[k], M = m + added_mass[k];
+        const double other = f[k] + N[k] + U[k], M = m + added_mass[k];
         const double mean = phi[k] * R[k] + driven[k] * (r[k] - (free[k] > 0.5 ? other / M : 0));
         const double total = (other + mean) * (free[k] > 0.5 ? m / M : 1);  // m a
         of_step[k] = exists[k] > 0 ? step * (total - other) : 0;
         J[k] += of_step[k];
         f[k] = exists[k] > 0 ? total : f[k];
       }
+      if (!unfelt_) continue;
+      double* unfelt = sums_.field(index, unfelt_x + i);
+#pragma omp simd
+      for (int k = first; k < end; ++k) unfelt[k] += exists[k] * step * U[k];
     }
   }
   if (torque_) add_torque(tile, step);
@@ -132,6 +141,7 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   };
   clear(two_way_force, 4);  // with the slope
   if (!all_react_) clear(one_way_force, 3);
+  if (unfelt_) clear(unfelt_force, 3);
   if (added_mass_) clear(added_mass_sum, 1);
   if (needs_impulse_) clear(relief_sum, 1);
   if (screen_) clear(screen_now, 1);
@@ -142,8 +152,8 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   if (screen_) reacting.screen = array(screen_now);
   if (needs_impulse_) particles.last_impulse = {last_impulse(tile, 0), last_impulse(tile, 1), last_impulse(tile, 2)};
   if (needs_drag_) particles.last_drag = state(tile, drag_begin_);
-  Forces silent = reacting;
-  silent.force = vector(one_way_force);
+  Forces silent = reacting, unfelt = reacting;
+  silent.force = vector(one_way_force), unfelt.force = vector(unfelt_force);
   // The middle of the sub-step is where the integrator evaluates forces.
   FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
   if (fluid.velocity_rate.x) follow(fluid, index, tile, particles);
@@ -167,9 +177,9 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   }
   const auto act = [&](bool drag) {
     for (const Member& member : forces_) {
-      if ((member.role != Role::force) != drag) continue;
+      if ((member.role < Role::force) != drag) continue;
       particles.state = tile.particle_state.data() + member.state_begin * particles.state_stride;
-      member.force->add(fluid, particles, member.reacts ? reacting : silent);
+      member.force->add(fluid, particles, member.reacts ? reacting : member.is_unfelt ? unfelt : silent);
     }
   };
   act(true);
@@ -255,6 +265,16 @@ std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
   const ParticleList particles(tiles);
   std::vector<Vec3> all(particles.size());
   for (std::size_t b = 0; b < all.size(); ++b) all[b] = impulse(particles.tile(b), particles.place(b));
+  return all;
+}
+
+std::vector<Vec3> FluidLoad::impulses_with_unfelt(std::span<const Tile> tiles) const {
+  std::vector<Vec3> all = impulses(tiles);
+  const ParticleList particles(tiles);
+  for (std::size_t b = 0; b < all.size() && unfelt_; ++b) {
+    const auto of = [&](int f) { return sums_.field(particles.tile(b), f)[particles.place(b)]; };
+    all[b] += {of(unfelt_x), of(unfelt_y), of(unfelt_z)};
+  }
   return all;
 }
 

@@ -52,6 +52,9 @@ class FluidLoad final : public TileForce {
   double screen(std::size_t index, int k) const;
   /// J of all particles of this rank, N s.
   std::vector<Vec3> impulses(std::span<const Tile> tiles) const;
+  /// The same with what the water gives and does not feel, as the pressure gradient, which would push water in their place, too. Without
+  /// weight and buoyancy.
+  std::vector<Vec3> impulses_with_unfelt(std::span<const Tile> tiles) const;
   /// Largest dt K/m of this rank's particles: above 1 a particle follows the water within one step of the flow.
   double max_stiffness(std::span<const Tile> tiles) const;
 
@@ -67,7 +70,7 @@ class FluidLoad final : public TileForce {
   /// A force with what its description says.
   struct Member {
     const FluidForce* force;
-    bool reacts;
+    bool reacts, is_unfelt;
     Role role;
     int state_begin;
   };
@@ -75,13 +78,14 @@ class FluidLoad final : public TileForce {
   FluidField& field_;
   const std::vector<Rag>& rags_;
   SampleSet needed_;
-  bool all_react_ = true, torque_ = false, added_mass_ = false, changes_fluid_ = false, screen_ = false;  // what the forces give
+  bool all_react_ = true, unfelt_ = false, torque_ = false, added_mass_ = false, changes_fluid_ = false,
+       screen_ = false;  // what the forces give
   bool needs_impulse_ = false, needs_drag_ = false;
   int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0, missed_rate_begin_ = -1;
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s
-  TileArrays sums_;               // J, integral of K
+  TileArrays sums_;               // J, integral of K, impulse of what the water does not feel
   AlignedDoubles scratch_;        // [n_arrays][scratch_size_]; fields that no force writes stay zero
   std::size_t scratch_size_ = 0;  // places of the largest tile
 };

@@ -20,6 +20,7 @@ struct Gravity final : FluidForce {
             .source = "Archimedes",
             .valid_for = "fluid of uniform density",
             .reacts_on_fluid = false,
+            .role = Role::weight,
             .prior = Prior{.key = "gravity.acceleration_m_s2",
                            .meaning = "weight and buoyancy, in units of 9.81 m/s2: the vector is (0, 0, -9.81 theta)",
                            .mean = 1,

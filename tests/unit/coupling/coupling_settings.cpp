@@ -48,6 +48,27 @@ TEST(CouplingSettings, ReadsForcesAndRefusesUnknownOnes) {
   EXPECT_THROW(read_coupling(CaseFile::parse("[coupling]\nmode = \"two_way\"\n").root(), false), Error);
 }
 
+// Requirement: laws of the whole drag do not add up unsaid, and what changes a drag has one to change.
+TEST(CouplingSettings, OneLawOfDragActs) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      read_coupling(CaseFile::parse("[coupling]\n" + text).root());
+    } catch (const Error& error) {
+      return error.code == ExitCode::usage ? error.what() : "";
+    }
+    return "";
+  };
+  EXPECT_NE(refusal(R"(forces = ["free_stream_drag", "wall", "schiller_naumann"])")
+                .find("\"free_stream_drag\" and \"schiller_naumann\" are both laws of the whole drag"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"(forces = ["pressure_gradient", "drag_magnitude"])").find("\"drag_magnitude\" changes the drag, but no force"),
+            std::string::npos);
+  for (const char* sound :
+       {R"(["schiller_naumann", "drag_magnitude", "sheet_drag"])", R"(["drag_magnitude", "sheet_drag"])", R"(["pressure_gradient"])", "[]"})
+    EXPECT_EQ(refusal(std::string("forces = ") + sound), "") << sound;
+  EXPECT_EQ(refusal("mode = \"none\"\nforces = [\"drag_magnitude\"]"), "");
+}
+
 // Requirement: a cloth across the stream that says nothing of its resistance has that of a plate where the water does not feel it, and the
 // loss coefficient of a cloth where it does; what a case says counts in both.
 TEST(CouplingSettings, ResistanceOfASheetDependsOnTheMode) {

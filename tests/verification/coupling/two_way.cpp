@@ -162,6 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, TwoWayExchange, testing::ValuesIn(kernel_shap
 /// last.
 struct Suspension {
   double least = infinity, largest = 0;
+  double force_over_weight = 0;  // of the water on all particles, over m G
   Suspension(double phi, double density_ratio, double viscosity) {
     const Mesh mesh = structured_box(world, {0, 0, 0}, {0.06, 0.04, 0.08}, {3, 2, 4});
     Flow flow(mesh);
@@ -192,6 +193,7 @@ struct Suspension {
     }
     const int steps = 100;
     for (int n = 0; n < steps; ++n) solver.step(dt);
+    force_over_weight = solver.report().force_on_rags.x / (24 * rags.rags()[0].mass * G);
     const auto note = [&](const Vec3& velocity) {
       const double a = norm(velocity - speed) / (G * dt * steps);
       least = std::min(least, a), largest = std::max(largest, a);
@@ -213,6 +215,8 @@ TEST(PressureGradientExchange, MixtureMovesAsOne) {
                   neutral.largest - 1, heavy.least, heavy.largest, exact);
     EXPECT_NEAR(neutral.least, 1, 1e-10);
     EXPECT_NEAR(neutral.largest, 1, 1e-10);
+    EXPECT_NEAR(neutral.force_over_weight, 1, 1e-9);  // all of it by the pressure gradient
+    EXPECT_NEAR(heavy.force_over_weight, exact, 0.01 * exact);
     EXPECT_NEAR(heavy.least, exact, 0.01 * exact);
     EXPECT_NEAR(heavy.largest, exact, 0.01 * exact);
   }

@@ -135,7 +135,10 @@ TEST(UnsteadySphere, FollowsAnOscillation) {
     run.advance(10 * period, 10 * 2000);
     double error = 0, square = 0;
     for (int n = 0; n < 2000; ++n) {
+      const double before = run.velocity().x, mass = run.rags.rags()[0].mass;
       run.solver.step(period / 2000);
+      const double given = mass * (run.velocity().x - before) / (period / 2000);
+      EXPECT_NEAR(run.solver.report().force_on_rags.x, given, 1e-9 * mass * amplitude * w);
       const double exact = amplitude * std::imag(response * std::exp(i * (w * run.rags.time())));
       error += std::pow(run.velocity().x - exact, 2), square += exact * exact;
     }
