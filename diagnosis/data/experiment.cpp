@@ -15,6 +15,7 @@
 #include "base/words.hpp"
 #include "diagnosis/data/experiment_table.hpp"
 #include "diagnosis/data/repeats_of_row.hpp"
+#include "observe/observables.hpp"
 
 namespace snag {
 
@@ -71,6 +72,10 @@ Observable read_observable(const Table& table) {
   if (!unit || observable.unit.empty())
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": unknown unit \"" + observable.unit +
                                      "\"; write one such as \"m\", \"mm/s\", \"deg\", or \"1\" for a pure number");
+  const ObservableRecord* record = find_observable(observable.id);
+  if (record && parse_unit(record->unit)->exponents != unit->exponents)
+    throw Error(ExitCode::usage, table.where() + " " + observable.id + ": the unit \"" + observable.unit + "\" must be of the kind of \"" +
+                                     record->unit + "\", in which runs give " + observable.id + "; write the unit of the data");
   if (observable.kind != Observable::Kind::lognormal)
     for (double* u : {&observable.noise_u, &observable.bias_u, &observable.numerics_u}) *u *= unit->factor;
   return observable;

@@ -42,6 +42,8 @@ class Reading {
   DataTable read(std::string_view text) {
     DataTable table;
     std::string withheld;
+    if (constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; text.starts_with(byte_order_mark))
+      text.remove_prefix(byte_order_mark.size());
     while (!text.empty()) {
       const auto end = text.find('\n');
       const std::string_view line = trimmed(text.substr(0, end));
@@ -65,11 +67,18 @@ class Reading {
  private:
   Error wrong(const std::string& what) const { return {ExitCode::usage, name_ + ":" + std::to_string(line_) + ": " + what}; }
 
+  std::string_view without_quotes(std::string_view field) const {
+    if (!field.starts_with('"')) return field;
+    if (field.size() < 2 || !field.ends_with('"'))
+      throw wrong("a field in quotes holds a comma, or has no end: write numbers with a point, as in 0.5, and names without commas");
+    return field.substr(1, field.size() - 2);
+  }
+
   void cut(std::string_view line) {
     fields_.clear();
     for (std::size_t begin = 0;;) {
       const auto comma = line.find(',', begin);
-      fields_.push_back(trimmed(line.substr(begin, comma - begin)));
+      fields_.push_back(without_quotes(trimmed(line.substr(begin, comma - begin))));
       if (comma == std::string_view::npos) return;
       begin = comma + 1;
     }
@@ -78,6 +87,9 @@ class Reading {
   void read_header() {
     static const std::vector<std::string> known{"point", "replicate", "t_s", "observable", "value", "censored", "n", "sd"};
     column_.assign(known.size(), -1);
+    for (const auto& [character, meaning] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}})
+      if (fields_.size() == 1 && fields_.front().find(character) != std::string_view::npos)
+        throw wrong(std::string("the columns are separated by ") + meaning + "; separate them by commas, and write numbers with a point");
     for (const std::string_view field : fields_) {
       columns_.emplace_back(field);
       std::size_t k = 0;

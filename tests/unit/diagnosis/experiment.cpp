@@ -95,6 +95,31 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheFile) {
   EXPECT_TOLD(message(head + x_mm + A + B, copied), "withheld data must not be trained on");
 }
 
+/// Requirement: the unit of an observable that runs give is one of its kind.
+TEST_F(ReadExperiment, UnitsAreOfTheKindOfTheObservable) {
+  const auto read = [&](const std::string& id, const std::string& unit) {
+    return message(head + "[[observable]]\nid = \"" + id + "\"\nunit = \"" + unit + "\"\nnoise_u = 1\n" + A,
+                   columns + "A,0,0.1," + id + ",1\n");
+  };
+  for (const char* unit : {"kg", "s", "N", "m/s", "1"})
+    EXPECT_TOLD(read("x", unit), std::string("the unit \"") + unit + "\" must be of the kind of \"m\", in which runs give x");
+  EXPECT_TOLD(read("vx", "mm"), "must be of the kind of \"m/s\"");
+  EXPECT_EQ(read("x", "mm"), "accepted");
+  EXPECT_EQ(read("vx", "mm/s"), "accepted");
+  EXPECT_EQ(read("orientation", "deg"), "accepted");
+}
+
+/// Requirement: tables as spreadsheets write them are read, or refused with what is to be changed.
+TEST_F(ReadExperiment, TablesOfSpreadsheets) {
+  const std::string row = "A,0,0.1,x,1\n";
+  EXPECT_EQ(message(head + x_mm + A, "\xEF\xBB\xBF" + columns + row), "accepted");
+  EXPECT_EQ(message(head + x_mm + A, "\"point\",\"replicate\",\"t_s\",\"observable\",\"value\"\r\n\"A\",0,0.1,\"x\",1\r\n"), "accepted");
+  EXPECT_TOLD(message(head + x_mm + A, columns + "A,0,0.1,x,\"1,5\"\n"), "data.csv:2: a field in quotes holds a comma");
+  EXPECT_TOLD(message(head + x_mm + A, "point;replicate;t_s;observable;value\nA;0;0,1;x;1\n"),
+              "data.csv:1: the columns are separated by semicolons");
+  EXPECT_TOLD(message(head + x_mm + A, "point\treplicate\tt_s\tobservable\tvalue\n"), "the columns are separated by tabs");
+}
+
 /// Requirement: tests that ended at the same time before the event are no copy of a withheld point.
 TEST_F(ReadExperiment, PointsThatAreAllCensoredAreNoCopies) {
   const std::string time = "[[observable]]\nid = \"retention_time\"\nunit = \"s\"\nkind = \"lognormal\"\nnoise_u = 0.03\n";
@@ -129,13 +154,13 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheData) {
 // Published means stand for their repeats: number, mean and scatter come back exactly.
 TEST_F(ReadExperiment, RowsForSeveralRepeats) {
   const std::string all = "point,replicate,t_s,observable,value,censored,n,sd\n";
-  const auto told = [](const std::string& id, const std::string& kind) {
-    return "[[observable]]\nid = \"" + id + "\"\nunit = \"1\"\nkind = \"" + kind + "\"\n";
+  const auto told = [](const std::string& id, const std::string& kind, const std::string& unit = "1") {
+    return "[[observable]]\nid = \"" + id + "\"\nunit = \"" + unit + "\"\nkind = \"" + kind + "\"\n";
   };
-  const auto e = read_experiment(write(
-      head + told("retention_time", "lognormal") + told("area", "gaussian") + told("recirculations", "count") + told("exited", "event") + A,
-      all + "A,0,,retention_time,0.239,,50,0.075\nA,60,,retention_time,30,1,2,\nA,0,,area,4,,7,0.5\n"
-            "A,0,,recirculations,0.25,,50,\nA,0,,exited,0.04,,50,\n"));
+  const auto e = read_experiment(write(head + told("retention_time", "lognormal", "s") + told("area", "gaussian", "m2") +
+                                           told("recirculations", "count") + told("exited", "event") + A,
+                                       all + "A,0,,retention_time,0.239,,50,0.075\nA,60,,retention_time,30,1,2,\nA,0,,area,4,,7,0.5\n"
+                                             "A,0,,recirculations,0.25,,50,\nA,0,,exited,0.04,,50,\n"));
   const auto moments = [&](int observable, auto value) {
     double n = 0, sum = 0, square = 0;
     for (const Datum& d : e.data)
@@ -153,9 +178,9 @@ TEST_F(ReadExperiment, RowsForSeveralRepeats) {
   EXPECT_NEAR(area[2], 0.5, 1e-12);
   EXPECT_NEAR(moments(2, [](double v) { return v; })[1], 13 / 50.0, 1e-12);  // 12.5 recirculations of 50 rags are 12 or 13
   EXPECT_NEAR(moments(3, [](double v) { return v; })[1], 0.04, 1e-12);
-  EXPECT_TOLD(message(head + told("area", "gaussian") + A, all + "A,0,,area,4,,1,0.5\n"), "one repeat");
-  EXPECT_TOLD(message(head + told("area", "gaussian") + A, all + "A,0,,area,4,,0,\n"), "whole number of repeats");
-  EXPECT_TOLD(message(head + told("area", "gaussian") + A, all + "A,0,,area,4,,9,0.5\nA,3,,area,4,,,\n"), "as line 2");
+  EXPECT_TOLD(message(head + told("area", "gaussian", "m2") + A, all + "A,0,,area,4,,1,0.5\n"), "one repeat");
+  EXPECT_TOLD(message(head + told("area", "gaussian", "m2") + A, all + "A,0,,area,4,,0,\n"), "whole number of repeats");
+  EXPECT_TOLD(message(head + told("area", "gaussian", "m2") + A, all + "A,0,,area,4,,9,0.5\nA,3,,area,4,,,\n"), "as line 2");
   EXPECT_TOLD(message(head + told("exited", "event") + A, all + "A,0,,exited,1.2,,50,\n"), "share");
   EXPECT_TOLD(message(head + told("recirculations", "count") + A, all + "A,0,,recirculations,2,,50,1\n"), "leave sd empty");
 }
