@@ -56,8 +56,8 @@ double elongation(const std::array<double, 6>& moment, const Vec3& centre) {
   const double xy = moment[3] - centre.x * centre.y, yz = moment[4] - centre.y * centre.z, zx = moment[5] - centre.z * centre.x;
   m << moment[0] - centre.x * centre.x, xy, zx, xy, moment[1] - centre.y * centre.y, yz, zx, yz, moment[2] - centre.z * centre.z;
   const Eigen::Vector3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(m, Eigen::EigenvaluesOnly).eigenvalues();
-  const double noise = 1e-12 * m.trace();
-  if (axes(2) <= 0) return 1;
+  const double noise = 1e-13 * (moment[0] + moment[1] + moment[2]);  // round-off of what was subtracted
+  if (axes(2) <= noise) return 1;
   return axes(1) > noise ? std::sqrt(axes(2) / axes(1)) : infinity;
 }
 

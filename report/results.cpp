@@ -175,6 +175,8 @@ std::string pump_table(const json& summary) {
             {"head_total_m", "Head of the total pressure", "m"},
             {"torque_Nm", "Torque", "N m"},
             {"shaft_power_W", "Shaft power", "W"},
+            {"torque_contacts_Nm", "Torque of the rags' contacts on the shaft", "N m"},
+            {"shaft_power_total_W", "Shaft power with that of the contacts", "W"},
             {"efficiency", "Hydraulic efficiency", ""},
             {"revolutions", "Revolutions of the run", ""}});
   const bool is_part = real(pump, "revolutions") < 1;

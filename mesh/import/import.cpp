@@ -256,8 +256,8 @@ void require_zones(const MeshParts& parts) {
     const auto unnamed = std::count(parts.zone.begin(), parts.zone.begin() + parts.n_owned, -1);
     if (unnamed > 0)
       throw Error(ExitCode::mesh,
-                  parts.source + ": " + std::to_string(unnamed) +
-                      " cells of a rank belong to no named volume; give every volume a name (gmsh: Physical Volume(\"fluid\") = {...})");
+                  parts.source + ": at least " + std::to_string(unnamed) +
+                      " cells belong to no named volume; give every volume a name (gmsh: Physical Volume(\"fluid\") = {...})");
   });
 }
 
@@ -265,9 +265,9 @@ void require_partition(const std::vector<int>& partition, std::int64_t n_cells, 
   const bool fits = static_cast<std::int64_t>(partition.size()) == n_cells &&
                     std::all_of(partition.begin(), partition.end(), [size](int rank) { return rank >= 0 && rank < size; });
   if (!fits)
-    throw Error(ExitCode::mesh, source + ": the stored partition has " + std::to_string(partition.size()) +
-                                    " cells for other ranks or another mesh, " + std::to_string(n_cells) + " cells on " +
-                                    std::to_string(size) + " ranks are needed; import without it");
+    throw Error(ExitCode::mesh, source + ": has " + std::to_string(n_cells) + " cells on " + std::to_string(size) +
+                                    " ranks, but the partition that is to be used again is that of " + std::to_string(partition.size()) +
+                                    " cells or of other ranks; resume with the mesh of the earlier run, or begin again with --overwrite");
 }
 
 /// The whole mesh and its `faces` on rank 0, empty elsewhere but for the names.

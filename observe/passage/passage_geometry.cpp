@@ -40,7 +40,7 @@ Section PassageSettings::section() {
   return {"rag_passage",
           "Geometry that defines when a rag enters the pump, recirculates, is stuck and leaves: two flange planes and the tongue. Angles "
           "are about the axis of [rotating_zone], zero at the tongue, counter-clockwise positive seen from the inlet. Without this table a "
-          "rag has left when it is beyond a patch of kind pressure_outlet.",
+          "rag has left when it is beyond a patch by which water leaves: an outlet, or an inlet that draws water out.",
           {point("inlet_flange", &inlet_flange, "Centre of the plane where the casing begins."),
            required({"inlet_normal", &inlet_normal, "1", -infinity, infinity, Basis::assumed,
                      "Normal of the inlet plane into the casing, a vector of any length."}),

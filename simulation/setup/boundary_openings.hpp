@@ -1,5 +1,5 @@
 #pragma once
-// The openings of a mesh: its patches on which pressure is given, or that are a way out.
+// The openings of a mesh: its patches on which pressure is given, or by which water leaves.
 #include <vector>
 
 #include "mesh/mesh.hpp"

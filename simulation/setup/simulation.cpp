@@ -168,6 +168,11 @@ void Simulation::build_rags(const CaseFile& file) {
   if (way) rags->contacts()->set_tongue({way->tongue(), way->direction(), way->tongue_reach()});
   passage = std::make_unique<Passage>(comm_, water ? openings(*mesh, water->boundary()) : std::vector<Opening>{}, std::move(way),
                                       rags->rags().size());
+  if (const std::string patches = water ? patches_without_walls() : ""; !patches.empty())
+    log::warning(
+        "the case has no [[wall]]: rags do not feel its patches of kind wall, and go through them; add [[wall]], kind = \"patches\", "
+        "patches = [" +
+        patches + "]");
 }
 
 std::unique_ptr<CoupledSolver> Simulation::coupling_of(const CaseFile& file) {
@@ -281,17 +286,32 @@ void Simulation::add_flow_velocity(int rag) {
   rags->add_velocity(rag, *velocity);
 }
 
+/// Patches of kind wall that rags do not feel, because the case has no [[wall]]: their names, in quotes; empty if there are none.
+std::string Simulation::patches_without_walls() const {
+  if (!walls.bodies().empty()) return "";
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < mesh->patches.size(); ++p)
+    if (water->boundary().is_wall(static_cast<int>(p))) names.push_back("\"" + mesh->patches[p].name + "\"");
+  return joined(names);
+}
+
 /// Particles that are in no cell feel the water of the nearest one, which is right only for those that have left by an opening.
 void Simulation::check_inside() {
   if (!coupled || !mesh || (warned_of_particles_outside_ && !periodic_)) return;
   std::int64_t n = coupled->report().particles_outside;
   for (const std::int64_t out : passage->n_out()) n -= out;
   if (n <= 0) return;
-  const std::string found = "rags: " + std::to_string(n) + " particles are outside the mesh at t = " + number_text(time()) +
-                            " s and did not leave by a pressure outlet";
+  const std::string found =
+      "rags: " + std::to_string(n) + " particles are outside the mesh at t = " + number_text(time()) + " s and did not leave by an outlet";
   if (periodic_)
     throw Error(ExitCode::invariant,
                 found + "; particles are not carried through periodic patches yet: shorten the run, or make the domain longer");
+  if (!patches_without_walls().empty())
+    throw Error(ExitCode::usage,
+                found +
+                    ": the case has no [[wall]], and without one rags go through patches of kind wall; add [[wall]], kind = "
+                    "\"patches\", patches = [" +
+                    patches_without_walls() + "]");
   log::warning(found + "; their forces are those of the water in the nearest cell: is a [[wall]] missing?");
   warned_of_particles_outside_ = true;
 }

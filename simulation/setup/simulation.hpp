@@ -111,6 +111,7 @@ class Simulation {
   void bound_speeds();
   void add_flow_velocity(int rag);
   void remove_rags();
+  std::string patches_without_walls() const;
   void check_inside();
 
   MPI_Comm comm_;

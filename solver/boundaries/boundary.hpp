@@ -60,6 +60,8 @@ class Boundary {
   virtual bool pressure_is_prescribed() const { return pressure_side() == Side::value; }
   /// True where what the water carries has left for good once it is beyond the patch.
   virtual bool is_outlet() const { return pressure_side() == Side::value; }
+  /// True where what is beyond the patch has left: an outlet, and an inlet whose given velocity draws water out.
+  virtual bool leads_out() const { return is_outlet(); }
   /// True where the case gives the velocity: not where a condition draws it from the flow that leaves.
   bool velocity_is_given() const { return velocity_side() == Side::value && !is_outlet(); }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
@@ -112,6 +114,7 @@ class BoundarySet {
   double roughness(int patch) const { return conditions_[patch].boundary->roughness(); }
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
   bool is_outlet(int patch) const { return conditions_[patch].boundary->is_outlet(); }
+  bool leads_out(int patch) const { return conditions_[patch].boundary->leads_out(); }
   bool velocity_is_given(int patch) const { return conditions_[patch].boundary->velocity_is_given(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
@@ -97,10 +98,11 @@ void TwoEquationModel::fill_initial(const Flow& flow, const BoundarySet& boundar
   const Mesh& mesh = flow.mesh;
   double k = initial_k_.value_or(0), epsilon = initial_epsilon_.value_or(0);
   if (!initial_k_) {
-    std::vector<double> weight, weighted_k, weighted_epsilon;
+    std::vector<double> area, weight, weighted_k, weighted_epsilon;
     for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
       if (!boundary.is_open(static_cast<int>(p))) continue;
       for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) {
+        area.push_back(norm(mesh.face_vector[f]));
         if (flow.flux[f] >= 0) continue;
         const TurbulenceValues entering = boundary.turbulence(static_cast<int>(p)).at(-flow.flux[f] / norm(mesh.face_vector[f]), C_mu_);
         weight.push_back(-flow.flux[f]);
@@ -108,7 +110,9 @@ void TwoEquationModel::fill_initial(const Flow& flow, const BoundarySet& boundar
       }
     }
     const double total = sum(mesh.comm, std::span<const double>(weight));
-    if (!(total > 0))
+    // Where a Reynolds number of the openings is below one, it is round-off, or as good as nothing.
+    const double reynolds_times_viscosity = flow.density * total / std::sqrt(sum(mesh.comm, std::span<const double>(area)));
+    if (!(total > 0 && reynolds_times_viscosity > flow.dynamic_viscosity))
       throw Error(ExitCode::usage,
                   "[turbulence]: no fluid enters at the start from which k and epsilon could be taken; give initial_k and "
                   "initial_epsilon");

@@ -116,7 +116,53 @@ class Mistakes(harness.CaseTest):
         case = self.sheets("end_s = 0.02", "end_s = 8e-4")
         self.run_case(case, 2)
         self.refused(2, ["--resume", "--overwrite"], case)
+        others = [self.work / "out" / name for name in ("walls/casing.stl", "rags/note.txt", "pictures/photo.jpg", "fields/pump.msh")]
+        for file in others:
+            file.parent.mkdir(exist_ok=True)
+            file.write_text("of the user")
+        old = self.work / "out" / "rags" / "rags_99999999.vtp"
+        old.write_text("of the earlier run")
         self.run_case(case, 2, "--overwrite")
+        self.assertEqual(["of the user"] * 4, [file.read_text() for file in others])
+        self.assertFalse(old.exists())
+
+    def test_folder_of_the_user(self):
+        case = self.sheets("end_s = 0.02", "end_s = 8e-4")
+        for name in ("walls/casing.stl", "pictures/photo.png", "log.txt"):
+            folder = self.work / name.split("/")[0].replace(".", "_")
+            (folder / name).parent.mkdir(parents=True)
+            (folder / name).write_text("of the user")
+            for how in ([], ["--overwrite"]):
+                self.refused(2, [folder.name, name.split("/")[0], "--out"], case, *how, out=folder.name)
+
+    def test_k_epsilon_where_nothing_enters(self):
+        """Requirement: an inlet that rises from nothing gives no turbulence for the start, whatever the round-off of the first fluxes is."""
+        case = self.channel('"velocity_inlet"', '"velocity_inlet"\nramp_s = 0.03', mesh=self.mesh("channel", "length_mm=300", "height_mm=100", "width_mm=100", 'cells="hexahedra"', "size_mm=25", "wall_ratio=1"))
+        run = self.run_case(case, 2, "--set", 'turbulence.model="k_epsilon"', code=2)
+        self.assertIn("no fluid enters at the start", run.messages[-1])
+
+    def test_rag_through_a_boundary_without_wall(self):
+        """Requirement: a rag that nothing holds back goes through no wall of the mesh unnoticed."""
+        text = CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell")
+        wall = text[text.index("[[wall]]"):text.index("[[rag]]")]
+        case = self.case(text.replace(wall, "").replace("0.08, 0.05, 0.05", "0.08, 0.05, 0.065").replace("lengthwise", "velocity_m_s = [0.5, 0, 3]\nlengthwise").replace(
+            "dynamic_viscosity_Pa_s = 0.05", "dynamic_viscosity_Pa_s = 1e-3").replace('"two_way"', '"one_way"').replace("end_s = 0.05", "end_s = 0.2"))
+        check = harness.snag(["check", case], 1)
+        self.assertEqual(check.code, 0, check.tail())
+        self.assertIn("the case has no [[wall]]", check.stdout)
+        run = self.run_case(case, 2, code=2)
+        self.assertIn('"side_z1"', run.messages[-1])
+        self.assertIn("go through patches of kind wall", run.messages[-1])
+
+    def test_rag_leaves_by_an_inlet_that_draws_water_out(self):
+        text = CHANNEL.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell").replace(
+            'kind = "pressure_outlet"', 'kind = "velocity_inlet"\nvelocity_m_s = [0.5, 0, 0]')
+        text = text.replace("length_mm = 60\nwidth_mm = 40", "length_mm = 20\nwidth_mm = 16").replace(
+            "centre_m = [0.08, 0.05, 0.05]", "centre_m = [0.285, 0.05, 0.05]\nvelocity_m_s = [0.5, 0, 0]").replace(
+            "end_s = 0.05", "end_s = 0.5\nend_when_rags_left = true")
+        run = self.run_case(self.case(text), 2)
+        self.assertEqual(run.summary["rags"][0]["outcome"], "exited")
+        self.assertLess(run.summary["simulated_s"], 0.2)
 
     def test_resume_without_checkpoint(self):
         self.refused(6, ["checkpoint"], self.sheets(), "--resume")

@@ -29,6 +29,7 @@ struct FlowRateInlet final : Boundary {
   }
   std::vector<double> knots() const override { return course.knots(); }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
+  bool leads_out() const override { return flow_rate < 0; }
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     std::vector<Vec3> S(mesh.face_vector.begin() + patch.first, mesh.face_vector.begin() + patch.end());

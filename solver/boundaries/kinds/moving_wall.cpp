@@ -1,5 +1,9 @@
 // Wall that slides along itself or turns about an axis of its own:   u = s(t) (U + omega a x (x - x_0))
+#include <array>
+#include <cmath>
+
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "solver/boundaries/time_course.hpp"
 #include "solver/boundaries/turning_wall.hpp"
 
@@ -30,10 +34,26 @@ struct MovingWall final : Boundary {
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool is_wall() const override { return true; }
   double roughness() const override { return roughness_height; }
-  void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
+  void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     if (norm(axis) == 0)
       throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": axis (0, 0, 0) has no direction; give a vector along it");
+    check_along_itself(mesh, patch);
+  }
+  /// A wall that moves across itself would push water away: a piston, which no mesh here can follow.
+  void check_along_itself(const Mesh& mesh, const Patch& patch) const {
+    constexpr double of_flat_faces = 0.2;  // on a curved wall
+    std::array<double, 2> sums{};
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const Vec3 &S = mesh.face_vector[f], u = velocity + cross(rotation_speed * unit(axis), mesh.face_centre[f] - origin);
+      sums[0] += std::abs(dot(u, S)), sums[1] += norm(u) * norm(S);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
+    if (sums[0] > of_flat_faces * sums[1])
+      throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": moving_wall moves along itself, but " +
+                                       number_text(std::round(100 * sums[0] / sums[1])) +
+                                       " % of the given speed is across the wall; correct velocity, rotation_speed, axis or origin, or let "
+                                       "water in with velocity_inlet");
   }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     const double factor = course.at(time);

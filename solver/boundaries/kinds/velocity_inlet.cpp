@@ -4,6 +4,7 @@
 
 #include "base/choice.hpp"
 #include "base/error.hpp"
+#include "parallel/sum.hpp"
 #include "solver/boundaries/boundary.hpp"
 #include "solver/boundaries/inlet_profile.hpp"
 #include "solver/boundaries/time_course.hpp"
@@ -18,6 +19,7 @@ struct VelocityInlet final : Boundary {
   Choice<Profile> profile{Profile::uniform, {"uniform", "laminar", "turbulent"}};
   TimeCourse course;
   std::vector<double> shape;  // s of each face
+  bool draws_out = false;
 
   Section section() override {
     Section section{
@@ -34,11 +36,14 @@ struct VelocityInlet final : Boundary {
   }
   std::vector<double> knots() const override { return course.knots(); }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
+  bool leads_out() const override { return draws_out; }
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     if (normal_speed && norm(velocity) > 0)
       throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": velocity and normal_speed are both given; give one of them");
     shape = inlet_profile(mesh, patch, profile);
+    const std::vector<Vec3> S(mesh.face_vector.begin() + patch.first, mesh.face_vector.begin() + patch.end());
+    draws_out = normal_speed ? *normal_speed < 0 : dot(velocity, sum(mesh.comm, std::span<const Vec3>(S))) > 0;
   }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     const double factor = course.at(time);

@@ -144,3 +144,30 @@ TEST(FlowTarget, refused) {
                  {"\"z1\"", "response_time (0.3 s)", "4 time steps"});
   expect_refusal(walls + condition("z1", "pressure_outlet", "response_time_s = 3"), {"\"z1\"", "target_flow_rate"});
 }
+
+// A wall that moves across itself is a piston, which a mesh that stands cannot follow: refused. One that moves along itself is not.
+TEST(MovingWall, acrossItself) {
+  const auto wall = [](const std::string& keys) { return walls + condition("z1", "moving_wall", keys); };
+  expect_refusal(wall("velocity_m_s = [0, 0, 1]"), {"\"z1\"", "100 %", "across the wall"});
+  expect_refusal(wall("velocity_m_s = [1, 0, 0.5]"), {"45 %"});
+  expect_refusal(wall("rotation_speed_rpm = 60\naxis = [1, 0, 0]"), {"across the wall", "rotation_speed"});
+  for (const char* along : {"velocity_m_s = [1, 2, 0]", "rotation_speed_rpm = 60\norigin_m = [0.5, 0.5, 0]"})
+    EXPECT_NO_THROW(FlowSolver(box(), {}, conditions(wall(along)))) << along;
+}
+
+// What is beyond an outlet has left, and so has what is beyond an inlet that draws water out.
+TEST(Boundaries, leadOut) {
+  const Mesh mesh = box();
+  const auto leads_out = [&](const std::string& z1) {
+    const FlowSolver solver(mesh, {}, conditions(walls + z1));
+    return solver.boundary().leads_out(mesh.patch_index("z1"));
+  };
+  EXPECT_TRUE(leads_out(condition("z1", "pressure_outlet")));
+  EXPECT_TRUE(leads_out(condition("z1", "flow_rate_inlet", "flow_rate_m3_s = -1")));
+  EXPECT_TRUE(leads_out(condition("z1", "velocity_inlet", "velocity_m_s = [5, 0, 1]")));
+  EXPECT_TRUE(leads_out(condition("z1", "velocity_inlet", "normal_speed_m_s = -1")));
+  EXPECT_FALSE(leads_out(condition("z1", "flow_rate_inlet", "flow_rate_m3_s = 1")));
+  EXPECT_FALSE(leads_out(condition("z1", "velocity_inlet", "velocity_m_s = [5, 0, -1]")));
+  EXPECT_FALSE(leads_out(condition("z1", "pressure_inlet")));
+  EXPECT_FALSE(leads_out(condition("z1", "wall")));
+}
