@@ -105,12 +105,6 @@ void load(Simulation& simulation, CheckpointReader& checkpoint) {
                                      number_text(simulation.time()) + " s; give a later end");
 }
 
-/// What a run does before its first step, and what it refuses there. Collective; throws Error(usage).
-void begin_as_a_run(Simulation& simulation) {
-  if (simulation.water) simulation.water->initialise(simulation.water->flow.time);
-  if (simulation.pump) PumpMonitor(simulation.water->flow, *simulation.pump);
-}
-
 /// From where a run that failed can be repeated, as the end of its message. Collective.
 std::string last_checkpoint(const std::filesystem::path& folder) {
   const auto slots = checkpoint_slots(world, folder / "checkpoint");
@@ -186,7 +180,7 @@ ExitCode check_case(const RunOptions& options) {
   const auto [file, about_step] = case_with_first_step(options.case_file, options.overrides);
   Simulation simulation(file, world);
   const std::string start = simulation.start();
-  begin_as_a_run(simulation);
+  if (simulation.pump) PumpMonitor(simulation.water->flow, *simulation.pump);  // refuses what a run would refuse
   log_heading(simulation, file);
   if (!start.empty()) log::info(start);
   if (simulation.mesh) {

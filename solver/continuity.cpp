@@ -96,11 +96,17 @@ void Continuity::mesh_turned(Flow& flow, const BoundarySet& boundary) {
   start_pressure(flow, boundary);
 }
 
-void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient) {
+void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, int n_non_orthogonal_correctors) {
   mobility_ = 1;
   predict_flux(flow, boundary, gradient, Purpose::projection);
+  // Where water enters or leaves as given, the velocity of the cell becomes that of the boundary.
   std::fill(given_.begin(), given_.end(), 0.0);
-  solve(flow);
+  for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
+    if (!boundary.is_open(static_cast<int>(p)) || boundary.flux(static_cast<int>(p)) != FaceFlux::given) continue;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
+      given_[f - mesh_.n_interior] = (dot(flow.velocity[mesh_.owner[f]], mesh_.face_vector[f]) - flow.flux[f]) / norm(mesh_.face_vector[f]);
+  }
+  solve(flow, std::max(settings_.n_non_orthogonal_correctors, n_non_orthogonal_correctors));
   correct_cells(flow, false);
   carry_history();
 }
@@ -110,7 +116,7 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   mobility_ = time.dt / (time.now * flow.density);
   predict_flux(flow, boundary, gradient, is_last ? Purpose::last_correction : Purpose::correction);
   set_boundary_of_correction(flow, boundary);
-  const ContinuityReport report = solve(flow);
+  const ContinuityReport report = solve(flow, settings_.n_non_orthogonal_correctors);
   correct_cells(flow, true);
   if (is_last) carry_history();
   return report;
@@ -313,10 +319,10 @@ Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& fl
   return {.norm = std::sqrt(squares[0]), .rounding = rounding * std::sqrt(squares[1])};
 }
 
-ContinuityReport Continuity::solve(Flow& flow) {
+ContinuityReport Continuity::solve(Flow& flow, int n_non_orthogonal_correctors) {
   const Imbalance imbalance = begin_correction(flow.flux);
   ContinuityReport report{.initial = imbalance.norm};
-  for (int k = 0; k <= settings_.n_non_orthogonal_correctors; ++k) {
+  for (int k = 0; k <= n_non_orthogonal_correctors; ++k) {
     set_right_side();
     if (k > 0) {
       squares_.gradient(correction_, given_, slope_);
@@ -325,7 +331,7 @@ ContinuityReport Continuity::solve(Flow& flow) {
       set_mean_flux(gradient_);
       add_cross_flux();
     }
-    const double tolerance = k == settings_.n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
+    const double tolerance = k == n_non_orthogonal_correctors ? settings_.tolerance : settings_.tolerance_intermediate;
     const PoissonReport last =
         poisson_.solve(right_side_, correction_, std::max(tolerance * report.initial, imbalance.rounding) / mobility_);
     report.iterations += last.iterations, ++report.solves;
@@ -333,7 +339,7 @@ ContinuityReport Continuity::solve(Flow& flow) {
     report.final = last.final * mobility_;
   }
   if (report.rebuilt) note_preconditioner(flow);
-  correct_flux(flow.flux, settings_.n_non_orthogonal_correctors > 0);
+  correct_flux(flow.flux, n_non_orthogonal_correctors > 0);
   return report;
 }
 

@@ -73,8 +73,10 @@ class Continuity {
 
   /// Pressure gradient and boundary pressure of flow.pressure as it is given (a start). Collective.
   void start_pressure(Flow& flow, const BoundarySet& boundary);
-  /// Make the given velocity and its fluxes divergence-free; the pressure stays. Collective.
-  void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient);
+  /// Make the given velocity and its fluxes divergence-free; the pressure stays. In a step a correction is small, and so is what oblique
+  /// faces leave of it after one repetition; here it may be all of the velocity, 10 % of which one repetition left on tetrahedra.
+  /// Collective.
+  void project(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, int n_non_orthogonal_correctors = 10);
   /// Again after the mesh has turned, at the begin of a step: geometry, and the gradient of the pressure there. Collective.
   void mesh_turned(Flow& flow, const BoundarySet& boundary);
   /// Before the corrections of a step, with the mesh where it is then: f~ takes the place of f in flow.reaction. Collective.
@@ -122,7 +124,7 @@ class Continuity {
     double norm, rounding;  // of the cells' sums of fluxes; what round-off alone makes of it, m3/s
   };
   Imbalance begin_correction(const std::vector<double>& flux);
-  ContinuityReport solve(Flow& flow);
+  ContinuityReport solve(Flow& flow, int n_non_orthogonal_correctors);
   void note_preconditioner(const Flow& flow);
   void set_right_side();
   void add_cross_flux();

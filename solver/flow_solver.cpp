@@ -67,7 +67,7 @@ FlowSolver::FlowSolver(const Mesh& mesh, const FlowSettings& settings, std::vect
 }
 
 StepReport FlowSolver::advance(double dt) {
-  const bool is_start = !started_;
+  const bool is_start = flow.time_step_size == 0;
   initialise(flow.time);
   StepReport report;
   const double begun = seconds();

@@ -328,10 +328,15 @@ std::string Simulation::start_water() {
     if (frozen)
       throw Error(ExitCode::usage,
                   "[initial_flow] frozen = true without from: there is no flow to freeze; give from, the output folder of a run");
+    if (water) water->initialise(water->flow.time);  // before the first step of the rags, which would feel its jump as an acceleration
     return {};
   }
   if (!water) throw Error(ExitCode::usage, "[initial_flow] from: this case computes no water; remove it, or give [mesh]");
-  if (!frozen) return start_flow(*water, start_settings_, start_folder_).log_message;
+  if (!frozen) {
+    const std::string log_message = start_flow(*water, start_settings_, start_folder_).log_message;
+    water->initialise(water->flow.time);
+    return log_message;
+  }
   CachedFlow own;
   CachedFlow& kept = cached_flow_ ? *cached_flow_ : own;
   std::string log_message = "start: frozen water of " + start_folder_.string();
