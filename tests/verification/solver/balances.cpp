@@ -242,6 +242,7 @@ kind = "wall"
 )"),
                     read_turbulence(CaseFile::parse("[turbulence]\nmodel = \"k_epsilon\"\n").root()), turning_rotor(mesh, shells, 50));
   solver.keep_balances({}, {0, 0, 1});
+  std::vector<double> shares(6);  // of the shaft's power, largest of all steps: some terms change sign
   for (int i = 0; i < 20; ++i) {
     solver.advance(2e-3);
     const Balances& now = *solver.balances();
@@ -250,8 +251,10 @@ kind = "wall"
     expect_closed(now, torque, power);
     EXPECT_LT(std::abs(now.turning().interface + now.at_rest().interface), 1e-12 * torque + 1e-9 * std::abs(now.turning().interface));
     EXPECT_NEAR(power / (50 * torque), 1, 1e-9);
-    expect_matters({now.energy().hydraulic, now.energy().dissipation_turbulent, now.energy().dissipation_walls,
-                    now.energy().numerical_convection, now.energy().numerical_pressure, now.energy().numerical_time},
-                   power);
+    const EnergyBalance& energy = now.energy();
+    const std::array terms{energy.hydraulic,          energy.dissipation_turbulent, energy.dissipation_walls, energy.numerical_convection,
+                           energy.numerical_pressure, energy.numerical_time};
+    for (std::size_t k = 0; k < terms.size(); ++k) shares[k] = std::max(shares[k], std::abs(terms[k]) / power);
   }
+  expect_matters(shares, 1);
 }
