@@ -333,7 +333,7 @@ std::string Simulation::start_water() {
   }
   if (!water) throw Error(ExitCode::usage, "[initial_flow] from: this case computes no water; remove it, or give [mesh]");
   if (!frozen) {
-    const std::string log_message = start_flow(*water, start_settings_, start_folder_).log_message;
+    std::string log_message = start_flow(*water, start_settings_, start_folder_).log_message;
     water->initialise(water->flow.time);
     return log_message;
   }
