@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "base/error.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/sum.hpp"
 
@@ -13,33 +14,50 @@ namespace snag {
 
 namespace {
 
+using Ends = std::array<std::int64_t, 2>;  // node ids, rising
+
 struct Edge {
-  std::int64_t a, b;  // node ids, a < b
-  Vec3 x, y;          // ends, m
+  Ends ends;
+  Vec3 x, y;  // of the ends, m
 };
 
-std::vector<Edge> edges_of_all_ranks(const Mesh& mesh, const Patch& patch) {
-  std::vector<Edge> mine;
+std::vector<Edge> edges_of(const Mesh& mesh, const Patch& patch) {
+  std::vector<Edge> edges;
   for (int f = patch.first; f < patch.end(); ++f) {
     const int begin = mesh.face_node_start[f], end = mesh.face_node_start[f + 1];
     for (int i = begin; i < end; ++i) {
       int n = mesh.face_node[i], m = mesh.face_node[i + 1 < end ? i + 1 : begin];
       if (mesh.node_id[n] > mesh.node_id[m]) std::swap(n, m);
-      mine.push_back({mesh.node_id[n], mesh.node_id[m], mesh.node[n], mesh.node[m]});
+      edges.push_back({{mesh.node_id[n], mesh.node_id[m]}, mesh.node[n], mesh.node[m]});
     }
   }
-  return gathered(mesh.comm, mine);
+  return edges;
 }
 
-/// Edges that belong to one face of the patch only.
+/// Edges of all ranks that belong to one face of the patch only, in the order of their ends.
 std::vector<Edge> rim_of(const Mesh& mesh, const Patch& patch) {
-  std::map<std::pair<std::int64_t, std::int64_t>, std::pair<Edge, int>> found;
-  for (const Edge& edge : edges_of_all_ranks(mesh, patch)) ++found.try_emplace({edge.a, edge.b}, edge, 0).first->second.second;
+  std::map<Ends, std::pair<Edge, int>> found;
+  for (const Edge& edge : gathered(mesh.comm, edges_of(mesh, patch))) ++found.try_emplace(edge.ends, edge, 0).first->second.second;
   std::vector<Edge> rim;
   for (const auto& [ends, entry] : found) {
     if (entry.second == 1) rim.push_back(entry.first);
   }
   return rim;
+}
+
+/// The edges of a rim that some patch of walls has, too.
+std::vector<Edge> edges_at_walls(const Mesh& mesh, const std::vector<Edge>& rim, const std::vector<Patch>& walls) {
+  std::vector<int> at_wall(rim.size(), 0);
+  for (const Patch& wall : walls)
+    for (const Edge& edge : edges_of(mesh, wall)) {
+      const auto found = std::ranges::lower_bound(rim, edge.ends, {}, &Edge::ends);
+      if (found != rim.end() && found->ends == edge.ends) at_wall[found - rim.begin()] = 1;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, at_wall.data(), static_cast<int>(at_wall.size()), MPI_INT, MPI_MAX, mesh.comm);
+  std::vector<Edge> edges;
+  for (std::size_t i = 0; i < rim.size(); ++i)
+    if (at_wall[i]) edges.push_back(rim[i]);
+  return edges;
 }
 
 double distance(const Vec3& point, const Edge& edge) {
@@ -50,14 +68,18 @@ double distance(const Vec3& point, const Edge& edge) {
 
 }  // namespace
 
-std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, Profile profile) {
+std::vector<double> inlet_profile(const Mesh& mesh, const Patch& patch, const std::vector<Patch>& walls, Profile profile) {
   std::vector<double> speed(patch.count, 1.0);
   if (profile == Profile::uniform) return speed;
-  const std::vector<Edge> rim = rim_of(mesh, patch);
+  const std::vector<Edge> edges = edges_at_walls(mesh, rim_of(mesh, patch), walls);
+  if (edges.empty())
+    throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name +
+                                     "\": no edge of the patch lies at a wall, so that the profile of a developed flow is not known; write "
+                                     "profile = \"uniform\"");
   double largest = 0;
   for (int i = 0; i < patch.count; ++i) {
     speed[i] = std::numeric_limits<double>::infinity();
-    for (const Edge& edge : rim) speed[i] = std::min(speed[i], distance(mesh.face_centre[patch.first + i], edge));
+    for (const Edge& edge : edges) speed[i] = std::min(speed[i], distance(mesh.face_centre[patch.first + i], edge));
     largest = std::max(largest, speed[i]);
   }
   largest = maximum(mesh.comm, largest);

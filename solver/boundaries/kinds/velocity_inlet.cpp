@@ -30,18 +30,21 @@ struct VelocityInlet final : Boundary {
             {"normal_speed", &normal_speed, "m/s", -infinity, infinity, Basis::assumed,
              "Speed into the domain along the normal, instead of velocity."},
             setting("profile", &profile,
-                    "Profile of the speed over the patch; laminar and turbulent: slower towards the rim, and velocity is the mean.")}};
+                    "Profile of the speed over the patch; laminar and turbulent: slower near a wall, and velocity is the mean.")}};
     course.add_keys(section, "velocity");
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool leads_out() const override { return draws_out; }
-  void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>&) override {
+  void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>& all) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
     if (normal_speed && norm(velocity) > 0)
       throw Error(ExitCode::usage, "[[boundary]] \"" + patch.name + "\": velocity and normal_speed are both given; give one of them");
-    shape = inlet_profile(mesh, patch, profile);
+    std::vector<Patch> walls;
+    for (std::size_t p = 0; p < all.size(); ++p)
+      if (all[p].boundary->is_wall()) walls.push_back(mesh.patches[p]);
+    shape = inlet_profile(mesh, patch, walls, profile);
     const std::vector<Vec3> S(mesh.face_vector.begin() + patch.first, mesh.face_vector.begin() + patch.end());
     draws_out = normal_speed ? *normal_speed < 0 : dot(velocity, sum(mesh.comm, std::span<const Vec3>(S))) > 0;
   }
