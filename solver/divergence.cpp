@@ -198,7 +198,8 @@ void DivergenceWatch::count_unsolved(const Flow& flow, const BoundarySet& bounda
   const OuterReport& last = report.outer.back();
   const auto is_unsolved = [](const SweepReport& sweeps) { return !sweeps.converged && !(sweeps.final <= DivergenceBounds::residual); };
   const auto& equations = last.turbulence.equations;
-  const bool unsolved = std::any_of(equations.begin(), equations.end(), [&](const auto& equation) { return is_unsolved(equation.sweeps); });
+  const bool unsolved = last.turbulence.raised_cells > 0 ||  // k or epsilon has fallen without end
+                        std::any_of(equations.begin(), equations.end(), [&](const auto& equation) { return is_unsolved(equation.sweeps); });
   unsolved_turbulence_ = unsolved ? unsolved_turbulence_ + 1 : 0;
   unsolved_ = is_unsolved(last.momentum) ? unsolved_ + 1 : 0;
   most_unsolved_ = std::max(most_unsolved_, unsolved_);

@@ -64,7 +64,8 @@ class DivergenceWatch {
   std::vector<double> courant_of(double dt) const;
   /// Of the whole run: the fastest water over the speed of the case.
   double largest_speed_ratio() const { return largest_ratio_; }
-  /// Consecutive steps whose equations were not solved: the most of momentum, the last of k and epsilon, which may recover on the way.
+  /// Consecutive steps whose equations were not solved: the most of momentum, the last of k and epsilon (raised: unsolved), which may
+  /// recover.
   int unsolved_steps() const { return std::max(most_unsolved_, unsolved_turbulence_); }
 
   void save(CheckpointWriter& checkpoint) const;

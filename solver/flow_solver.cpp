@@ -215,7 +215,7 @@ void FlowSolver::correct_turbulence(int outer, const TimeScheme& time, StepRepor
                    " sweeps; take smaller steps");
   if (did.raised_cells > 0)
     log::warning("turbulence: a variable fell below its smallest usable value in " + std::to_string(did.raised_cells) +
-                 " cells and was raised to it; check the turbulence at inlets and at the start");
+                 " cells and was raised to it; use a shorter [time] step, or check the turbulence at inlets and at the start");
   report.seconds_turbulence += seconds() - begun;
 }
 

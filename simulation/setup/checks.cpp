@@ -19,7 +19,9 @@ const std::vector<Check>& all_checks() {
   static const std::vector<Check> checks = {
       {"water.max_speed_over_scale", "Fastest water, over the speed of the case", DivergenceBounds::speed, water,
        "the water diverges: see the error for the cell, and what to do there"},
-      {"water.unsolved_steps", "Longest sequence of time steps with an unconverged equation (of k and epsilon: the last sequence)",
+      {"water.unsolved_steps",
+       "Longest sequence of time steps with an unconverged equation (of k and epsilon: the last sequence, with steps in which one fell to "
+       "nothing)",
        DivergenceBounds::unsolved_steps, water, "use a shorter [time] step, or look for thin cells (snag mesh --info)"},
       {"water.molecular_over_eddy_viscosity",
        "Viscosity of the water, over the largest eddy viscosity away from walls (at a Reynolds number above 4000)", 1, water,

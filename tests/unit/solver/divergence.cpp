@@ -127,7 +127,7 @@ TEST(DivergenceWatch, unsolved_steps) {
   EXPECT_EQ(w.watch.unsolved_steps(), DivergenceBounds::unsolved_steps + 1);
 }
 
-// k and epsilon that stay unsolved may recover: they count as long as they do at the end.
+// k and epsilon that stay unsolved, or fall to nothing, may recover: they count as long as they do at the end.
 TEST(DivergenceWatch, unsolved_turbulence) {
   Watched w;
   OuterReport& last = w.report.outer.back();
@@ -137,6 +137,9 @@ TEST(DivergenceWatch, unsolved_turbulence) {
   last.turbulence.equations[1].sweeps.final = 1e-6;
   EXPECT_EQ(w.error(), "");
   EXPECT_EQ(w.watch.unsolved_steps(), 0);
+  last.turbulence.raised_cells = 3;  // solved, but fallen without end
+  for (int n = 0; n < 30; ++n) EXPECT_EQ(w.error(), "");
+  EXPECT_EQ(w.watch.unsolved_steps(), 30);
 }
 
 // Advice follows the cause: an unbounded scheme, a Courant number at the speed of the case, water that enters by the outlet.
