@@ -104,13 +104,27 @@ void CoupledSolver::mesh_moved() {
   if (kernel_) kernel_->mesh_moved();
 }
 
-std::optional<Vec3> CoupledSolver::water_velocity(int rag) {
-  if (!flow_) return {};
-  std::vector<Vec3> points;
-  for (const Tile& tile : rags_.tiles())
-    if (tile.rag == rag) for_particles(tile, [&](int k, int, int) { points.push_back(tile.vector(Tile::x, k)); });
-  kernel_->locate(points);
-  const std::vector<Vec3> velocity = kernel_->average(std::span<const Vec3>(flow_->velocity));
+Vec3 CoupledSolver::water_velocity(int rag) {
+  std::vector<Vec3> points, velocity;
+  if (prescribed_field_) {
+    prescribed_field_->set_time(rags_.time());
+    prescribed_field_->sample(rags_.tiles(), {});
+  }
+  for (std::size_t t = 0; t < rags_.tiles().size(); ++t) {
+    const Tile& tile = rags_.tiles()[t];
+    if (tile.rag != rag) continue;
+    const FluidSamples water = prescribed_field_ ? prescribed_field_->at(t, tile, 0) : FluidSamples{};
+    for_particles(tile, [&](int k, int, int) {
+      if (prescribed_field_)
+        velocity.push_back(water.velocity[k]);
+      else
+        points.push_back(tile.vector(Tile::x, k));
+    });
+  }
+  if (kernel_) {
+    kernel_->locate(points);
+    velocity = kernel_->average(std::span<const Vec3>(flow_->velocity));
+  }
   return sum(rags_.comm(), std::span<const Vec3>(velocity)) / static_cast<double>(rags_.rags()[rag].n_particles);
 }
 

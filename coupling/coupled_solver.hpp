@@ -1,7 +1,6 @@
 #pragma once
 // Water and rags together: the coupled time step.
 #include <functional>
-#include <optional>
 
 #include "base/monitor.hpp"
 #include "coupling/cell_owner.hpp"
@@ -47,8 +46,8 @@ class CoupledSolver {
   /// Collective. Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost; Error(usage) if the
   /// particles fill more of a cell than the drag law holds for.
   void step(double dt);
-  /// Mean velocity of the water at the particles of a rag, m/s; none in a prescribed flow. Collective.
-  std::optional<Vec3> water_velocity(int rag);
+  /// Mean velocity of the water at the particles of a rag, m/s. Collective.
+  Vec3 water_velocity(int rag);
 
   double time() const { return rags_.time(); }
   const Coupling& coupling() const { return coupling_; }

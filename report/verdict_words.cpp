@@ -69,6 +69,19 @@ std::string correction(const Verdict& v, const std::string& name) {
   return "";
 }
 
+/// Where to look for a cause outside the library: the training cell whose mean differs most over its uncertainty; where no mean differs,
+/// the cell with the largest score. (With the inputs fitted, a point that is wrong by itself moves the others, and their scores.)
+const GapCell* largest_gap(const Verdict& v) {
+  constexpr double differs = 3;
+  const GapCell *by_mean = nullptr, *by_score = nullptr;
+  for (const GapCell& cell : v.where) {
+    if (cell.withheld || cell.point == all_points) continue;
+    if (std::abs(cell.z) > (by_mean ? std::abs(by_mean->z) : differs)) by_mean = &cell;
+    if (!by_score || std::abs(cell.score) > std::abs(by_score->score)) by_score = &cell;
+  }
+  return by_mean ? by_mean : by_score;
+}
+
 }  // namespace
 
 std::string share_in_words(double share) {
@@ -127,10 +140,7 @@ std::string verdict_advice(const Verdict& v) {
            ": one test there is expected to distinguish the two most probable causes by " + rounded(conditions.front().nats) +
            " nats; 6 are wanted.";
   }
-  const GapCell* largest = nullptr;
-  for (const GapCell& cell : v.where)
-    if (!cell.withheld && cell.point != all_points && (largest == nullptr || std::abs(cell.score) > std::abs(largest->score)))
-      largest = &cell;
+  const GapCell* largest = largest_gap(v);
   if (v.verdict == VerdictKind::outside)
     return std::string("Do not tune the case to these data: no strength of an effect is right.") +
            (largest == nullptr ? ""

@@ -67,6 +67,7 @@ class FlowSolver {
   /// 0, and the next step equals the next step of that run. Returns false, and reads nothing, if the checkpoint lacks a field. Collective.
   bool go_on_from(CheckpointReader& checkpoint);
 
+  const FlowSettings& settings() const { return settings_; }
   const BoundarySet& boundary() const { return boundary_; }
   const Turbulence& turbulence() const { return *turbulence_; }
   /// Lets the bounds on the water know what the conditions will give until `end`, s.

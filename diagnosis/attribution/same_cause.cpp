@@ -60,12 +60,12 @@ std::vector<int> same_causes(const Responses& model, const Attribution& attribut
   for (const int k : others) {
     std::vector<int> swapped = own.hypothesis.effects;
     std::replace(swapped.begin(), swapped.end(), effect, k);
-    const int here = fit_of(attribution, swapped), one = fit_of(attribution, {effect}), other = fit_of(attribution, {k});
-    const bool is_one = here >= 0 ? is_same(model, own, effect, attribution.fits[static_cast<std::size_t>(here)], k)
-                                  : one >= 0 && other >= 0 &&
-                                        is_same(model, attribution.fits[static_cast<std::size_t>(one)], effect,
-                                                attribution.fits[static_cast<std::size_t>(other)], k);
-    if (is_one) same.push_back(k);
+    // `with` and `instead`: the fit of the same set with the other effect in its place, or those of both alone.
+    const int here = fit_of(attribution, swapped);
+    const int with = here >= 0 ? fit : fit_of(attribution, {effect}), instead = here >= 0 ? here : fit_of(attribution, {k});
+    if (with < 0 || instead < 0 || attribution.log_evidence(instead) < attribution.log_evidence(with) - nats_of_rule) continue;
+    if (is_same(model, attribution.fits[static_cast<std::size_t>(with)], effect, attribution.fits[static_cast<std::size_t>(instead)], k))
+      same.push_back(k);
   }
   return same;
 }

@@ -102,8 +102,8 @@ class Fitter {
   void mirror_failed(const State& origin, const std::vector<Response>& at_origin, std::span<const Responses::Request> requests,
                      std::span<Response> responses, const Runs& run) const;
   /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
-  /// share it takes the lead, and the better of the two fits is kept. Forms that exclude each other are fitted one by one: the best fit is
-  /// kept, and its evidence is the mean over the forms. No further fit begins where the budget does not suffice.
+  /// share, a second fit begins with that form, and the better of the two is kept. Forms that exclude each other are fitted one by one; the
+  /// best fit is kept, and its evidence is the mean over the forms. No further fit begins where the budget does not suffice.
   Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 
 #include "base/words.hpp"
 #include "diagnosis/attribution/same_cause.hpp"
@@ -353,7 +354,21 @@ class Judge {
       v_.notes.push_back("Placebo effects would be chosen in " + number_text(100 * a_.placebo_rate) +
                          " % of the cases: the screening cannot distinguish an effect from chance here."),
           hold = false;
+    if (const std::size_t n = numbers_of_training(); n <= v_.effects.size())
+      v_.notes.push_back("The points of training give " + counted(static_cast<std::int64_t>(n), "independent number") + " for " +
+                         counted(static_cast<std::int64_t>(v_.effects.size()), "strength") +
+                         ": nearly any effect can be fitted to so few. Measure at further times or points."),
+          hold = false;
     return hold;
+  }
+
+  // Numbers that differ in point, observable or time; repeats of one are one.
+  std::size_t numbers_of_training() const {
+    std::set<std::tuple<int, int, double>> all;
+    for (const Datum& datum : model_.experiment().data)
+      if (!model_.experiment().points[static_cast<std::size_t>(datum.point)].withheld)
+        all.emplace(datum.point, datum.observable, std::isnan(datum.time) ? -infinity : datum.time);
+    return all.size();
   }
 
   // An input that is far off is a finding, too, whether or not it is named for the gap.

@@ -38,6 +38,13 @@ double degrees_a_step(const FlowSolver& water, double step) {
   return zone && zone->slides() ? std::abs(zone->full_speed()) * step * 180 / std::numbers::pi : 0;
 }
 
+/// Of the walls of kind moving_wall, at the start. Collective.
+double degrees_of_walls(const FlowSolver& water, double step) {
+  double fastest = 0;
+  for (const Vec3& spin : water.boundary().values().spin) fastest = std::max(fastest, norm(spin));
+  return maximum(water.flow.mesh.comm, fastest) * step * 180 / std::numbers::pi;
+}
+
 void foresee_step(const Simulation& simulation, Forecast& result) {
   const FlowSolver& water = *simulation.water;
   const double step = simulation.time_settings.step, turn = degrees_a_step(water, step);
@@ -52,6 +59,11 @@ void foresee_step(const Simulation& simulation, Forecast& result) {
     result.warnings.push_back("[time] step: the rotor turns " + rounded(turn) + " degrees a step, advised at most " +
                               rounded(advised_turn) + "; step_ms = " + rounded(1e3 * step * good_turn / turn) + " gives " +
                               rounded(good_turn));
+  if (const double walls = degrees_of_walls(water, step); turn == 0 && walls > largest_turn && water.settings().n_outer_correctors == 1)
+    result.warnings.push_back(
+        "[time] step: the walls turn " + rounded(walls) + " degrees a step, advised at most " + rounded(largest_turn) +
+        ": water that turns with them may become steady in a wrong state; step_ms = " + rounded(1e3 * step * largest_turn / walls) +
+        " gives that, [flow] n_outer_correctors = 5 makes it right, too");
   if (turn == 0 && median > advised_courant)
     result.warnings.push_back("[time] step: at the speed of the case the median cell has a Courant number of " + rounded(median) +
                               ", advised at most " + rounded(advised_courant) +

@@ -279,11 +279,10 @@ void Simulation::insert_rags() {
 }
 
 void Simulation::add_flow_velocity(int rag) {
-  const std::optional<Vec3> velocity = coupled ? coupled->water_velocity(rag) : std::nullopt;
-  if (!velocity)
+  if (!coupled)
     throw Error(ExitCode::usage, rags->rags()[static_cast<std::size_t>(rag)].name +
-                                     ": match_flow_velocity = true, but this case computes no water; give velocity, or [mesh] and [flow]");
-  rags->add_velocity(rag, *velocity);
+                                     ": match_flow_velocity = true, but this case has no water; give velocity, or [mesh] and [flow]");
+  rags->add_velocity(rag, coupled->water_velocity(rag));
 }
 
 /// Patches of kind wall that rags do not feel, because the case has no [[wall]]: their names, in quotes; empty if there are none.

@@ -53,6 +53,27 @@ spin_rad_s = [0, 0, {spin}]
 mode = "{mode}"
 kernel_width_mm = 8
 """
+PRESCRIBED = """
+[case]
+name = "prescribed-rotation"
+[time]
+end_s = 0.1
+step_s = 0.00025
+[flow]
+kind = "prescribed"
+density_kg_m3 = 998.2
+velocity_m_s = [{across}, 0, 0]
+gradient_per_s = [[0, -{spin}, 0], [{spin}, 0, 0], [0, 0, 0]]
+[[particle]]
+diameter_mm = 2
+density_kg_m3 = 998.2
+position_m = [{radius}, 0, 0]
+match_flow_velocity = true
+[coupling]
+mode = "one_way"
+[output]
+report = false
+"""
 CLOTHS = ("one_way", [1, 0, 0], 2), ("two_way", [0, 1, 0], 2), ("two_way", [0, 1, 0], 1), ("two_way", [1, 0, 0], 5)  # mode, direction of the cloth, radius of its particles, mm
 
 
@@ -75,6 +96,15 @@ class CoRotation(harness.CaseTest):
         r, speed = numpy.hypot(x, y) / RADIUS, (x * vy - y * vx) / (x**2 + y**2) / SPEED
         print(f"  {mode}, lengthwise {lengthwise}, particles of {radius_mm} mm: at {r[-1]:.4f} of its radius after a turn; it turns at {speed[-1]:.4f} of the speed of the housing")
         return time * SPEED / (2 * numpy.pi), r, speed
+
+    def test_starts_with_a_prescribed_flow(self):
+        """A neutral sphere that is put in with the velocity of a prescribed rotation stays on its circle; the rotation is about an axis at y = across/spin."""
+        across = 0.01 * SPEED
+        run = self.run_case(self.case(PRESCRIBED.format(across=across, spin=SPEED, radius=RADIUS), "prescribed"), 2)
+        rags = run.monitor("rags")
+        x, y = (rags.column(name) for name in ("x [m]", "y [m]"))
+        r = numpy.hypot(x, y - across / SPEED)
+        numpy.testing.assert_allclose(r, numpy.hypot(RADIUS, across / SPEED), rtol=5e-5)  # of steps of 0.9 degrees
 
     def test_cloth_and_swirl_stay(self):
         start = self.start()

@@ -111,6 +111,13 @@ TEST(VerdictPage, NothingIsChangedWithoutACause) {
   EXPECT_EQ(verdict_advice(of(VerdictKind::outside, Wording::outside, {"lift"}, 0)),
             "Do not tune the case to these data: no strength of an effect is right. Look for the cause where the gap is largest: z at A, "
             "0.1 to 0.2 s.");
+  // A cell whose mean agrees has the largest score, because the fit of the inputs follows another point.
+  Verdict moved = of(VerdictKind::outside, Wording::outside, {}, 0);
+  moved.where.front().score = 5;
+  moved.where.push_back({.observable = "z", .point = "B", .window = {0.1, 0.2}, .z = std::nan(""), .score = -7});
+  EXPECT_TRUE(holds(verdict_advice(moved), "where the gap is largest: z at A,"));
+  moved.where.front().z = 0.5;
+  EXPECT_TRUE(holds(verdict_advice(moved), "where the gap is largest: z at B,"));
   Verdict tie = of(VerdictKind::tie, Wording::undecided, {"lift"}, 0.5);
   tie.tie = {"lift", "none"};
   EXPECT_EQ(verdict_advice(tie), "Change nothing yet. 327 more repeats are enough.");

@@ -256,6 +256,22 @@ TEST(Attribution, OutsideIsNoEffectWithALargeRemainder) {
   for (const double gust : {1.0, 5.0}) EXPECT_EQ(formula::said(judged({.gust = gust}, 9001)), "outside") << gust;
 }
 
+// One number, however often it was measured: nearly any effect can be fitted to it, and what is named is suspected at most. Another name of
+// it has nearly as much evidence.
+TEST(Attribution, OneNumberAttributesNothing) {
+  Experiment experiment = formula::experiment({.effects = {{"drag_magnitude", 0.5}}}, 1, 0, 10, noise, 17);
+  const Datum last = experiment.data.back();
+  std::erase_if(experiment.data, [&](const Datum& d) { return d.observable != last.observable || d.time != last.time; });
+  EXPECT_EQ(experiment.data.size(), 10u);
+  const Verdict verdict = formula::judged(experiment);
+  EXPECT_NE(verdict.verdict, VerdictKind::none);
+  EXPECT_NE(verdict.wording, Wording::attributed);
+  EXPECT_TRUE(
+      std::ranges::any_of(verdict.notes, [](const std::string& note) { return note.find("1 independent number") != std::string::npos; }));
+  for (const auto& [name, others] : verdict.same_as)
+    for (const std::string& other : others) EXPECT_GT(verdict.log_evidence.at(other), verdict.log_evidence.at(name) - 6) << other;
+}
+
 // Two effects that move a particle in the same way are one cause of two names, as sure as the one alone; before any data the verdict
 // is a tie.
 TEST(Attribution, TwoNamesOfOneCause) {
