@@ -12,6 +12,7 @@
 #include "base/log.hpp"
 #include "base/words.hpp"
 #include "casework/observable_source.hpp"
+#include "casework/window_mean.hpp"
 #include "dem/bonds/elastic_bond.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "observe/observables.hpp"
@@ -79,32 +80,6 @@ std::vector<Question> slots_of(const std::vector<ObservableRequest>& asked, bool
   return slots;
 }
 
-/// Means over the steps at whose ends the centre is in the window.
-class WindowMean {
- public:
-  void add(const ObservableRecord& w, const Number& now) {
-    const double value = between(w, now, now, 0, 1);
-    Sums& sums = sums_[&w];
-    // An axis has no head: angles are averaged on the circle of their period.
-    const double turn = w.period() == 0 ? 0 : 2 * std::numbers::pi / w.period();
-    sums.cosine += turn == 0 ? value : std::cos(turn * value), sums.sine += std::sin(turn * value);
-    ++sums.n;
-  }
-  double mean(const ObservableRecord& w) const {
-    const auto found = sums_.find(&w);
-    if (found == sums_.end()) return std::numeric_limits<double>::quiet_NaN();
-    const Sums& sums = found->second;
-    return w.period() == 0 ? sums.cosine / sums.n : w.period() / (2 * std::numbers::pi) * std::atan2(sums.sine, sums.cosine);
-  }
-
- private:
-  struct Sums {
-    double cosine = 0, sine = 0;  // of numbers that are no angles: the first is their sum
-    int n = 0;
-  };
-  std::map<const ObservableRecord*, Sums> sums_;
-};
-
 /// Answers as the run goes by.
 class Observer {
  public:
@@ -128,7 +103,7 @@ class Observer {
     const double time = run_.time(), dt = run_.time_settings.step, tolerance = 1e-9 * dt;
     RunReader now({run_, view_, exit_});
     if (!in_window_.empty() && settings_.in_window(now.get<Motion>().position))
-      for (const ObservableRecord* w : in_window_) window_.add(*w, number_of(*w, now));
+      for (const ObservableRecord* w : in_window_) window_[w].add(number_of(*w, now).value, w->period());
     for (; next_ < slots_.size() && slots_[next_].time <= time + tolerance; ++next_) {
       const Question& slot = slots_[next_];
       const Number number = number_of(*slot.what, now);
@@ -146,7 +121,7 @@ class Observer {
   std::vector<double> values() {
     RunReader end({run_, view_, exit_});
     for (const Question& slot : slots_)
-      if (std::isinf(slot.time)) values_[slot.place] = slot.what->is_of_whole_run() ? end(slot.what->read) : window_.mean(*slot.what);
+      if (std::isinf(slot.time)) values_[slot.place] = slot.what->is_of_whole_run() ? end(slot.what->read) : window_[slot.what].value();
     return values_;
   }
 
@@ -155,7 +130,7 @@ class Observer {
   const ObserveSettings& settings_;
   View view_;
   ExitWatch exit_;
-  WindowMean window_;
+  std::map<const ObservableRecord*, WindowMean> window_;  // over the steps at whose ends the centre is in the window
   std::vector<Question> slots_;
   std::vector<const ObservableRecord*> in_window_;  // asked as means over the window
   std::vector<Number> before_;                      // of the slots that lie in the step to come

@@ -76,7 +76,7 @@ void check_observable(const PointCase& base, const std::filesystem::path& file, 
   }
   const std::string reason = record ? base.reason_against(*record) : "";
   if (!reason.empty())
-    throw Error(ExitCode::usage, file.string() + ": observable \"" + id + "\": " + reason + "; add it, or leave the observable out");
+    throw Error(ExitCode::usage, file.string() + ": observable \"" + id + "\": " + reason + ", or leave the observable out");
 }
 
 /// Throws Error(usage) for an uncertain input that the case does not have, or that is given by its former and by its present name.
@@ -302,7 +302,7 @@ RunResult CaseSimulator::run_collective(const Job& job) const {
     return failed(failure);
   }
   try {
-    return {.values = read_observables(folder_ / "runs" / name, point.asked), .failure = {}};
+    return {.values = read_observables(folder_ / "runs" / name, point.asked, point.base.camera()), .failure = {}};
   } catch (const Error& failure) {
     if (failure.code == ExitCode::usage) throw;
     return failed(failure);

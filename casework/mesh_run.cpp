@@ -13,6 +13,7 @@
 #include "base/series.hpp"
 #include "base/words.hpp"
 #include "casework/observable_source.hpp"
+#include "casework/window_mean.hpp"
 #include "parallel/session.hpp"
 #include "simulation/run.hpp"
 
@@ -106,9 +107,23 @@ void run_in_folder(const std::string& case_text, const std::vector<std::string>&
     throw Error(code, "exit code " + std::to_string(static_cast<int>(code)) + "; the reason is in " + (folder / "log.txt").string());
 }
 
-std::vector<double> read_observables(const std::filesystem::path& folder, const std::vector<ObservableRequest>& asked) {
+std::vector<double> read_observables(const std::filesystem::path& folder, const std::vector<ObservableRequest>& asked,
+                                     const ObserveSettings& camera) {
   std::map<std::type_index, std::any> sources;
   std::map<std::string, Course> courses;
+  const auto course = [&](const std::string& name) -> const Course& {
+    if (!courses.contains(name)) courses[name] = course_of(folder, name);
+    return courses.at(name);
+  };
+  const auto mean_in_window = [&](const ObservableRecord& record) {
+    WindowMean mean;
+    const Course& of = course(record.id);
+    for (std::size_t i = 0; i < of.time.size(); ++i) {
+      const double t = of.time[i];
+      if (camera.in_window({course("x").at(t), course("y").at(t), course("z").at(t)})) mean.add(of.value[i], record.period());
+    }
+    return mean.value();
+  };
   std::vector<double> values;
   for (const ObservableRequest& one : asked) {
     const std::string& name = one.observable;
@@ -120,8 +135,10 @@ std::vector<double> read_observables(const std::filesystem::path& folder, const 
       values.push_back(source->second.has_value() ? record->read(source->second) : nan);
       continue;
     }
-    if (!courses.contains(name)) courses[name] = course_of(folder, name);
-    values.push_back(std::isnan(one.time) ? courses[name].mean_of_last_half() : courses[name].at(one.time));
+    if (!std::isnan(one.time))
+      values.push_back(course(name).at(one.time));
+    else
+      values.push_back(record && camera.has_window() ? mean_in_window(*record) : course(name).mean_of_last_half());
   }
   return values;
 }

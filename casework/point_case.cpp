@@ -165,7 +165,8 @@ PointCase::PointCase(const std::filesystem::path& file, const std::vector<std::s
   number_geometry(tree_->root, geometry_);
   facts_ = facts_of(tree_->root, run), restarts_ = !run.mesh;
   pipe_flow_ = run.pipe_flow();
-  has_passage_ = run.passage->geometry().has_value(), has_exit_ = run.observe_settings.has_exit();
+  has_passage_ = run.passage->geometry().has_value(), camera_ = run.observe_settings;
+  n_pieces_ = static_cast<int>(run.rags->rags().size());
   has_hold_ = run.holds != nullptr;
   forces_ = listed_forces(tree_->root);
   for (const RagPiece& piece : run.rags->pieces()) crumpled_ = crumpled_ || piece.plan.crumpled();
@@ -228,15 +229,17 @@ void PointCase::check_nuisance(const std::string& key) const {
 std::string PointCase::reason_against(const ObservableRecord& observable) const {
   switch (observable.needs) {
     case Needs::pump:
-      return has_passage_ ? "" : "it is defined by [rag_passage], the flanges and the tongue of a pump, which the case lacks";
+      return has_passage_ ? "" : "it is defined by [rag_passage], the flanges and the tongue of a pump, which the case lacks; add it";
     case Needs::planes:
-      if (is_whole_run()) return has_passage_ ? "" : "it is defined by the flanges in [rag_passage], which the case lacks";
-      return has_exit_ ? "" : "it is defined by the exit plane in [virtual_camera], which the case lacks";
+      if (is_whole_run()) return has_passage_ ? "" : "it is defined by the flanges in [rag_passage], which the case lacks; add it";
+      return camera_.has_exit() ? "" : "it is defined by the exit plane in [virtual_camera], which the case lacks; add it";
     case Needs::hold:
-      return has_hold_ ? "" : "it is the force of a [[hold]], which the case lacks";
+      return has_hold_ ? "" : "it is the force of a [[hold]], which the case lacks; add it";
     case Needs::nothing:
       break;
   }
+  if (is_whole_run() && n_pieces_ > 1 && !observable.is_of_whole_run())
+    return "it is that of one piece, and the case has " + std::to_string(n_pieces_) + "; leave one of them in the case";
   return "";
 }
 

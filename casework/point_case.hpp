@@ -14,6 +14,7 @@
 #include "diagnosis/effects/effect_model.hpp"
 #include "observe/observables.hpp"
 #include "simulation/setup/flow_cache.hpp"
+#include "simulation/setup/observe_settings.hpp"
 #include "simulation/setup/prepared.hpp"
 
 namespace snag {
@@ -45,7 +46,8 @@ class PointCase {
   const std::vector<std::string>& forces() const { return forces_; }
   /// The water is computed with the rags: a run of all ranks with an output folder, instead of one in memory.
   bool is_whole_run() const { return !facts_.prescribed; }
-  /// Why runs of this case do not define an observable; empty: they do.
+  const ObserveSettings& camera() const { return camera_; }
+  /// Why runs of this case do not define an observable, and the remedy; empty: they do.
   std::string reason_against(const ObservableRecord& observable) const;
   /// Runs can go on from a measured state: nothing hangs on the cell that holds a particle.
   bool restarts() const { return restarts_; }
@@ -102,7 +104,9 @@ class PointCase {
   bool crumpled_ = false;          // a piece starts crumpled, by its seed
   bool drag_is_replaced_ = false;  // a law of the sheet stands in for that of its particles, whose factor is without effect then
   bool restarts_ = false;
-  bool has_passage_ = false, has_exit_ = false;  // [rag_passage]; an exit plane in [virtual_camera]
+  bool has_passage_ = false;  // [rag_passage]
+  ObserveSettings camera_;
+  int n_pieces_ = 0;
   bool has_hold_ = false;
   std::vector<std::string> geometry_;                             // [mesh] set: "key=value"
   std::vector<std::string> forces_, drag_factors_;                // drag_factors_: keys of the factors on drag

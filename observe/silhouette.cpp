@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "observe/outline.hpp"
+#include "base/parameter.hpp"
 
 namespace snag {
 
@@ -31,9 +31,18 @@ Silhouette moments(const Coverage& picture) {
   return seen;
 }
 
-Silhouette silhouette(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel) {
-  if (triangles.empty()) return {};
-  return moments(coverage(points, triangles, view, pixel));
+Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
+                      const View& view, double pixel) {
+  if (points.empty()) return {};
+  double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
+  std::vector<std::array<double, 2>> place;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    place.push_back({dot(points[k], view.right), dot(points[k], view.up)});
+    for (int c = 0; c < 2; ++c) low[c] = std::min(low[c], place[k][c] - radius[k]), high[c] = std::max(high[c], place[k][c] + radius[k]);
+  }
+  Coverage picture(low[0], low[1], high[0], high[1], pixel);
+  picture.fill_cloth(place, radius, triangles);
+  return moments(picture);
 }
 
 }  // namespace snag

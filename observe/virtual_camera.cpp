@@ -44,27 +44,6 @@ cv::Mat covered_share(const Coverage& fine, const Part& part, const Camera& came
   return share;
 }
 
-/// Edges of one triangle only: the hem of the sheet.
-std::vector<std::array<int, 2>> hem_of(std::span<const std::array<int, 3>> triangles) {
-  std::vector<std::array<int, 2>> edges, hem;
-  for (const auto& [a, b, c] : triangles)
-    for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
-      edges.push_back({std::min(from, to), std::max(from, to)});
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if ((e == 0 || edges[e] != edges[e - 1]) && (e + 1 == edges.size() || edges[e] != edges[e + 1])) hem.push_back(edges[e]);
-  return hem;
-}
-
-/// A strip of half width `reach` along the line from a to b.
-void fill_strip(Coverage& picture, const std::array<double, 2>& a, const std::array<double, 2>& b, double reach) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
-  if (!(length > 0)) return;
-  const double nx = -dy / length * reach, ny = dx / length * reach;
-  picture.fill_triangle({a[0] + nx, a[0] - nx, b[0] - nx}, {a[1] + ny, a[1] - ny, b[1] - ny});
-  picture.fill_triangle({a[0] + nx, b[0] - nx, b[0] + nx}, {a[1] + ny, b[1] - ny, b[1] + ny});
-}
-
 GreyPicture developed(cv::Mat share, const Camera& camera, std::uint64_t seed) {
   if (camera.blur > 0) cv::GaussianBlur(share, share, {}, camera.blur);
   cv::Mat level = share * (camera.cloth_level - camera.background_level) + camera.background_level;
@@ -96,12 +75,7 @@ GreyPicture photograph(std::span<const Vec3> points, std::span<const std::array<
   fine.x0 = (part.left - 0.5 * camera.width()) * camera.pixel, fine.y0 = (part.bottom - 0.5 * camera.height()) * camera.pixel;
   fine.nx = finer * (part.right - part.left), fine.ny = finer * (part.top - part.bottom);
   fine.covered.assign(static_cast<std::size_t>(fine.nx) * fine.ny, 0);
-  for (std::size_t k = 0; k < at.size(); ++k)
-    if (disc[k] > 0) fine.fill_circle(at[k][0], at[k][1], disc[k]);
-  if (radius > 0)
-    for (const auto& [a, b] : hem_of(triangles)) fill_strip(fine, at[a], at[b], 0.5 * (disc[a] + disc[b]));
-  for (const auto& [a, b, c] : triangles)
-    if (!std::isnan(at[a][0] + at[b][0] + at[c][0])) fine.fill_triangle({at[a][0], at[b][0], at[c][0]}, {at[a][1], at[b][1], at[c][1]});
+  fine.fill_cloth(at, disc, triangles);
   return developed(covered_share(fine, part, camera), camera, seed);
 }
 

@@ -215,19 +215,22 @@ void DivergenceWatch::fail(const Flow& flow, const BoundarySet& boundary, double
   throw_at(flow, boundary, dt, found, what + "; worst " + bound_names[found.bound] + " " + rounded(found.value));
 }
 
-/// Water that enters through an outlet near the place: a sentence, or nothing.
-std::string DivergenceWatch::backflow(const Flow& flow, const BoundarySet& boundary, const Finding& found) const {
+/// What is wrong at an opening near the place: a sentence, or nothing.
+std::string DivergenceWatch::fault_of_opening(const Flow& flow, const BoundarySet& boundary, const Finding& found) const {
   for (int p = 0; p < static_cast<int>(mesh_.patches.size()); ++p) {
-    if (!boundary.is_outlet(p)) continue;
+    if (!boundary.is_open(p)) continue;
     double in = 0, through = 0, area = 0, distance = infinite;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       in += std::max(0.0, -flow.flux[f]), through += std::abs(flow.flux[f]), area += norm(mesh_.face_vector[f]);
       distance = std::min(distance, norm(mesh_.face_centre[f] - found.place));
     }
     in = sum(mesh_.comm, in), through = sum(mesh_.comm, through), area = sum(mesh_.comm, area);
-    if (minimum(mesh_.comm, distance) > std::sqrt(area) / 2 || !(in > large_backflow * through)) continue;
-    return "water enters again through the outlet \"" + mesh_.patches[p].name + "\" (" + rounded(100 * in / through) +
-           " % of what passes): put the outlet at the end of a longer straight pipe";
+    if (minimum(mesh_.comm, distance) > std::sqrt(area) / 2) continue;
+    const std::string name = "\"" + mesh_.patches[p].name + "\"";
+    if (boundary.is_outlet(p) && in > large_backflow * through)
+      return "water enters again through the outlet " + name + " (" + rounded(100 * in / through) +
+             " % of what passes): put the outlet at the end of a longer straight pipe";
+    if (const std::string change = boundary.advice(p); !change.empty()) return "at patch " + name + " try " + change;
   }
   return {};
 }
@@ -274,12 +277,13 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
 
 void DivergenceWatch::throw_at(const Flow& flow, const BoundarySet& boundary, double dt, const Finding& found,
                                const std::string& what) const {
-  const std::string outlet = backflow(flow, boundary, found);
+  const std::string opening = fault_of_opening(flow, boundary, found);
   on_all_ranks(mesh_.comm, [&] {
     if (rank_of(mesh_.comm) != found.rank) return;
     throw Error(ExitCode::diverged, "the water diverged in step " + std::to_string(found.step) + " (t = " + number_text(found.time) +
                                         " s): " + what + " in " + cell_in_words(found) + "; the case has a speed of " + rounded(speed_) +
-                                        " m/s (" + source_ + "); " + (outlet.empty() ? "" : outlet + "; also, ") + advice(flow, found, dt));
+                                        " m/s (" + source_ + "); " + (opening.empty() ? "" : opening + "; also, ") +
+                                        advice(flow, found, dt));
   });
   throw Error(ExitCode::diverged, what);  // not reached: the rank of the cell has thrown
 }

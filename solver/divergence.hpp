@@ -77,7 +77,7 @@ class DivergenceWatch {
   void see_forces(const Flow& flow);
   Finding worst(const Flow& flow, double dt, const CellFluxes* fluxes) const;
   void count_unsolved(const Flow& flow, const BoundarySet& boundary, const StepReport& report);
-  std::string backflow(const Flow& flow, const BoundarySet& boundary, const Finding& found) const;
+  std::string fault_of_opening(const Flow& flow, const BoundarySet& boundary, const Finding& found) const;
   std::string cell_in_words(const Finding& found) const;
   std::string advice(const Flow& flow, const Finding& found, double dt) const;
   [[noreturn]] void throw_at(const Flow& flow, const BoundarySet& boundary, double dt, const Finding& found, const std::string& what) const;

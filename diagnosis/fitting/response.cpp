@@ -202,7 +202,18 @@ std::vector<RunRequest> Responses::requests_of(const Request& request) const {
 Response Responses::response(const Request& request, std::span<const RunResult> results, const std::vector<double>& u) const {
   const PointSummary& point = points_[request.point];
   const int n = static_cast<int>(point.rows.size()), n_seeds = static_cast<int>(results.size());
-  Response response{Eigen::VectorXd::Zero(n),   Eigen::VectorXd::Zero(n), {}, n_seeds, "", Eigen::VectorXd::Zero(n), {}, {},
+  // A case that answers the same for every seed says that an event always comes, or never. It may still be wrong near a threshold.
+  constexpr int answers_of_sure_run = 20;
+  const bool is_sure = n_seeds == 1 && !base_is_random_ && !acts_at_random(request.state);
+  Response response{Eigen::VectorXd::Zero(n),
+                    Eigen::VectorXd::Zero(n),
+                    {},
+                    n_seeds,
+                    is_sure ? answers_of_sure_run : n_seeds,
+                    "",
+                    Eigen::VectorXd::Zero(n),
+                    {},
+                    {},
                     std::vector<bool>(n, false)};
   Eigen::MatrixXd values(n, n_seeds);
   for (int i = 0; i < n; ++i) {
@@ -414,7 +425,8 @@ Eigen::VectorXd residual(const PointSummary& point, const Response& response, co
       r[i] = is_gaussian(row) ? missing * row.u : missing;
     else
       r[i] = is_gaussian(row) ? row.value - model : with_row(point, response, i, [&](const Row& one) {
-        return deviance_residual(one, model, response.n_runs, response.scatter[i]);
+        const bool is_counted = one.kind == Row::Kind::event || one.kind == Row::Kind::count;
+        return deviance_residual(one, model, is_counted ? response.n_answers : response.n_runs, response.scatter[i]);
       });
   }
   if (g > 0) r.head(g) = covariance.matrixL().solve(r.head(g)).eval();

@@ -39,6 +39,7 @@ struct Response {
   Eigen::VectorXd scatter;  // by row: variance of one run, of few seeds that of the base model
   Eigen::MatrixXd paths;    // deviations of each seed from the mean, Gaussian rows x seeds; empty for one seed
   int n_runs = 1;
+  int n_answers = 1;       // runs that its events and counts count as: where all seeds give the same, more than one (response.cpp)
   std::string failure;     // why none of its runs came through; empty: one did
   Eigen::VectorXd beyond;  // by row: standard uncertainty, where a mistake of times asks for what the runs do not reach (mistakes.hpp)
   Eigen::MatrixXd data_covariance{};     // of the Gaussian rows, where a mistake of a unit makes it another one; empty: that of the point

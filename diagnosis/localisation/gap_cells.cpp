@@ -128,7 +128,7 @@ class PointCells {
     const double E = cell.simulated - cell.measured;
     cell.z = cell.u_val > 0 ? E / cell.u_val : 0;
     cell.p = two_sided_p(cell.z);
-    const int n = row.n_replicates, N = base_.responses[p_].n_runs;
+    const int n = row.n_replicates, N = base_.responses[p_].n_runs, answers = base_.responses[p_].n_answers;
     const auto from_p = [&](double p, CellTest test) {
       // Inputs that are known badly weaken an exact test as they weaken z.
       const double share =
@@ -136,10 +136,11 @@ class PointCells {
       cell.z = (E >= 0 ? 1 : -1) * score_of_p(p) * share, cell.p = two_sided_p(cell.z), cell.test = test;
     };
     if (row.kind == Row::Kind::event)
-      from_p(fisher_exact(static_cast<int>(std::lround(row.value * n)), n, static_cast<int>(std::lround(cell.simulated * N)), N),
-             CellTest::binomial);
+      from_p(
+          fisher_exact(static_cast<int>(std::lround(row.value * n)), n, static_cast<int>(std::lround(cell.simulated * answers)), answers),
+          CellTest::binomial);
     else if (row.kind == Row::Kind::count)
-      from_p(equal_rates(row.value * n, n, cell.simulated * N, N, row.sigma), CellTest::negative_binomial);
+      from_p(equal_rates(row.value * n, n, cell.simulated * answers, answers, row.sigma), CellTest::negative_binomial);
     else if (row.kind == Row::Kind::time && std::count(row.censored.begin(), row.censored.end(), true) > 0)
       censored_times(cell, row, from_p);
     else if (row.kind == Row::Kind::scalar && std::min(n, N) >= least_of_distribution)

@@ -174,7 +174,7 @@ void Outputs::open_rags(const std::shared_ptr<const FieldWriter>& writer, bool r
   rag_monitors_ = std::make_unique<RagMonitors>(folder_ / "monitors", rags, simulation_.passage->geometry().has_value(), resume, from);
   free_motion_.emplace(rags.rags().size());
   elongation_at_start_.resize(rags.rags().size());
-  rag_output_ = std::make_unique<RagOutput>(*writer, series_in("rags", resume));
+  rag_output_ = std::make_unique<RagOutput>(*writer, series_in("rags", resume), simulation_.observe_settings.view());
   forces_ = rag_forces(rags, nullptr, 0);
   const RotatingZone* zone = simulation_.water ? simulation_.water->flow.rotating_zone : nullptr;
   const Shaft shaft = zone ? Shaft{zone->origin(), zone->axis(), zone->full_speed()} : Shaft{};

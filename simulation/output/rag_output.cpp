@@ -1,6 +1,7 @@
 #include "simulation/output/rag_output.hpp"
 
 #include "parallel/session.hpp"
+#include "simulation/output/outline_moments.hpp"
 
 namespace snag {
 
@@ -22,7 +23,7 @@ std::vector<VtkArray> point_arrays(const RagSheet& sheet, const std::vector<Rag>
 
 }  // namespace
 
-RagOutput::RagOutput(const FieldWriter& writer, SeriesPlace place) {
+RagOutput::RagOutput(const FieldWriter& writer, SeriesPlace place, const View& view) : view_(view) {
   place.name = "rags", place.kind = VtkKind::polygons;
   sheets_ = writer.series(place);
   place.name = "particles", place.kind = VtkKind::vertices;
@@ -50,13 +51,7 @@ void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64
     particles_->add(time, time_step, dots);
 
     silhouettes_.clear();
-    for (std::size_t rag = 0; rag < rags.rags().size(); ++rag) {
-      std::vector<std::array<int, 3>> own;
-      for (const auto& triangle : sheet.triangles) {
-        if (sheet.rag[triangle[0]] == static_cast<int>(rag)) own.push_back(triangle);
-      }
-      silhouettes_.push_back(silhouette(sheet.position, own, {}, 0.5 * rags.rags()[rag].radius));
-    }
+    for (int rag = 0; rag < static_cast<int>(rags.rags().size()); ++rag) silhouettes_.push_back(outline_of(sheet, rags.rags(), view_, rag));
   });
 }
 

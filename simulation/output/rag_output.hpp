@@ -13,12 +13,12 @@ namespace snag {
 
 class RagOutput {
  public:
-  /// `place`: folder of the files, and the time up to which a resumed run keeps the entries of the run before. Rank 0
-  /// writes.
-  RagOutput(const FieldWriter& writer, SeriesPlace place);
+  /// `place`: folder of the files, and the time up to which a resumed run keeps the entries of the run before. `view`: of the silhouettes.
+  /// Rank 0 writes.
+  RagOutput(const FieldWriter& writer, SeriesPlace place, const View& view);
   /// Collective; throws Error(io).
   void write(const RagSystem& rags, const RagForces& forces, std::int64_t time_step, double time);
-  /// Silhouettes of the rags as they were last written, seen against z (x to the right, y up); on rank 0.
+  /// Silhouettes of the rags as they were last written; on rank 0.
   const std::vector<Silhouette>& silhouettes() const { return silhouettes_; }
   /// Those silhouettes, for a resume.
   std::vector<double> state() const;
@@ -26,6 +26,7 @@ class RagOutput {
 
  private:
   std::unique_ptr<FieldSeries> sheets_, particles_;
+  View view_;
   std::vector<Silhouette> silhouettes_;
 };
 

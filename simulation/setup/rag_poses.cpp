@@ -54,7 +54,7 @@ Silhouette seen_along(const RagPiece& piece, const Vec3& up, const Vec3& right) 
       const int a = row * rag.n_columns + column, b = a + rag.n_columns;
       triangles.push_back({a, a + 1, b + 1}), triangles.push_back({a, b + 1, b});
     }
-  return silhouette(points, triangles, {right, up}, 0.5 * rag.radius);
+  return silhouette(points, std::vector<double>(points.size(), rag.radius), triangles, {right, up}, 0.5 * rag.radius);
 }
 
 /// What is published of the one cloth that a pose can be held against, 300 mm x 220 mm; nothing for another.

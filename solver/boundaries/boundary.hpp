@@ -64,6 +64,8 @@ class Boundary {
   virtual bool leads_out() const { return is_outlet(); }
   /// True where the case gives the velocity: not where a condition draws it from the flow that leaves.
   bool velocity_is_given() const { return velocity_side() == Side::value && !is_outlet(); }
+  /// What to change in its table where the water diverges at it; empty: nothing is known.
+  virtual std::string advice() const { return {}; }
   /// Once, before the first step: what depends on the mesh and on the conditions of all its patches, in their order. Collective.
   virtual void prepare(const Mesh&, const Patch&, const std::vector<PatchBoundary>& /*all*/) {}
   /// Before each update: what the condition draws from the flow for the step that leads to `time`; flow.flux_old is then the flux at its
@@ -115,6 +117,7 @@ class BoundarySet {
   bool is_open(int patch) const { return conditions_[patch].boundary->is_open(); }
   bool is_outlet(int patch) const { return conditions_[patch].boundary->is_outlet(); }
   bool leads_out(int patch) const { return conditions_[patch].boundary->leads_out(); }
+  std::string advice(int patch) const { return conditions_[patch].boundary->advice(); }
   bool velocity_is_given(int patch) const { return conditions_[patch].boundary->velocity_is_given(); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }

@@ -41,6 +41,32 @@ kernel = "cell"
 forces = ["schiller_naumann"]
 """
 
+# Water driven by the static pressure of an inlet through a pipe of tetrahedra.
+PIPE = """
+[case]
+name = "pipe"
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 5
+step_s = 0.05
+[flow]
+density_kg_m3 = 1000
+dynamic_viscosity_Pa_s = 0.001
+initial_velocity_m_s = [0.01, 0, 0]
+[[boundary]]
+patch = "inlet"
+kind = "pressure_inlet"
+pressure_Pa = 0.048
+total = false
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patch = "walls"
+kind = "wall"
+"""
+
 # A lid over a box that is closed but for one end.
 LID = """
 [case]
@@ -88,6 +114,14 @@ class Diverging(harness.CaseTest):
     def test_water_in_steps_too_long(self):
         case = self.case(WATER_AND_SPHERE.format(mesh=self.mesh(*CHANNEL_MESH)))
         self.diverges(case, 1, "the water diverged in step ", "[time] step_ms = ", "no checkpoint was written")
+
+
+    def test_static_pressure_at_an_inlet(self):
+        """The remedy is the condition of the inlet, and with it the run reaches its end."""
+        mesh = self.mesh("pipe", "diameter_m=0.02", "length_m=0.06", "wall_size_m=0.004", "core_size_m=0.004")
+        case = self.case(PIPE.format(mesh=mesh), "pipe")
+        self.diverges(case, 1, 'at patch "inlet" try total = true')
+        self.run_case(case, 1, "--set", "boundary.0.total=true", out="total")
 
 
 class Checks(harness.CaseTest):

@@ -110,6 +110,16 @@ class Observe(harness.CaseTest):
         self.assertIn("two_way: does not exist", refused.stderr)
         self.assertIn("mode-two_way", refused.stderr)
 
+    def test_silhouettes_are_those_of_the_camera(self):
+        """A monitor of the run, that a diagnosis reads, shows the cloth from where [virtual_camera] stands, and as large as `snag observe` does."""
+        run = self.run_case(self.case(FALLING + "[virtual_camera]\nright = [1, 0, 0]\nup = [0, 0, 1]\n"))
+        seen = run.monitor("silhouettes")
+        self.assertLess(abs(seen.column("area") / (0.120 * 0.060) - 1).max(), 0.01)
+        self.assertLess(abs(seen.column("elongation_ratio") / 2 - 1).max(), 0.01)
+        self.assertLess(abs(numpy.degrees(seen.column("orientation")) - 36.87).max(), 0.2)
+        edge_on = self.run_case(self.case(FALLING, "edge-on"), out="edge-on").monitor("silhouettes")
+        self.assertLess(edge_on.column("area").max(), 0.12 * 0.005)
+
     def test_run_and_pictures(self):
         run = self.run_case(self.case(FALLING))
         seen = self.observe(run.folder, self.camera(CAMERA), "seen")

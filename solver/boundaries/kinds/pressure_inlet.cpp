@@ -24,13 +24,17 @@ struct PressureInlet final : Boundary {
         .parameters = {{"pressure", &pressure, "Pa", -infinity, infinity, Basis::assumed, "Total or static pressure, relative."},
                        setting("total", &total,
                                "The pressure is the total one, as of a large tank: where fluid enters, its dynamic head is "
-                               "subtracted. false: static.")}};
+                               "subtracted. false: static; the water may then diverge at the inlet, for the pressure does not hold "
+                               "the speed of single faces.")}};
     course.add_keys(section, "pressure");
     return section;
   }
   std::vector<double> knots() const override { return course.knots(); }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::pressure; }
   bool is_outlet() const override { return false; }
+  std::string advice() const override {
+    return total ? "" : "total = true, with the dynamic head added to pressure: a static pressure does not hold the speed of single faces";
+  }
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
   }

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 
 #include "casework/case_run.hpp"
 #include "casework/mesh_run.hpp"
@@ -95,15 +97,34 @@ TEST(ObservableSources, ForceOfAHold) {
   EXPECT_TRUE(std::isnan(run_in_memory(CaseFile::parse(falling_sphere), {{"force_z", 0.05}})[0]));
 }
 
+/// Requirement: of a run in a folder, what the camera sees is without a time the mean over the time in its window; a monitor that has
+/// nothing to do with the camera is the mean over the last half. Angles are averaged as axes.
+TEST(ObservableSources, MeansInAFolderAreThoseOfTheWindow) {
+  const auto folder = std::filesystem::temp_directory_path() / "snag_window";
+  std::filesystem::create_directories(folder / "monitors");
+  std::ofstream(folder / "monitors" / "rags.csv") << "time [s],rag [1],x [m],y [m],z [m],vz [m/s]\n0,0,0,0,0,1\n0,1,9,9,9,50\n"
+                                                     "1,0,0.1,0,0,2\n2,0,0.2,0,0,4\n3,0,0.3,0,0,8\n4,0,0.4,0,0,16\n";
+  std::ofstream(folder / "monitors" / "silhouettes.csv") << "time [s],rag [1],orientation [rad]\n0,0,0\n1,0,1.5\n2,0,-1.5\n4,0,0\n";
+  std::ofstream(folder / "monitors" / "pump.csv") << "time [s],head [m]\n0,1\n1,2\n2,3\n3,5\n4,7\n";
+  ObserveSettings camera;
+  camera.window_lower = {0.05, -1, -1}, camera.window_upper = {0.25, 1, 1};
+  const auto seen = read_observables(folder, {{"vz"}, {"orientation"}, {"head"}}, camera);
+  EXPECT_NEAR(seen[0], 3, 1e-12);
+  EXPECT_NEAR(std::abs(seen[1]), std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(seen[2], 5, 1e-12);
+  EXPECT_NEAR(read_observables(folder, {{"vz"}}, {}).front(), 28.0 / 3, 1e-12);
+  std::filesystem::remove_all(folder);
+}
+
 /// Requirement: a run in a folder answers an observable of the whole run by the source's own function, not a number where the run lacks it.
 TEST(ObservableSources, ANewSourceIsReadInAFolder) {
   const auto folder = std::filesystem::temp_directory_path() / "snag_observable_sources";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "one"), std::ofstream(folder / "two");
-  EXPECT_EQ(read_observables(folder, {{"n_files"}}).front(), 2);
-  EXPECT_TRUE(std::isnan(read_observables(folder, {{"exited"}}).front()));
+  EXPECT_EQ(read_observables(folder, {{"n_files"}}, {}).front(), 2);
+  EXPECT_TRUE(std::isnan(read_observables(folder, {{"exited"}}, {}).front()));
   std::filesystem::remove_all(folder);
-  EXPECT_TRUE(std::isnan(read_observables(folder, {{"n_files"}}).front()));
+  EXPECT_TRUE(std::isnan(read_observables(folder, {{"n_files"}}, {}).front()));
 }
 
 /// Requirement: the tutorial on the diagnosis names every observable.

@@ -26,13 +26,15 @@ Sheet ellipse(double a, double b, double angle, int n = 720) {
   return sheet;
 }
 
+std::vector<double> no_rim(const Sheet& sheet) { return std::vector<double>(sheet.points.size(), 0); }
+
 }  // namespace
 
 // An ellipse of known moments is measured to 0.5 %.
 TEST(Silhouette, EllipseToHalfAPercent) {
   for (const double angle : {0.0, 0.4, -1.2}) {
     const Sheet sheet = ellipse(0.15, 0.05, angle);
-    const Silhouette seen = silhouette(sheet.points, sheet.triangles, {}, 5e-4);
+    const Silhouette seen = silhouette(sheet.points, no_rim(sheet), sheet.triangles, {}, 5e-4);
     EXPECT_NEAR(seen.area, std::numbers::pi * 0.15 * 0.05, 0.005 * std::numbers::pi * 0.15 * 0.05);
     EXPECT_NEAR(seen.elongation_ratio, 3, 0.015);
     EXPECT_NEAR(seen.orientation, angle, 0.005);
@@ -44,14 +46,31 @@ TEST(Silhouette, EllipseToHalfAPercent) {
 // What covers itself counts once, and the view decides what is seen: a sheet seen from its edge has no area to speak of.
 TEST(Silhouette, OverlapAndView) {
   Sheet sheet = ellipse(0.1, 0.1, 0);
-  const double once = silhouette(sheet.points, sheet.triangles, {}, 1e-3).area;
+  const double once = silhouette(sheet.points, no_rim(sheet), sheet.triangles, {}, 1e-3).area;
   const int n = static_cast<int>(sheet.points.size());
   for (int i = 0; i < n; ++i) sheet.points.push_back(sheet.points[i] + Vec3{0, 0, 1});
   for (std::size_t i = 0, count = sheet.triangles.size(); i < count; ++i) {
     const auto [a, b, c] = sheet.triangles[i];
     sheet.triangles.push_back({a + n, c + n, b + n});
   }
-  EXPECT_DOUBLE_EQ(silhouette(sheet.points, sheet.triangles, {}, 1e-3).area, once);
+  EXPECT_DOUBLE_EQ(silhouette(sheet.points, no_rim(sheet), sheet.triangles, {}, 1e-3).area, once);
   const Sheet flat = ellipse(0.1, 0.1, 0);
-  EXPECT_LT(silhouette(flat.points, flat.triangles, {{0, 1, 0}, unit(Vec3{0.1, 0, -1})}, 1e-3).area, 0.15 * once);
+  EXPECT_LT(silhouette(flat.points, no_rim(flat), flat.triangles, {{0, 1, 0}, unit(Vec3{0.1, 0, -1})}, 1e-3).area, 0.15 * once);
+}
+
+// A cloth is as large as its particles make it: 30 by 15 of a radius of 2 mm are 120 mm by 60 mm, less the rounded corners.
+TEST(Silhouette, ReachesToTheRim) {
+  constexpr double r = 2e-3;
+  constexpr int nx = 30, ny = 15;
+  Sheet sheet;
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      sheet.points.push_back({2 * r * i, 2 * r * j, 0});
+      const int a = j * nx + i, b = a + nx;
+      if (i + 1 < nx && j + 1 < ny) sheet.triangles.push_back({a, a + 1, b + 1}), sheet.triangles.push_back({a, b + 1, b});
+    }
+  const std::vector<double> radius(sheet.points.size(), r);
+  const Silhouette seen = silhouette(sheet.points, radius, sheet.triangles, {}, 0.1 * r);
+  EXPECT_NEAR(seen.area, 0.12 * 0.06 - (4 - std::numbers::pi) * r * r, 2e-3 * 0.12 * 0.06);
+  EXPECT_NEAR(seen.elongation_ratio, 2, 0.005);
 }

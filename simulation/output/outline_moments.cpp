@@ -1,10 +1,10 @@
-#include "casework/outline_moments.hpp"
+#include "simulation/output/outline_moments.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "dem/particles/tile_particles.hpp"
-#include "dem/rag_measures.hpp"
+#include "base/parameter.hpp"
 
 namespace snag {
 
@@ -53,31 +53,39 @@ void add_chain(Moments& moments, const std::vector<Vec3>& points, double radius,
   }
 }
 
-std::vector<Vec3> positions(const RagSystem& rags, std::size_t rag) {
-  std::vector<Vec3> points;
-  for (const Tile& tile : rags.tiles())
-    if (tile.rag == static_cast<int>(rag)) for_particles(tile, [&](int k, int, int) { points.push_back(tile.vector(Tile::x, k)); });
-  return points;
-}
-
-Silhouette seen_cloth(const RagSystem& rags, const View& view) {
-  const RagSheet sheet = gather_sheet(rags);
-  return silhouette(sheet.position, sheet.triangles, view, 0.5 * rags.rags().front().radius);
-}
+bool is_cloth(const Rag& rag) { return rag.n_columns > 1 && rag.n_rows > 1; }
 
 }  // namespace
 
-Silhouette outline_of(const RagSystem& rags, const View& view) {
+Silhouette outline_of(const RagSheet& sheet, const std::vector<Rag>& rags, const View& view, int rag) {
+  const auto is_asked = [rag](int piece) { return rag < 0 || piece == rag; };
+  std::vector<std::vector<Vec3>> points(rags.size());  // by piece
+  std::vector<Vec3> cloth;
+  std::vector<double> radius;
+  std::vector<int> place(sheet.position.size(), -1);  // of a particle in `cloth`
+  double pixel = infinity;
+  for (std::size_t k = 0; k < sheet.position.size(); ++k) {
+    const auto piece = static_cast<std::size_t>(sheet.rag[k]);
+    if (!is_asked(sheet.rag[k])) continue;
+    points[piece].push_back(sheet.position[k]);
+    if (!is_cloth(rags[piece])) continue;
+    place[k] = static_cast<int>(cloth.size());
+    cloth.push_back(sheet.position[k]), radius.push_back(rags[piece].radius);
+    pixel = std::min(pixel, 0.5 * rags[piece].radius);
+  }
+  if (!cloth.empty()) {
+    std::vector<std::array<int, 3>> triangles;
+    for (const auto& [a, b, c] : sheet.triangles)
+      if (place[a] >= 0) triangles.push_back({place[a], place[b], place[c]});
+    return silhouette(cloth, radius, triangles, view, pixel);
+  }
   Moments moments;
-  for (std::size_t r = 0; r < rags.rags().size(); ++r) {
-    const Rag& rag = rags.rags()[r];
-    if (rag.n_columns > 1 && rag.n_rows > 1) return seen_cloth(rags, view);
-    const std::vector<Vec3> points = positions(rags, r);
-    if (points.size() > 1) {
-      add_chain(moments, points, rag.radius, rag.hydrodynamic_diameter, view);
-    } else if (!points.empty()) {
-      const double side = std::sqrt(std::numbers::pi) * rag.radius;  // a square with the area of the disc
-      moments.add_rectangle(dot(points[0], view.right), dot(points[0], view.up), 1, 0, side, side);
+  for (std::size_t r = 0; r < rags.size(); ++r) {
+    if (points[r].size() > 1) {
+      add_chain(moments, points[r], rags[r].radius, rags[r].hydrodynamic_diameter, view);
+    } else if (!points[r].empty()) {
+      const double side = std::sqrt(std::numbers::pi) * rags[r].radius;  // a square with the area of the disc
+      moments.add_rectangle(dot(points[r][0], view.right), dot(points[r][0], view.up), 1, 0, side, side);
     }
   }
   return moments.ellipse();
