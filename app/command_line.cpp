@@ -56,6 +56,7 @@ int parse_and_act(int argc, char** argv, const Session& session) {
     known.push_back(app.get_subcommands([](const CLI::App*) { return true; }).back()->get_name());
     actions.emplace_back(known.back(), std::move(action));
   }
+  app.require_subcommand(0, 1);  // a path that is named like a command, such as a folder "run", is no second one
   explain_unknown_command(argc, argv, known);
   try {
     app.parse(argc, argv);

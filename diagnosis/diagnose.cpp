@@ -64,6 +64,10 @@ void note_noise(const Experiment& experiment, Verdict& verdict) {
   const std::vector<NoiseModel> all = noise_of_repeats(experiment);
   for (std::size_t o = 0; o < all.size(); ++o) {
     const NoiseModel& noise = all[o];
+    if (noise.scatter > 0)
+      verdict.notes.push_back("The repeats of " + experiment.observables[o].id + " scatter " + rounded(noise.scatter) +
+                              " times as much as noise_u says: this is taken as scatter of the tests, not of the instrument. If the "
+                              "tests were alike, correct noise_u or its unit.");
     if (noise.nats == 0) continue;
     const std::string& id = experiment.observables[o].id;
     verdict.noise[id] = {noise.factor, noise.correlation_time, noise.nats};

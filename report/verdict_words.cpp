@@ -170,6 +170,12 @@ std::string verdict_advice(const Verdict& v) {
   return text;
 }
 
+std::string effects_in_words(const Verdict& v) {
+  std::string effects;
+  for (const std::string& effect : v.effects) effects += (effects.empty() ? "" : " and ") + effect;
+  return effects;
+}
+
 std::vector<std::string> names_of(const Verdict& v) {
   switch (v.verdict) {
     case VerdictKind::effects:

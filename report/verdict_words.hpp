@@ -12,6 +12,8 @@ std::string verdict_sentence(const Verdict& verdict);
 /// What to do now, in one sentence or two.
 std::string verdict_advice(const Verdict& verdict);
 
+/// The effects of the verdict: "added_mass and lift".
+std::string effects_in_words(const Verdict& verdict);
 /// What the verdict names: all causes of it, of a tie those of each hypothesis, or "none", "outside".
 std::vector<std::string> names_of(const Verdict& verdict);
 

@@ -70,6 +70,10 @@ struct Run {
   }
 };
 
+void log_warnings(const Forecast& ahead) {
+  for (const std::string& warning : ahead.warnings) log::warning(warning);
+}
+
 /// Partition of the checkpoint, if it was written on as many ranks.
 std::optional<std::vector<int>> stored_partition(CheckpointReader* reader) {
   if (!reader || reader->stamp().ranks != size_of(world) || !reader->has("mesh/partition")) return {};
@@ -149,6 +153,7 @@ ExitCode run_case(const RunOptions& options) {
   output.open(simulation, file, options.resume);
   if (!start.empty()) log::info(start);
   if (step_found) say_and_store(*step_found, folder, options.resume);
+  if (!reader) log_warnings(forecast(simulation));
   if (reader) load(simulation, *reader);
   Outputs outputs(folder, file, simulation, options.resume, begun);
   if (reader) {
@@ -190,7 +195,7 @@ ExitCode check_case(const RunOptions& options) {
   if (!about_step.empty()) log::info(about_step);
   const Forecast ahead = forecast(simulation);
   log::info(ahead.text);
-  for (const std::string& warning : ahead.warnings) log::warning(warning);
+  log_warnings(ahead);
   log::info("the case is ready to run");
   return ExitCode::ok;
 }

@@ -116,7 +116,8 @@ NoiseModel noise_of(const std::vector<Contrasts>& all) {
   NoiseModel found = lasts ? correlated.noise : independent.noise;
   // Repeats that scatter as much as the grid goes, or more, do not show a noise that was understated: more likely the numbers have another
   // unit, whose hypothesis brings the noise along (mistakes.hpp). Their scatter is left to summary.hpp.
-  if (found.factor >= factor_at(n_factors - 1)) return {};
+  if (const Sums all_together = sums_of(all, 0); found.factor >= factor_at(n_factors - 1))
+    return {.scatter = std::sqrt(all_together.S / all_together.n)};
   // Who states more than the repeats scatter knows of more than these.
   found.factor = std::max(1.0, found.factor);
   found.nats = log_sum_exp(std::array{independent.log_mean(), correlated.log_mean()}) - std::numbers::ln2;

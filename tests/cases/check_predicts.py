@@ -98,6 +98,8 @@ class CheckPredicts(harness.CaseTest):
         mesh = self.mesh("pipe", "diameter_m=0.1", "length_m=0.04", 'cells="swept"', "n_around=16", "n_layers=3", "first_layer_m=0.006", "axial_size_m=0.02")
         case = self.case(TURNING_PIPE.format(mesh=mesh))
         self.assertIn("the walls turn 54 degrees a step, advised at most 30", self.check(case).stdout)
+        run = self.run_case(case, 2)
+        self.assertIn("the walls turn 54 degrees a step", run.stdout + run.stderr)
         for remedy in ("flow.n_outer_correctors=5", "time.step_s=0.05"):
             self.assertNotIn("warning", self.check(case, "--set", remedy).stdout)
 

@@ -109,6 +109,8 @@ class Observe(harness.CaseTest):
         refused = self.snag_observe([self.work / "demo" / "two_way"], "seen", 6)
         self.assertIn("two_way: does not exist", refused.stderr)
         self.assertIn("mode-two_way", refused.stderr)
+        like_a_command = self.observe("study", self.camera(CAMERA), "seen", 6)
+        self.assertIn("study: does not exist", like_a_command.stderr)
 
     def test_silhouettes_are_those_of_the_camera(self):
         """A monitor of the run, that a diagnosis reads, shows the cloth from where [virtual_camera] stands, and as large as `snag observe` does."""

@@ -83,6 +83,8 @@ TEST(Noise, Overstated) {
 /// Numbers in another unit scatter a thousand times as much.
 TEST(Noise, AnotherUnitIsNoNoise) {
   EXPECT_EQ(found(1000, 0, 0, 7).factor, 1);
+  EXPECT_NEAR(found(1000, 0, 0, 7).scatter, 1000, 100);
+  EXPECT_EQ(found(3, 0, 0, 7).scatter, 0);
   EXPECT_EQ(found(1000, 0.8, 0, 7).factor, 1);
 }
 
