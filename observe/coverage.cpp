@@ -1,26 +1,9 @@
 #include "observe/coverage.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace snag {
-
-namespace {
-
-/// Edges of one triangle only: the hem of the sheet.
-std::vector<std::array<int, 2>> hem_of(std::span<const std::array<int, 3>> triangles) {
-  std::vector<std::array<int, 2>> edges, hem;
-  for (const auto& [a, b, c] : triangles)
-    for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
-      edges.push_back({std::min(from, to), std::max(from, to)});
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if ((e == 0 || edges[e] != edges[e - 1]) && (e + 1 == edges.size() || edges[e] != edges[e + 1])) hem.push_back(edges[e]);
-  return hem;
-}
-
-}  // namespace
 
 Coverage::Coverage(double x_low, double y_low, double x_high, double y_high, double pixel)
     : x0(x_low),
@@ -61,24 +44,6 @@ void Coverage::fill_circle(double x, double y, double radius) {
       const double dx = x0 + (i + 0.5) * side - x, dy = y0 + (j + 0.5) * side - y;
       if (dx * dx + dy * dy <= radius * radius) covered[static_cast<std::size_t>(j) * nx + i] = 1;
     }
-}
-
-void Coverage::fill_strip(const std::array<double, 2>& a, const std::array<double, 2>& b, double reach) {
-  const double dx = b[0] - a[0], dy = b[1] - a[1], length = std::hypot(dx, dy);
-  if (!(length > 0 && reach > 0)) return;
-  const double across_x = -dy / length * reach, across_y = dx / length * reach;
-  fill_triangle({a[0] + across_x, a[0] - across_x, b[0] - across_x}, {a[1] + across_y, a[1] - across_y, b[1] - across_y});
-  fill_triangle({a[0] + across_x, b[0] - across_x, b[0] + across_x}, {a[1] + across_y, b[1] - across_y, b[1] + across_y});
-}
-
-void Coverage::fill_cloth(std::span<const std::array<double, 2>> place, std::span<const double> radius,
-                          std::span<const std::array<int, 3>> triangles) {
-  for (std::size_t k = 0; k < place.size(); ++k)
-    if (radius[k] > 0) fill_circle(place[k][0], place[k][1], radius[k]);
-  for (const auto& [a, b] : hem_of(triangles)) fill_strip(place[a], place[b], 0.5 * (radius[a] + radius[b]));
-  for (const auto& [a, b, c] : triangles)
-    if (!std::isnan(place[a][0] + place[b][0] + place[c][0]))
-      fill_triangle({place[a][0], place[b][0], place[c][0]}, {place[a][1], place[b][1], place[c][1]});
 }
 
 double Coverage::area() const { return side * side * std::accumulate(covered.begin(), covered.end(), 0.0); }

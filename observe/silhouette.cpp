@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parameter.hpp"
+#include "observe/cloth_to_rim.hpp"
 
 namespace snag {
 
@@ -34,14 +35,21 @@ Silhouette moments(const Coverage& picture) {
 Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
                       const View& view, double pixel) {
   if (points.empty()) return {};
+  const ClothToRim cloth = cloth_to_rim(points, radius, triangles);
   double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
   std::vector<std::array<double, 2>> place;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    place.push_back({dot(points[k], view.right), dot(points[k], view.up)});
-    for (int c = 0; c < 2; ++c) low[c] = std::min(low[c], place[k][c] - radius[k]), high[c] = std::max(high[c], place[k][c] + radius[k]);
+  const auto hold = [&](const std::array<double, 2>& at, double reach) {
+    for (int c = 0; c < 2; ++c) low[c] = std::min(low[c], at[c] - reach), high[c] = std::max(high[c], at[c] + reach);
+  };
+  for (const Vec3& x : cloth.points) {
+    place.push_back({dot(x, view.right), dot(x, view.up)});
+    hold(place.back(), 0);
   }
+  for (const int k : cloth.loose) hold(place[k], radius[k]);
   Coverage picture(low[0], low[1], high[0], high[1], pixel);
-  picture.fill_cloth(place, radius, triangles);
+  for (const int k : cloth.loose) picture.fill_circle(place[k][0], place[k][1], radius[k]);
+  for (const auto& [a, b, c] : cloth.triangles)
+    picture.fill_triangle({place[a][0], place[b][0], place[c][0]}, {place[a][1], place[b][1], place[c][1]});
   return moments(picture);
 }
 

@@ -27,8 +27,8 @@ struct Silhouette {
 /// Of all that is covered.
 Silhouette moments(const Coverage& picture);
 
-/// Parallel projection of cloth: particles of these radii, m, and triangles between them (Coverage::fill_cloth); pixel side `pixel` in
-/// metres. A pixel belongs to the silhouette if its centre does.
+/// Parallel projection of cloth to its rim (observe/cloth_to_rim.hpp), of particles of these radii, m; pixel side `pixel` in metres. A
+/// pixel belongs to the silhouette if its centre does.
 Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
                       const View& view, double pixel);
 

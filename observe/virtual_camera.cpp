@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "observe/cloth_to_rim.hpp"
 #include "observe/coverage.hpp"
 
 namespace snag {
@@ -62,20 +63,21 @@ GreyPicture developed(cv::Mat share, const Camera& camera, std::uint64_t seed) {
 
 GreyPicture photograph(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, double radius, const Camera& camera,
                        std::uint64_t seed) {
+  const ClothToRim cloth = cloth_to_rim(points, std::vector<double>(points.size(), radius), triangles);
   std::vector<std::array<double, 2>> at;
-  std::vector<double> disc;  // radius as seen, m
+  for (const Vec3& x : cloth.points) at.push_back(camera.seen_at(x));
+  const auto disc = [&](int k) { return radius * camera.magnification(points[k]); };  // radius as seen, m
   double largest = 0;
-  for (const Vec3& x : points) {
-    at.push_back(camera.seen_at(x));
-    disc.push_back(radius * camera.magnification(x));
-    largest = std::max(largest, disc.back());
-  }
+  for (const int k : cloth.loose) largest = std::max(largest, disc(k));
   const Part part = part_around(at, largest, camera);
   Coverage fine(0, 0, 0, 0, camera.pixel / finer);
   fine.x0 = (part.left - 0.5 * camera.width()) * camera.pixel, fine.y0 = (part.bottom - 0.5 * camera.height()) * camera.pixel;
   fine.nx = finer * (part.right - part.left), fine.ny = finer * (part.top - part.bottom);
   fine.covered.assign(static_cast<std::size_t>(fine.nx) * fine.ny, 0);
-  fine.fill_cloth(at, disc, triangles);
+  for (const int k : cloth.loose)
+    if (disc(k) > 0) fine.fill_circle(at[k][0], at[k][1], disc(k));
+  for (const auto& [a, b, c] : cloth.triangles)
+    if (!std::isnan(at[a][0] + at[b][0] + at[c][0])) fine.fill_triangle({at[a][0], at[b][0], at[c][0]}, {at[a][1], at[b][1], at[c][1]});
   return developed(covered_share(fine, part, camera), camera, seed);
 }
 

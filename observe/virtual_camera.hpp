@@ -9,8 +9,8 @@
 
 namespace snag {
 
-/// Triangles between the particles' centres and a disc of `radius` around each (m), joined along the hem: the sheet as large as the
-/// cloth. Pixels are covered in parts of 1/16; what is behind the camera is left out. `seed` of the noise.
+/// Cloth to its rim (observe/cloth_to_rim.hpp), of particles of `radius`, m. Pixels are covered in parts of 1/16; what is behind the camera
+/// is left out. `seed` of the noise.
 GreyPicture photograph(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, double radius, const Camera& camera,
                        std::uint64_t seed);
 /// The same camera without cloth.
