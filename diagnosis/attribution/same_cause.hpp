@@ -6,8 +6,8 @@
 //   cos = p_a.P p_b / sqrt(p_a.P p_a  p_b.P p_b) > 0.999   and   sqrt(p_a.P p_a (1 - cos^2)) < 1
 //
 // The first says that they are alike, not only too small to be distinguished; the second that the data distinguish them by half a nat at
-// most. And the evidence of the other one is at most 6 nats less: with one number every effect is like every other one, but the strength
-// that it needs may be unlikely.
+// most. In addition, the evidence of the other effect is at most 6 nats lower. With a single number, the first two conditions hold for
+// every effect, even for one that needs an unlikely strength.
 #include "diagnosis/attribution/attribution.hpp"
 
 namespace snag {

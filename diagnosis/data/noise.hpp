@@ -18,7 +18,7 @@ struct NoiseModel {
   double factor = 1;            // F, over noise_u
   double correlation_time = 0;  // tau, s; 0: samples are independent
   double nats = 0;              // by which the repeats speak for it; 0: as stated
-  double scatter = 0;           // of the repeats over noise_u where that is ten and more, and no noise of an instrument; 0: it is not
+  double scatter = 0;           // standard deviation of the repeats over noise_u, if ten or more: not noise of an instrument; else 0
   double correlation(double apart) const;
 };
 

@@ -101,9 +101,9 @@ class Fitter {
   /// says of it; where that fails too, it changes nothing. `run` as the responses were made.
   void mirror_failed(const State& origin, const std::vector<Response>& at_origin, std::span<const Responses::Request> requests,
                      std::span<Response> responses, const Runs& run) const;
-  /// Fit from a start of the strengths with these forms in the lead (by effect; empty: the first ones). Where another form has most of the
-  /// share, a second fit begins with that form, and the better of the two is kept. Forms that exclude each other are fitted one by one; the
-  /// best fit is kept, and its evidence is the mean over the forms. No further fit begins where the budget does not suffice.
+  /// Begins with these strengths and leading forms (by effect; empty: the first form of each). If another form then has most of the share,
+  /// a second fit begins with it, and the better fit is returned. If the forms of an effect exclude each other, each form has its own fit;
+  /// the best one is returned, and its evidence is the mean over the forms. No further fit begins if the budget does not allow it.
   Fit fit(const Hypothesis& hypothesis, const Eigen::VectorXd& start, const std::vector<int>& forms = {});
 
  private:
