@@ -87,21 +87,4 @@ Outline outline_from(std::vector<double> radius, double area, const OutlineSetti
   return result;
 }
 
-Coverage coverage(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel) {
-  if (triangles.empty()) return {0, 0, 0, 0, pixel};
-  double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
-  for (const auto& triangle : triangles)
-    for (const int node : triangle) {
-      const double at[2] = {dot(points[node], view.right), dot(points[node], view.up)};
-      for (int c = 0; c < 2; ++c) low[c] = std::min(low[c], at[c]), high[c] = std::max(high[c], at[c]);
-    }
-  Coverage picture(low[0], low[1], high[0], high[1], pixel);
-  for (const auto& triangle : triangles) {
-    std::array<double, 3> x, y;
-    for (int a = 0; a < 3; ++a) x[a] = dot(points[triangle[a]], view.right), y[a] = dot(points[triangle[a]], view.up);
-    picture.fill_triangle(x, y);
-  }
-  return picture;
-}
-
 }  // namespace snag

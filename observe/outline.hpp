@@ -1,13 +1,9 @@
 #pragma once
 // Outline of a blob about a given centre, as the drape test reads it: how far the blob reaches in each direction, and its waves, the peaks
 // of that curve (Jensen 2018, Fig. 2.12).
-#include <array>
-#include <span>
 #include <vector>
 
-#include "base/vec3.hpp"
 #include "observe/coverage.hpp"
-#include "observe/silhouette.hpp"
 
 namespace snag {
 
@@ -38,8 +34,5 @@ Outline outline(const Coverage& picture, const OutlineSettings& settings);
 
 /// The same from a curve that is smooth already, such as that of another outline.
 Outline outline_from(std::vector<double> radius, double area, const OutlineSettings& settings);
-
-/// Picture of triangles (indices into points) from far away.
-Coverage coverage(std::span<const Vec3> points, std::span<const std::array<int, 3>> triangles, const View& view, double pixel);
 
 }  // namespace snag

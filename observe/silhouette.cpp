@@ -32,9 +32,9 @@ Silhouette moments(const Coverage& picture) {
   return seen;
 }
 
-Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
-                      const View& view, double pixel) {
-  if (points.empty()) return {};
+Coverage covered_by(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
+                    const View& view, double pixel) {
+  if (points.empty()) return {0, 0, 0, 0, pixel};
   const ClothToRim cloth = cloth_to_rim(points, radius, triangles);
   double low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
   std::vector<std::array<double, 2>> place;
@@ -50,7 +50,12 @@ Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radi
   for (const int k : cloth.loose) picture.fill_circle(place[k][0], place[k][1], radius[k]);
   for (const auto& [a, b, c] : cloth.triangles)
     picture.fill_triangle({place[a][0], place[b][0], place[c][0]}, {place[a][1], place[b][1], place[c][1]});
-  return moments(picture);
+  return picture;
+}
+
+Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
+                      const View& view, double pixel) {
+  return moments(covered_by(points, radius, triangles, view, pixel));
 }
 
 }  // namespace snag

@@ -28,7 +28,10 @@ struct Silhouette {
 Silhouette moments(const Coverage& picture);
 
 /// Parallel projection of cloth to its rim (observe/cloth_to_rim.hpp), of particles of these radii, m; pixel side `pixel` in metres. A
-/// pixel belongs to the silhouette if its centre does.
+/// pixel is covered if its centre is.
+Coverage covered_by(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
+                    const View& view, double pixel);
+/// Its moments.
 Silhouette silhouette(std::span<const Vec3> points, std::span<const double> radius, std::span<const std::array<int, 3>> triangles,
                       const View& view, double pixel);
 

@@ -8,6 +8,7 @@
 #include "dem/contacts/contact_solver.hpp"
 #include "dem/particles/tile_particles.hpp"
 #include "dem/walls/walls.hpp"
+#include "observe/silhouette.hpp"
 #include "textile/still_air.hpp"
 
 namespace snag {
@@ -159,16 +160,7 @@ Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, doub
 }
 
 Coverage seen_from_above(const RagSheet& sheet, double radius, double pixel) {
-  std::vector<Vec3> points = sheet.position;
-  std::vector<std::array<int, 3>> triangles = sheet.triangles;
-  for (std::size_t k = 0; k < sheet.position.size(); ++k) {
-    const auto& [w, x, y, z] = sheet.orientation[k];
-    const Vec3 along = radius * carried_direction<0>(w, x, y, z), across = radius * carried_direction<1>(w, x, y, z);
-    const int a = static_cast<int>(points.size());
-    for (const auto& [i, j] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) points.push_back(sheet.position[k] + i * along + j * across);
-    triangles.push_back({a, a + 1, a + 2}), triangles.push_back({a, a + 2, a + 3});
-  }
-  return coverage(points, triangles, View{}, pixel);
+  return covered_by(sheet.position, std::vector<double>(sheet.position.size(), radius), sheet.triangles, View{}, pixel);
 }
 
 Outline outline_from_above(const RagSheet& sheet, double radius) {

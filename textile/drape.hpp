@@ -43,8 +43,7 @@ Drape relaxed_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, co
 /// The same by the motion of the cloth with its own dashpots and friction, for `duration` s, in air that slows it by `air` (1/s).
 Drape moved_drape(const DrapeTest& test, const DrapeCloth& cloth, int seed, double duration, double air, const RagSheet* start = nullptr);
 
-/// The cloth from above: triangles between the particles, and for each particle the square of cloth that it stands for, 2 r_p wide in its
-/// own plane, so that the cloth ends where its last cells end. `pixel`: m.
+/// The cloth from above, to its rim (observe/cloth_to_rim.hpp). `pixel`: m.
 Coverage seen_from_above(const RagSheet& sheet, double radius, double pixel);
 /// Outline of that, from pixels of a thousandth of the published sample.
 Outline outline_from_above(const RagSheet& sheet, double radius);

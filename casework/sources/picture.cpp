@@ -8,7 +8,7 @@ namespace {
 
 const bool registered = add_observable_source<Silhouette>({.in_memory = [](const RunInMemory& run) -> std::any {
   const RagSystem& rags = *run.simulation.rags;
-  return outline_of(gather_sheet(rags), rags.rags(), run.view);
+  return outline_of_all(gather_sheet(rags), rags.rags(), run.view);
 }});
 
 }  // namespace

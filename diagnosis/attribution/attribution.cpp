@@ -27,9 +27,11 @@ Attribution Attributor::attribute() {
     if (is_effect_by_another_name(screening, k)) other_names.push_back(k), forget(model_.effects()[k].name);
   const auto is_other_name = [&](int k) { return std::count(other_names.begin(), other_names.end(), k) > 0; };
   std::erase_if(live, is_other_name), std::erase_if(candidates_, is_other_name);
-  // What changes no run is the base model under another name: friction of what touches nothing is no hypothesis.
-  const auto changes_none = [&](int k) { return !model_.effects()[k].random && !screening.changes_runs(k); };
-  std::erase_if(live, changes_none), std::erase_if(candidates_, changes_none);
+  // What the data do not show is the base model under another name: friction of what touches nothing is no hypothesis.
+  const auto is_not_shown = [&](int k) {
+    return !model_.effects()[k].random && (!screening.changes_runs(k) || screening.detectability(k) < least_shown);
+  };
+  std::erase_if(live, is_not_shown), std::erase_if(candidates_, is_not_shown);
   result_.placebo_rate = screening.placebo_rate(model_.experiment().seed);
   const std::vector<Screened> singles = screened_singles(screening);
   report("fits", 0.15);

@@ -27,7 +27,9 @@ inline constexpr double prior_none = 0.36, prior_effects = 0.36, prior_mistakes 
 inline constexpr double screening_width = 10, share_not_linear = 0.05, share_of_second = 0.5, weak_form_threshold = 3;
 inline constexpr int min_candidates = 3, max_candidates = 8, max_mistakes = 3, most_pairs = 5, most_pairs_around_base = 2,
                      n_screened_again = 3, most_effects = 5, most_a_round = 2;
-inline constexpr double blind_detectability = 3;
+/// Standard uncertainties of an effect at its expected strength. Below the first, these data are blind to it. Below the second, it changes
+/// the evidence by half the square, 0.045 nats at most: a hypothesis with it is the same as the one without it.
+inline constexpr double blind_detectability = 3, least_shown = 0.3;
 /// Of the prior of an effect, for that it acts from a time on only, or beyond a plane only, each; and hypotheses of these that are fitted.
 inline constexpr double share_local = 0.05;
 inline constexpr int most_local = 3;

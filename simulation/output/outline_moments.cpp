@@ -55,40 +55,63 @@ void add_chain(Moments& moments, const std::vector<Vec3>& points, double radius,
 
 bool is_cloth(const Rag& rag) { return rag.n_columns > 1 && rag.n_rows > 1; }
 
-}  // namespace
+/// Particles and triangles of each piece.
+struct Pieces {
+  std::vector<std::vector<Vec3>> points;
+  std::vector<std::vector<std::array<int, 3>>> triangles;  // indices into the points of the piece
+};
 
-Silhouette outline_of(const RagSheet& sheet, const std::vector<Rag>& rags, const View& view, int rag) {
-  const auto is_asked = [rag](int piece) { return rag < 0 || piece == rag; };
-  std::vector<std::vector<Vec3>> points(rags.size());  // by piece
+Pieces pieces_of(const RagSheet& sheet, std::size_t n_pieces) {
+  Pieces pieces{std::vector<std::vector<Vec3>>(n_pieces), std::vector<std::vector<std::array<int, 3>>>(n_pieces)};
+  std::vector<int> place;  // of a particle in its piece
+  for (std::size_t k = 0; k < sheet.position.size(); ++k) {
+    auto& points = pieces.points[sheet.rag[k]];
+    place.push_back(static_cast<int>(points.size()));
+    points.push_back(sheet.position[k]);
+  }
+  for (const auto& [a, b, c] : sheet.triangles) pieces.triangles[sheet.rag[a]].push_back({place[a], place[b], place[c]});
+  return pieces;
+}
+
+/// Of the pieces first to last - 1 together.
+Silhouette seen(const Pieces& pieces, const std::vector<Rag>& rags, const View& view, std::size_t first, std::size_t last) {
   std::vector<Vec3> cloth;
   std::vector<double> radius;
-  std::vector<int> place(sheet.position.size(), -1);  // of a particle in `cloth`
+  std::vector<std::array<int, 3>> triangles;
   double pixel = infinity;
-  for (std::size_t k = 0; k < sheet.position.size(); ++k) {
-    const auto piece = static_cast<std::size_t>(sheet.rag[k]);
-    if (!is_asked(sheet.rag[k])) continue;
-    points[piece].push_back(sheet.position[k]);
-    if (!is_cloth(rags[piece])) continue;
-    place[k] = static_cast<int>(cloth.size());
-    cloth.push_back(sheet.position[k]), radius.push_back(rags[piece].radius);
-    pixel = std::min(pixel, 0.5 * rags[piece].radius);
+  for (std::size_t r = first; r < last; ++r) {
+    if (!is_cloth(rags[r]) || pieces.points[r].empty()) continue;
+    const int offset = static_cast<int>(cloth.size());
+    for (const auto& [a, b, c] : pieces.triangles[r]) triangles.push_back({offset + a, offset + b, offset + c});
+    cloth.insert(cloth.end(), pieces.points[r].begin(), pieces.points[r].end());
+    radius.resize(cloth.size(), rags[r].radius);
+    pixel = std::min(pixel, 0.5 * rags[r].radius);
   }
-  if (!cloth.empty()) {
-    std::vector<std::array<int, 3>> triangles;
-    for (const auto& [a, b, c] : sheet.triangles)
-      if (place[a] >= 0) triangles.push_back({place[a], place[b], place[c]});
-    return silhouette(cloth, radius, triangles, view, pixel);
-  }
+  if (!cloth.empty()) return silhouette(cloth, radius, triangles, view, pixel);
   Moments moments;
-  for (std::size_t r = 0; r < rags.size(); ++r) {
-    if (points[r].size() > 1) {
-      add_chain(moments, points[r], rags[r].radius, rags[r].hydrodynamic_diameter, view);
-    } else if (!points[r].empty()) {
+  for (std::size_t r = first; r < last; ++r) {
+    const std::vector<Vec3>& points = pieces.points[r];
+    if (points.size() > 1) {
+      add_chain(moments, points, rags[r].radius, rags[r].hydrodynamic_diameter, view);
+    } else if (!points.empty()) {
       const double side = std::sqrt(std::numbers::pi) * rags[r].radius;  // a square with the area of the disc
-      moments.add_rectangle(dot(points[r][0], view.right), dot(points[r][0], view.up), 1, 0, side, side);
+      moments.add_rectangle(dot(points[0], view.right), dot(points[0], view.up), 1, 0, side, side);
     }
   }
   return moments.ellipse();
+}
+
+}  // namespace
+
+Silhouette outline_of_all(const RagSheet& sheet, const std::vector<Rag>& rags, const View& view) {
+  return seen(pieces_of(sheet, rags.size()), rags, view, 0, rags.size());
+}
+
+std::vector<Silhouette> outlines_of_pieces(const RagSheet& sheet, const std::vector<Rag>& rags, const View& view) {
+  const Pieces pieces = pieces_of(sheet, rags.size());
+  std::vector<Silhouette> outlines;
+  for (std::size_t r = 0; r < rags.size(); ++r) outlines.push_back(seen(pieces, rags, view, r, r + 1));
+  return outlines;
 }
 
 }  // namespace snag

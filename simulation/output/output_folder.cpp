@@ -3,7 +3,6 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +24,7 @@ const char* const result_files[] = {"case.resolved.toml", "step.json", "summary.
 struct ResultFolder {
   const char* name;
   std::vector<std::string> endings;
+  bool is_made_first = true;  // by every run, before its results
 };
 
 const std::vector<ResultFolder>& result_folders() {
@@ -33,7 +33,7 @@ const std::vector<ResultFolder>& result_folders() {
                                                  {"rags", {".vtp", ".vtu", ".pvtu", ".pvd"}},
                                                  {"walls", {".vtp", ".pvd"}},
                                                  {"checkpoint", {".h5"}},
-                                                 {"pictures", {".json", ".log", ".png", ".py", ".svg"}}};
+                                                 {"pictures", {".json", ".log", ".png", ".py", ".svg"}, false}};
   return folders;
 }
 
@@ -51,12 +51,11 @@ std::string taken_place(const fs::path& folder) {
   return "";
 }
 
-/// A run makes its folders first, all but that of the pictures.
 bool is_of_run(const fs::path& folder) {
   std::error_code ignored;
-  return fs::exists(folder / "case.resolved.toml", ignored) ||
-         std::ranges::all_of(std::span(result_folders()).first(5),
-                             [&](const ResultFolder& results) { return fs::is_directory(folder / results.name, ignored); });
+  return fs::exists(folder / "case.resolved.toml", ignored) || std::ranges::all_of(result_folders(), [&](const ResultFolder& results) {
+           return !results.is_made_first || fs::is_directory(folder / results.name, ignored);
+         });
 }
 
 /// Rank 0 only.

@@ -50,8 +50,7 @@ void RagOutput::write(const RagSystem& rags, const RagForces& forces, std::int64
     sheets_->add(time, time_step, piece);
     particles_->add(time, time_step, dots);
 
-    silhouettes_.clear();
-    for (int rag = 0; rag < static_cast<int>(rags.rags().size()); ++rag) silhouettes_.push_back(outline_of(sheet, rags.rags(), view_, rag));
+    silhouettes_ = outlines_of_pieces(sheet, rags.rags(), view_);
   });
 }
 

@@ -129,7 +129,7 @@ TEST(ObservableSources, ANewSourceIsReadInAFolder) {
 
 /// Requirement: the tutorial on the diagnosis names every observable.
 TEST(ObservableSources, TutorialNamesTheirObservables) {
-  std::ifstream file(std::string(std::getenv("SNAG_SOURCE_DIR")) + "/docs/tutorial-diagnosis.md");
+  std::ifstream file(in_sources("docs/tutorial-diagnosis.md"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   int n_missing = 0;
   for (const ObservableRecord& one : observables())

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "diagnosis/effects/effect_model.hpp"
+#include "tests/sources.hpp"
 
 namespace snag {
 namespace {
@@ -33,7 +34,7 @@ std::map<std::string, double> changes_by(const std::string& effect, const CaseFe
 /// Requirement: the registry holds the folder; its other source is the registry itself.
 TEST(Effects, RegistryHoldsTheFolder) {
   std::size_t n = 0;
-  for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "diagnosis/effects"))
+  for (const auto& file : std::filesystem::directory_iterator(in_sources("diagnosis/effects")))
     n += file.path().extension() == ".cpp" && file.path().stem() != "effect_model";
   EXPECT_EQ(effect_models().names().size(), n);
 }

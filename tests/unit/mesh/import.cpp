@@ -8,16 +8,14 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "sample.hpp"
+#include "tests/sources.hpp"
 
 namespace {
 
 using namespace snag;
 using test::Format;
 
-std::filesystem::path pump(const std::string& name) {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  return std::filesystem::path(root ? root : ".") / "cases" / "meshes" / name;
-}
+std::filesystem::path pump(const std::string& name) { return in_sources("cases/meshes/" + name); }
 
 Mesh imported(const test::Sample& sample, Format format, const ImportOptions& options = {}) {
   const test::TemporaryFile file(sample, format);

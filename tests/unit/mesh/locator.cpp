@@ -10,6 +10,7 @@
 #include "mesh/sliding/turning_mesh.hpp"
 #include "sample.hpp"
 #include "sliding_shells.hpp"
+#include "tests/sources.hpp"
 #include "tests/structured_box.hpp"
 
 namespace {
@@ -50,8 +51,7 @@ TEST(Locator, FindsEachCellFromItsCentre) {
   const test::TemporaryFile mixed(test::mixed_units(5), test::Format::ascii22), warped(test::warped_cube(5, 0.2), test::Format::binary41);
   expect_own_centres(import_mesh(mixed.path(), MPI_COMM_WORLD));
   expect_own_centres(import_mesh(warped.path(), MPI_COMM_WORLD));
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  expect_own_centres(import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD));
+  expect_own_centres(import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD));
 }
 
 // A point inside belongs to exactly one cell of one rank, although the faces are warped; and the answer does not depend on the hint.
@@ -189,8 +189,7 @@ TEST(Locator, FollowsATurningZone) {
 
 // In the pump centres that turn with the rotor keep their cell.
 TEST(Locator, PointsTurnWithTheRotorOfThePump) {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  Mesh mesh = import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
+  Mesh mesh = import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD);
   TurningMesh turning(mesh, {});
   const CellLocator locator(mesh);
   const std::vector<Vec3> at_rest = mesh.cell_centre;

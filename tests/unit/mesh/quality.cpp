@@ -7,6 +7,7 @@
 #include "check.hpp"
 #include "mesh/import/import.hpp"
 #include "sample.hpp"
+#include "tests/sources.hpp"
 #include "tests/structured_box.hpp"
 
 namespace {
@@ -103,8 +104,7 @@ TEST(Quality, ReportsInvertedAndFlatCells) {
 
 // The pump is usable: three regions (rotor, inlet pipe, casing), quality as its maker measured it; the table names zones and patches.
 TEST(Quality, OfTheCoarsePump) {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  const Mesh mesh = import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
+  const Mesh mesh = import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD);
   const MeshQuality q = quality(mesh);
   EXPECT_TRUE(q.failures.empty());
   EXPECT_EQ(q.n_regions, 3);

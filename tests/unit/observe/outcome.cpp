@@ -1,5 +1,6 @@
 // One table has the words of outcomes and events: row i belongs to enumerator i, and the schema of summary.json lists the same words.
 #include "observe/outcome.hpp"
+#include "tests/sources.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ TEST(Outcome, WordsAndEnumeratorsAreOne) {
 
 /// Requirement: what summary.json promises is what a run can write.
 TEST(Outcome, SchemaOfTheSummaryHasTheSameWords) {
-  std::ifstream file(std::string(std::getenv("SNAG_SOURCE_DIR")) + "/share/summary.schema.json");
+  std::ifstream file(in_sources("share/summary.schema.json"));
   const auto rag = nlohmann::json::parse(file).at("properties").at("rags").at("items").at("properties");
   EXPECT_EQ(rag.at("outcome").at("enum").get<std::vector<std::string>>(), keys_of(outcome_table));
   const auto what = rag.at("events").at("items").at("properties").at("what").at("enum").get<std::vector<std::string>>();

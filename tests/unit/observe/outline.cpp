@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "observe/silhouette.hpp"
+
 using namespace snag;
 
 namespace {
@@ -21,7 +23,7 @@ Coverage flower(double mean, double amplitude, int n, double turned, double x, d
     points.push_back({x + r * std::cos(angle), y + r * std::sin(angle), 0});
     triangles.push_back({0, 1 + i, 1 + (i + 1) % n_points});
   }
-  return coverage(points, triangles, {}, pixel);
+  return covered_by(points, std::vector<double>(points.size(), 0.0), triangles, {}, pixel);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
 #include "report/pump_section.hpp"
+#include "tests/sources.hpp"
 #include "tests/structured_box.hpp"
 
 namespace {
@@ -71,7 +72,7 @@ class PumpOutputTest : public testing::Test {
 
 /// Every column of a file of monitors/ has a row with its name and unit in docs/outputs.md.
 void expect_documented(const std::filesystem::path& file) {
-  const std::string page = file_text(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "docs/outputs.md").value_or("");
+  const std::string page = file_text(in_sources("docs/outputs.md")).value_or("");
   const std::size_t begin = page.find("### " + file.filename().string());
   ASSERT_NE(begin, std::string::npos) << file;
   const auto rows = split(page.substr(begin, page.find("\n### ", begin) - begin), '\n');

@@ -1,5 +1,6 @@
 // Reading tests of a cloth, stiffness from the elongation test, textile passports.
 #include "textile/calibration.hpp"
+#include "tests/sources.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@
 namespace snag {
 namespace {
 
-TextileTests aro() { return read_textile_tests(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "cases/textile-aro/tests.toml"); }
+TextileTests aro() { return read_textile_tests(in_sources("cases/textile-aro/tests.toml")); }
 
 /// To three digits, as a table prints it.
 double printed(double value) {
@@ -121,7 +122,7 @@ TEST(Passport, OfACalibrationReadsBack) {
 
 TEST(Calibration, EveryKeyOfTheTestsIsInTheManual) {
   // Requirement: what the reader reads, the manual has; a key of its own would be read and nowhere explained.
-  const CaseFile file = CaseFile::read(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "cases/textile-aro/tests.toml");
+  const CaseFile file = CaseFile::read(in_sources("cases/textile-aro/tests.toml"));
   read_textile_tests(file);
   EXPECT_EQ(keys_without_section(file, textile_tests_sections()), std::vector<std::string>{});
   EXPECT_FALSE(keys_without_section(file, {}).empty());

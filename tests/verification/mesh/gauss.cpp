@@ -7,15 +7,13 @@
 #include "../../unit/mesh/check.hpp"
 #include "../../unit/mesh/sample.hpp"
 #include "mesh/import/import.hpp"
+#include "tests/sources.hpp"
 
 namespace {
 
 using namespace snag;
 
-Mesh pump() {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  return import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
-}
+Mesh pump() { return import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD); }
 
 /// Largest error of the Gauss gradient, 1/V sum_f phi(x_f) S, of the linear field phi = g.x + 3 with |g| = 1.
 double gauss_error(const Mesh& mesh) {

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "mesh/import/import.hpp"
+#include "tests/sources.hpp"
 #include "tests/unit/mesh/sliding_check.hpp"
 
 namespace {
@@ -13,8 +14,7 @@ using namespace snag;
 // At any angle facets tile the faces of both sides and cells of both zones close to 1e-12, the whole is the surface of revolution, and
 // the turning of the rotor changes no volume.
 TEST(SlidingPump, IsExactAtAnyAngle) {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  Mesh mesh = import_mesh(std::filesystem::path(root ? root : ".") / "cases/meshes/pump_coarse.msh", MPI_COMM_WORLD);
+  Mesh mesh = import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD);
   const SlidingInterface interface(mesh, {});
   interface.curve(mesh);
   constexpr double exact = 2 * std::numbers::pi * 0.1045 * 0.08 + std::numbers::pi * 0.05 * 0.05;  // 0.0603814 m2

@@ -7,6 +7,7 @@
 #include "mesh/import/import.hpp"
 #include "solver/continuity.hpp"
 #include "solver/operators/workspace.hpp"
+#include "tests/sources.hpp"
 #include "tests/verification/solver/flow_cases.hpp"
 
 using namespace snag;
@@ -14,10 +15,7 @@ using namespace snag::test;
 
 namespace {
 
-Mesh coarse_pump() {
-  const char* root = std::getenv("SNAG_SOURCE_DIR");
-  return import_mesh(std::filesystem::path(root ? root : ".") / "cases" / "meshes" / "pump_coarse.msh", MPI_COMM_WORLD);
-}
+Mesh coarse_pump() { return import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD); }
 
 }  // namespace
 

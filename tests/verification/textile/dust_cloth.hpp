@@ -4,13 +4,12 @@
 
 #include <cstdlib>
 
+#include "tests/sources.hpp"
 #include "textile/independence.hpp"
 
 namespace snag::dust_cloth {
 
-inline TextileTests aro() {
-  return read_textile_tests(std::filesystem::path(std::getenv("SNAG_SOURCE_DIR")) / "cases/textile-aro/tests.toml");
-}
+inline TextileTests aro() { return read_textile_tests(in_sources("cases/textile-aro/tests.toml")); }
 
 inline void expect_independence_of_size_and_step(const Independence& found) {
   ASSERT_EQ(found.radii.size(), 5);
