@@ -17,7 +17,10 @@ double half_extent(const Rag& rag, int places, double across) {
   return R > 0 ? std::sqrt(std::max(R * R - across * across, rag.radius * rag.radius)) : places * rag.radius;
 }
 
-double open_share(double coverage) { return std::clamp(2 * (1 - coverage), 0.0, 1.0); }
+double open_share(double coverage, double over_width) {
+  const double beyond_open_edge = 0.5 * std::erfc(0.5 * over_width);
+  return std::clamp((1 - coverage) / beyond_open_edge, 0.0, 1.0);
+}
 
 /// visit(tile number, its rag, place, column and row in the rag) for the particles of all tiles.
 template <class Visit>
@@ -44,13 +47,13 @@ ClothEdges::ClothEdges(const std::vector<Rag>& rags) : rags_(rags) {
   }
 }
 
-void ClothEdges::find_distances(MPI_Comm comm, std::span<const Tile> tiles, TileArrays& arrays, int coverage, int edge_distance) const {
+void ClothEdges::find_distances(MPI_Comm comm, std::span<const Tile> tiles, TileArrays& arrays, const Fields& fields) const {
   const auto part_of = [](const Line& line, int place) {
     return static_cast<std::size_t>(std::lower_bound(line.cuts.begin(), line.cuts.end(), place) - line.cuts.begin());
   };
   std::vector<double> open(n_ends_, 0.0);  // one particle fills each: a sum over the ranks adds zeros
   for_each_particle(rags_, tiles, [&](std::size_t t, const Rag& rag, int k, int i, int j) {
-    const double share = open_share(arrays.field(t, coverage)[k]);
+    const double share = open_share(arrays.field(t, fields.coverage)[k], rag.radius / arrays.field(t, fields.width)[k]);
     const auto fill = [&](const Line& line, int place, bool exists_before, bool exists_after) {
       const std::size_t part = part_of(line, place), end = line.first + 2 * part;
       if (!exists_before || (part > 0 && line.cuts[part - 1] == place - 1)) open[end] = share;
@@ -80,7 +83,7 @@ void ClothEdges::find_distances(MPI_Comm comm, std::span<const Tile> tiles, Tile
     };
     const double along = inverse(row(tiles[t], j), i, rag.n_columns, x, half_extent(rag, rag.n_columns, y)),
                  across = inverse(column(tiles[t], i), j, rag.n_rows, y, half_extent(rag, rag.n_rows, x));
-    arrays.field(t, edge_distance)[k] = 1 / std::max(std::hypot(along, across), 1 / farthest);
+    arrays.field(t, fields.edge_distance)[k] = 1 / std::max(std::hypot(along, across), 1 / farthest);
   });
 }
 

@@ -3,8 +3,9 @@
 //
 //   1/s^2 = (o_1/s_1 + o_2/s_2)^2 + (o_3/s_3 + o_4/s_4)^2
 //
-// s_i: distance from the edge at each end of the row and of the column. o_i: openness of that edge, 2 (1 - kappa), but at least 0 and at
-// most 1; kappa is the coverage at the last particle before the edge. No water passes an edge at a wall, at a plane of
+// s_i: distance from the edge at each end of the row and of the column. o_i: openness of that edge, (1 - kappa)/(1 - kappa_open), but at
+// least 0 and at most 1; kappa is the coverage at the last particle before the edge, r_p inside it, kappa_open what it is there at a
+// straight open edge, (1 + erf(r_p/(2 delta)))/2, delta the width of kernel and cell. No water passes an edge at a wall, at a plane of
 // symmetry or at another cloth: this edge is closed. Near one straight open edge s is the distance from this edge. An accelerated strip,
 // disc or ellipse has a potential jump whose surface Laplacian is -1/(4 s^2) times the jump, exactly.
 //
@@ -26,9 +27,13 @@ class ClothEdges {
  public:
   /// `rags` must outlive this object.
   explicit ClothEdges(const std::vector<Rag>& rags);
-  /// Fills field `edge_distance` of `arrays`, s in m (at most 1e3 m), from their field `coverage`, for all particles of this rank; the same
-  /// on any ranks. Collective.
-  void find_distances(MPI_Comm comm, std::span<const Tile> tiles, TileArrays& arrays, int coverage, int edge_distance) const;
+  /// Numbers of the fields in the arrays of the particles.
+  struct Fields {
+    int coverage = 0, width = 0;  // kappa; delta, m
+    int edge_distance = 0;        // s, m
+  };
+  /// Fills s (at most 1e3 m) from the other fields, for all particles of this rank; the same on any ranks. Collective.
+  void find_distances(MPI_Comm comm, std::span<const Tile> tiles, TileArrays& arrays, const Fields& fields) const;
 
  private:
   /// A row or a column, in parts between its cuts.

@@ -69,11 +69,13 @@ void CoupledSolver::step(double dt) {
   spread(dt);  // particles -> fluid, conservative: solid fraction, reaction
   if (!prescribed_field_) {
     laps.add_to(seconds_.coupling);
+    const bool is_first = flow_->time_step_size == 0;
     advance_flow_(dt);
     laps.add_to(seconds_.flow);
     if (coupling_.settings.two_way()) load_->set_missed_rates(rags_.tiles(), kernel_field_->missed_rates(load_->impulses(rags_.tiles())));
     if (flow_->mesh.turning.zone >= 0) mesh_moved();
     prediction_->end_step();
+    if (is_first) exchange_->settle_first_step(dt);
   }
   write_report(dt);
   laps.add_to(seconds_.coupling);

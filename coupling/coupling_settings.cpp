@@ -216,6 +216,7 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
     (message << ... << words);
     warnings.push_back(message.str());
   };
+  if (coupling.settings.mode == CouplingSettings::Mode::none) return warnings;
   const bool two_way = coupling.settings.two_way();
   if (!coupling.shape->has_width()) {
     if (two_way && d > size)

@@ -54,6 +54,12 @@ ExchangeBalance Exchange::spread(const ParticleAmounts& amounts, double dt) {
   return balance;
 }
 
+void Exchange::settle_first_step(double dt) {
+  if (!two_way_) return;
+  for (int c = 0; c < flow_.mesh.n_cells; ++c) flow_.velocity_old[c] += (dt / flow_.density) * flow_.reaction[c];
+  flow_.mesh.halo.exchange(flat(flow_.velocity_old), 3);
+}
+
 void check_momentum(const ExchangeBalance& balance) {
   const double lost = norm(balance.on_rags + balance.on_water);
   if (lost <= momentum_tolerance * balance.exchanged) return;

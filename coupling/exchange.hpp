@@ -2,6 +2,13 @@
 // The reaction of the particles in one step is spread to the water, with the weights by which they sampled it:
 //
 //   f_c = 1/V_c sum_b w_bc (-J_b/dt)      so that  sum_b J_b + dt sum_c V_c f_c = 0
+//
+// The first step of a run is Euler's, the next are BDF2, whose momentum is (3 u^n - u^(n-1))/2: with u^0 as it was, these would make half
+// of what the rags gave in the first step once more,
+//
+//   rho (3 u^n - u^(n-1))/2 = rho (u^0 + u^1)/2 + dt (f^2 + ... + f^n),      rho u^1 = rho u^0 + dt f^1
+//
+// u^0 <- u^0 + dt f^1/rho for the steps that follow makes it rho u^0 + dt (f^1 + ... + f^n).
 #include "coupling/kernel.hpp"
 #include "solver/fields/flow.hpp"
 
@@ -30,6 +37,8 @@ class Exchange {
   /// Sets solid fraction, screens and reaction of the flow from what the particles give over the step dt (s), and returns what was
   /// exchanged, for check_momentum. Collective.
   ExchangeBalance spread(const ParticleAmounts& amounts, double dt);
+  /// After the first step, of dt: takes what it gave to the water into the velocity before it. Collective.
+  void settle_first_step(double dt);
 
  private:
   const Kernel& kernel_;

@@ -107,11 +107,13 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
       const double *R = array(two_way_force + i), *N = array(one_way_force + i), *U = array(unfelt_force + i), *r = rate[i];
       double *f = tile.field(Tile::fx + i), *J = sums_.field(index, impulse_x + i);
       double* of_step = needs_impulse_ ? last_impulse(tile, i) : array(step_impulse + i);
+      const double* change = tile.held_change.empty() ? none : tile.held_change.data() + static_cast<std::size_t>(i) * tile.exists.size();
 #pragma omp simd
       for (int k = first; k < end; ++k) {
         const double other = f[k] + N[k] + U[k], M = m + added_mass[k];
         const double mean = phi[k] * R[k] + driven[k] * (r[k] - (free[k] > 0.5 ? other / M : 0));
-        const double total = (other + mean) * (free[k] > 0.5 ? m / M : 1);  // m a
+        const double total =
+            free[k] > 0.5 ? (other + mean) * (m / M) : other + mean - added_mass[k] * change[k] / step;  // m a, or of a hold
         of_step[k] = exists[k] > 0 ? step * (total - other) : 0;
         J[k] += of_step[k];
         f[k] = exists[k] > 0 ? total : f[k];

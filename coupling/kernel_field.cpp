@@ -27,12 +27,13 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   if (two_way_) add(flow_.mesh.cell_centre.data(), 3, sampled::mean_place);
   const CellSource source{flow_, kernel_, cells, rags_, prediction_, two_way_, particles_, tiles};
   made_.resize(sample_rows().size());
-  int coverage = 0;
+  ClothEdges::Fields of_edges{.edge_distance = edge_distance};
   auto made = made_.begin();
   for_each_row([&](const SampleRow& row, int first) {
     std::vector<double>& of_cells = *made++;
     if (needed.*row.needed) add(row.of_cells(source, of_cells), row.components(), first);
-    if (row.needed == &SampleSet::coverage) coverage = first;
+    if (row.needed == &SampleSet::coverage) of_edges.coverage = first;
+    if (row.needed == &SampleSet::disturbance) of_edges.width = first;
   });
   const std::vector<double> values = kernel_.average(fields);
 
@@ -51,7 +52,7 @@ void KernelField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
     }
     if (two_way_) arrays_.field(t, sampled::response)[k] = answers[b];
   }
-  if (needed.coverage) edges_.find_distances(flow_.mesh.comm, tiles, arrays_, coverage, edge_distance);
+  if (needed.coverage) edges_.find_distances(flow_.mesh.comm, tiles, arrays_, of_edges);
 }
 
 std::vector<Vec3> KernelField::missed_rates(std::span<const Vec3> impulse) const {

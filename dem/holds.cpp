@@ -126,6 +126,11 @@ Vec3 held_part(const HoldSettings& hold, const Vec3& axis, const Vec3& w) {
   return hold.kind == HoldKind::pin ? Vec3{} : w - dot(w, axis) * axis;
 }
 
+/// That takes x along during a drift, m/s.
+Vec3 velocity_during(const HoldMotion& motion, const Vec3& x, double time, double drift) {
+  return (motion.moved(x, time, time + drift) - x) / drift;
+}
+
 double freedom(const HoldSettings& hold, double time) {
   const bool released = hold.release_time && time >= *hold.release_time * (1 - 1e-12);  // a step that begins then has its time to round-off
   if (released) return 1;
@@ -262,14 +267,28 @@ void Holds::begin(std::span<Tile> tiles, double time, double drift) {
     Tile& tile = tiles[t];
     const Rag& rag = rags_.rags()[static_cast<std::size_t>(tile.rag)];
     held_[t].clear();
+    std::fill(tile.held_change.begin(), tile.held_change.end(), 0.0);
     for_particles(tile, [&](int k, int i, int j) {
       if (tile.free[k] > 0.5) return;
       const int place = place_of_[static_cast<std::size_t>(particle_id(rag, tile, i, j))];
       if (place < 0) return;
-      held_[t].push_back({k, place});
+      Held& held = held_[t].emplace_back(Held{k, place, -1 * tile.vector(Tile::vx, k)});
       ++reactions_[static_cast<std::size_t>(place)].n_particles;
-      move(tile, held_[t].back(), time, drift, {}, 0);
+      move(tile, held, time, drift, {}, 0);
+      held.change += tile.vector(Tile::vx, k);
     });
+  }
+}
+
+void Holds::announce(std::size_t index, Tile& tile, double time, double drift) {
+  for (Held& held : held_[index]) {
+    const HoldMotion& motion = settings_[static_cast<std::size_t>(places_[static_cast<std::size_t>(held.place)].hold)].motion;
+    if (!motion.moves()) continue;
+    const std::size_t n = tile.exists.size();
+    if (tile.held_change.empty()) tile.held_change.assign(3 * n, 0.0);
+    held.change += velocity_during(motion, tile.vector(Tile::x, held.k), time, drift) - tile.vector(Tile::vx, held.k);
+    for (std::size_t c = 0; c < 3; ++c) tile.held_change[c * n + static_cast<std::size_t>(held.k)] = held.change[static_cast<int>(c)];
+    held.change = {};
   }
 }
 
@@ -287,7 +306,7 @@ void Holds::move(Tile& tile, const Held& held, double time, double drift, const 
   const Rag& rag = rags_.rags()[static_cast<std::size_t>(tile.rag)];
   const Vec3 x = tile.vector(Tile::x, held.k), v = tile.vector(Tile::vx, held.k), w = tile.vector(Tile::wx, held.k),
              torque = tile.vector(Tile::tx, held.k), axis = unit(motion.turned(hold.hinge_axis, 0, time));
-  const Vec3 v_new = motion.moves() ? (motion.moved(x, time, time + drift) - x) / drift : Vec3{};
+  const Vec3 v_new = motion.moves() ? velocity_during(motion, x, time, drift) : Vec3{};
   const Vec3 turn = held_part(hold, axis, motion.mean_spin(time, time + drift) - w);  // of what is held
   tile.set_vector(Tile::vx, held.k, v_new), tile.set_vector(Tile::wx, held.k, w + turn);
   const Vec3 held_torque = step > 0 ? held_part(hold, axis, torque) : Vec3{};

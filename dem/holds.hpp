@@ -13,7 +13,7 @@
 //   P      projection on what is held of the rotation: all of a clamp, nothing of a pin, what is across a of a hinge
 //   m g    its weight, in a run without water; with water, weight and buoyancy are forces of the fluid and part of F
 //
-// The water that a particle accelerates with itself (added mass) is not part of F for the acceleration by the hold.
+// The fluid's part of F has the water that the particle carries with itself (added mass m_a): - m_a dv of the motion of the hold.
 //
 // The stable sub-step needs no change: a hold takes degrees of freedom from the linear system, and none of its eigenvalues is then above
 // the largest one of the free system (interlacing of eigenvalues).
@@ -64,6 +64,7 @@ class Holds : public PrescribedMotion {
   /// takes the velocity of the hold.
   void apply(RagSystem& rags, double time) const;
   void begin(std::span<Tile> tiles, double time, double drift) override;
+  void announce(std::size_t index, Tile& tile, double time, double drift) override;
   void kick(std::size_t index, Tile& tile, double time, double step, double drift) override;
   /// Of each hold and each of its rags that is in the run, after RagSystem::advance. Collective.
   std::vector<HoldReaction> reactions(const RagSystem& rags, double time) const;
@@ -83,6 +84,7 @@ class Holds : public PrescribedMotion {
   };
   struct Held {  // a held particle of this rank
     int k, place;
+    Vec3 change;  // of its velocity at the last begin, which belongs to the next kick, m/s
   };
   struct Reaction {                     // of one place, on this rank, since the last begin
     std::array<RunningSum, 6> impulse;  // N s, N m s

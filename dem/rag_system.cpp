@@ -200,6 +200,7 @@ void RagSystem::kick_and_drift_tiles(double time, double step, double drift_step
       broken_[tile.rag] += bonds_[tile.rag]->set_forces(rags_[tile.rag].breakage, tile, tiles_[(i + 1) % tiles_.size()]);
     }
     if (contacts_) contacts_->add_to_tile(i);
+    if (motion_) motion_->announce(i, tile, time, drift_step);
     if (force) force->add(i, tile, step);  // last: an implicit drag needs the sum of all other forces
     if (motion_) motion_->kick(i, tile, time, step, drift_step);
     velocities.include(kick_and_drift(tile, inertia_of(rags_[tile.rag], gravity_), step, drift_step));

@@ -46,6 +46,8 @@ class PrescribedMotion {
   virtual ~PrescribedMotion() = default;
   /// At the start of an advance at `time`, s: velocities for the first drift, which takes `drift` s.
   virtual void begin(std::span<Tile> tiles, double time, double drift) = 0;
+  /// Before forces from outside are added to an owned tile at `time`, s: Tile::held_change for the kick that follows; `drift` as there.
+  virtual void announce(std::size_t index, Tile& tile, double time, double drift) = 0;
   /// When all forces on the particles of an owned tile are there, at `time`, s, before they act for `step` s: velocities for the drift
   /// after that, which takes `drift` s from `time` on.
   virtual void kick(std::size_t index, Tile& tile, double time, double step, double drift) = 0;

@@ -124,6 +124,7 @@ double ContactSolver::evaluate_with_limit(std::span<Tile* const> owned, std::spa
     if (!row.owned || (!row.near && !row.at_wall)) continue;
     for (int i = row.first; i < row.first + row.count; ++i) {
       const HeldParticle& particle = s.held[i];
+      if (!particle.is_held()) continue;  // near others or a wall: what the bonds alone allow is known better
       const StepRates& others = of_rag[row.tile->rag];
       if ((others + particle.coarse_rates()).step() < limit) limit = std::min(limit, (others + particle.rates()).step());
     }

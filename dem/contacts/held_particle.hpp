@@ -23,6 +23,8 @@ class HeldParticle {
     damping_.add(n, rates.normal.damping, rates.tangential.damping);
     share_.add(n, rates.normal.share, rates.tangential.share);
   }
+  /// Whether any contact holds it.
+  bool is_held() const { return stiffness_.coarse_bound() > 0 || damping_.coarse_bound() > 0; }
   /// Bound of the rates, and a coarser one that takes little time.
   StepRates rates() const { return {stiffness_.bound(), damping_.bound(), share_.bound()}; }
   StepRates coarse_rates() const { return {stiffness_.coarse_bound(), damping_.coarse_bound(), share_.coarse_bound()}; }

@@ -74,6 +74,8 @@ struct Tile {
   int n_breaks = 0;  // grows whenever a bond mark is taken away: lists that know of bonds are out of date
   // [n][(ny + 2) * stride] numbers that an external force stores for each particle: moved and stored with it; empty if none
   AlignedDoubles particle_state;
+  // [3][(ny + 2) * stride] by which a hold in motion changes the velocity of each particle in this sub-step, m/s; empty if none does
+  AlignedDoubles held_change;
 
   /// Sizes the arrays for nx x ny particles: everything zero, unit quaternions, nothing exists.
   void allocate(int tile_nx, int tile_ny);

@@ -80,6 +80,8 @@ std::string PictureFindings::words(bool statistics) const {
     const MeanAndSigma m = mean_and_sigma(column(o), quantities()[o]);
     summary << "\n  " << quantities()[o].name << ": mean " << m.mean << ", sigma " << m.sigma << " " << quantities()[o].unit;
   }
+  if (n_blobs_ == 0)
+    summary << "\n  no cloth was found in any picture: check [cloth] threshold and minimum_pixels, and what the camera looks at";
   return summary.str();
 }
 

@@ -302,7 +302,8 @@ std::string results_in_words(const Summary& summary) {
   }
   if (summary.pump)
     text += (text.empty() ? "" : "\n") +
-            ("pump: head " + number_text(summary.pump->head) + " m at " + number_text(1e3 * summary.pump->flow) + " L/s");
+            ("pump: head " + number_text(summary.pump->head) + " m at " + number_text(1e3 * summary.pump->flow) + " L/s" +
+             (summary.pump->revolutions < 1 ? ", a mean over the start: no revolution is complete" : ""));
   return text;
 }
 

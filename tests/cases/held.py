@@ -49,6 +49,30 @@ forces = ["free_stream_drag", "gravity"]
 HELD_EDGE = '[[hold]]\nedge = "first_column"\n'
 RELEASED = HELD_EDGE + "rag = \"rag 1\"\nrelease_time_ms = 6.8\n" + '[[hold]]\nrag = "rag 2"\nrows = [2, 3]\ncolumns = [0, 4]\n'
 
+# A sphere that a hold moves to and fro in still water, which answers with its added mass alone.
+SWINGING = """
+[case]
+name = "swinging"
+[time]
+end_s = 0.1
+step_s = 0.001
+[flow]
+kind = "prescribed"
+density_kg_m3 = 1000
+[coupling]
+mode = "one_way"
+forces = ["added_mass"]
+[[particle]]
+diameter_mm = 10
+density_kg_m3 = 2000
+[[hold]]
+particles = [0]
+amplitude_m = [0.01, 0, 0]
+frequency_Hz = 10
+[output]
+report = false
+"""
+
 
 class Held(harness.CaseTest):
     def strip(self, more, end=0.002):
@@ -96,6 +120,17 @@ class Held(harness.CaseTest):
         self.assertGreater(numpy.delete(moved, of_second, axis=0).max(), 1e-3, "the rest of the sheet moves")
         resumed = self.crashed_and_resumed(whole, case, lambda run: sorted((run.folder / "rags").glob("*_000020.vtp")), 0.0064)
         self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").glob("*_000020.vtp")))
+
+    def test_a_moved_particle_carries_its_added_mass(self):
+        """The impulse of each step: of the hold (m + m_a) dv, of the water - m_a dv."""
+        run = self.run_case(self.case(SWINGING))
+        volume, swing = numpy.pi * 0.01**3 / 6, 2 * numpy.pi * 10
+        step, time = 0.001, run.monitor("holds").column("time")
+        acceleration = -0.01 * swing**2 * numpy.sin(swing * (time - step / 2))
+        for force, mass in ((self.reaction(run, "force")[:, 0], 2500), (run.monitor("coupling").column("force_on_rags_x"), -500)):
+            share = force[1:] @ acceleration[1:] / (acceleration[1:] @ acceleration[1:]) / (mass * volume)
+            print(f"  force over mass times acceleration {share:.5f}")
+            self.assertLess(abs(share - 1), 2e-3)
 
     def test_check_says_what_is_held(self):
         run = harness.snag(["check", self.strip(HELD_EDGE)])

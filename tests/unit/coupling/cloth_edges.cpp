@@ -25,11 +25,12 @@ RagPiece piece(RagSettings::Shape shape, const std::vector<Cut>& cuts) {
 
 /// Calls visit(x, y, s) for the particles of this rank, x and y from the middle of the cloth, m; `coverage` at x and y.
 template <class Coverage, class Visit>
-void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Visit& visit, const std::vector<Cut>& cuts = {}) {
+void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Visit& visit, const std::vector<Cut>& cuts = {},
+                    double width = 1e300) {
   RagSystem rags(MPI_COMM_WORLD, {}, {piece(shape, cuts)});
   const Rag& rag = rags.rags()[0];
   TileArrays arrays;
-  arrays.reset(rags.tiles(), 2);
+  arrays.reset(rags.tiles(), 3);
   const auto each = [&](const auto& on) {
     for (std::size_t t = 0; t < rags.tiles().size(); ++t) {
       const Tile& tile = rags.tiles()[t];
@@ -38,9 +39,9 @@ void with_distances(RagSettings::Shape shape, const Coverage& coverage, const Vi
       });
     }
   };
-  each([&](std::size_t t, int k, double x, double y) { arrays.field(t, 0)[k] = coverage(x, y); });
-  ClothEdges(rags.rags()).find_distances(MPI_COMM_WORLD, rags.tiles(), arrays, 0, 1);
-  each([&](std::size_t t, int k, double x, double y) { visit(x, y, arrays.field(t, 1)[k]); });
+  each([&](std::size_t t, int k, double x, double y) { arrays.field(t, 0)[k] = coverage(x, y), arrays.field(t, 1)[k] = width; });
+  ClothEdges(rags.rags()).find_distances(MPI_COMM_WORLD, rags.tiles(), arrays, {.coverage = 0, .width = 1, .edge_distance = 2});
+  each([&](std::size_t t, int k, double x, double y) { visit(x, y, arrays.field(t, 2)[k]); });
 }
 
 double open_everywhere(double, double) { return 0.5; }
@@ -56,6 +57,14 @@ TEST(ClothEdges, one_edge) {
   expect(0.3, [](double x) { return x + 0.1; });
   expect(0.75, [](double x) { return 2 * (x + 0.1); });
   expect(1.2, [](double) { return 1e3; });
+}
+
+// The last particle lies r_p inside the edge, where more than half of the kernel is covered. The edge is open all the same.
+TEST(ClothEdges, open_edge_and_kernel_of_three_particles) {
+  const double width = 3 * radius, coverage_at_last = 0.5 * std::erfc(-radius / (2 * width));
+  with_distances(
+      RagSettings::Shape::rag, [&](double x, double) { return x < -0.098 ? coverage_at_last : 1.0; },
+      [](double x, double, double s) { EXPECT_TRUE(x < -0.098 || std::abs(s - (x + 0.1)) < 1e-12) << x << " " << s; }, {}, width);
 }
 
 // The sides of a cut right across are edges as far as they are open, and the edge behind it counts as far as they are closed. It is seen
