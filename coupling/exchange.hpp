@@ -6,9 +6,9 @@
 // The first step of a run is Euler's, the next are BDF2, whose momentum is (3 u^n - u^(n-1))/2: with u^0 as it was, these would make half
 // of what the rags gave in the first step once more,
 //
-//   rho (3 u^n - u^(n-1))/2 = rho (u^0 + u^1)/2 + dt (f^2 + ... + f^n),      rho u^1 = rho u^0 + dt f^1
+//   rho (3 u^n - u^(n-1))/2 = rho (3 u^1 - u^0)/2 + dt (f^2 + ... + f^n) = rho u^0 + dt (3/2 f^1 + f^2 + ... + f^n)
 //
-// u^0 <- u^0 + dt f^1/rho for the steps that follow makes it rho u^0 + dt (f^1 + ... + f^n).
+// u^0 <- u^0 + dt f^1/rho for the steps that follow makes it rho u^0 + dt (f^1 + f^2 + ... + f^n).
 #include "coupling/kernel.hpp"
 #include "solver/fields/flow.hpp"
 

@@ -11,9 +11,9 @@
 // law itself takes off per impulse (Forces::relief). phi is the mean of the relaxation of water and particle towards each other: third
 // order in theta for a linear drag, and L-stable: a particle much lighter than its drag takes the fluid's velocity within one sub-step,
 // without ringing. F_other must be complete: bonds, contacts and walls come before the fluid. Particles that a clamp holds (Tile::free
-// below 1/2) count as infinitely heavy; where their hold moves, - m_a dv/dt of its motion is part of F. Forces that do not react on the fluid (weight, buoyancy, pressure gradient) act on the particle and
-// are left out of J. Torque likewise:  I dw/dt = (T_other + T) phi(h K_t/I). Source of phi: Pade approximant (1, 2) of exp, Hairer and
-// Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
+// below 1/2) count as infinitely heavy; where their hold moves, - m_a dv/dt of its motion is part of F. Forces that do not react on the
+// fluid (weight, buoyancy, pressure gradient) act on the particle and are left out of J. Torque likewise:  I dw/dt = (T_other + T) phi(h
+// K_t/I). Source of phi: Pade approximant (1, 2) of exp, Hairer and Wanner (1996), Solving Ordinary Differential Equations II, IV.3.
 #include <memory>
 
 #include "coupling/fluid_field.hpp"

@@ -110,8 +110,9 @@ void Kernel::locate(std::span<const Vec3> points) {
   find_holders(points);
   weights_->locate({around_, holder_rank_, holder_id_, announced_places_, announced_holder_, announced_number_});
   drop_empty_rows();
-  const std::int64_t outside = std::count(holder_rank_.begin(), holder_rank_.end(), -1);
-  n_outside_ = sum(mesh_.comm, outside);
+  is_inside_.clear();
+  for (const int rank : holder_rank_) is_inside_.push_back(rank >= 0);
+  n_outside_ = sum(mesh_.comm, static_cast<std::int64_t>(std::count(is_inside_.begin(), is_inside_.end(), 0)));
   n_points_outside_ = n_outside_ + sum(mesh_.comm, weights_->n_points_outside());
   const std::vector<int>& unresolved = weights_->unresolved();
   some_in_nearest_cell_ = sum(mesh_.comm, static_cast<std::int64_t>(unresolved.size())) > 0;

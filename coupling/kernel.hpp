@@ -76,6 +76,8 @@ class Kernel {
   int n_particles() const { return n_particles_; }
   /// Particles of all ranks that no cell holds, at the last locate.
   std::int64_t n_outside() const { return n_outside_; }
+  /// Whether a cell holds particle b of this rank, at the last locate.
+  bool is_inside(std::size_t b) const { return is_inside_[b] != 0; }
   /// Points of all particles of all ranks by which the kernel finds cells and that no cell holds, at the last locate: their centres, and
   /// further points if the kernel has them.
   std::int64_t n_points_outside() const { return n_points_outside_; }
@@ -105,6 +107,7 @@ class Kernel {
   std::int64_t n_outside_ = 0, n_points_outside_ = 0;
   bool some_in_nearest_cell_ = false;  // some particle of some rank took the nearest cell
   std::vector<int> holder_rank_;
+  std::vector<std::uint8_t> is_inside_;
   std::vector<std::int64_t> holder_id_;
   std::vector<int> holder_cell_;        // local number of that cell on its rank: the hint of the next search
   ParticleRouter around_;               // to the ranks that may have cells for the particles

@@ -1,6 +1,14 @@
 #pragma once
 // The water of the flow solver at the particles: kernel averages, frozen over the sub-steps of one fluid step but for what the prediction
 // says (coupling/water_prediction.hpp). What is averaged beside velocity and gradient is in the table of samples.cpp.
+//
+// A kernel that is narrower than the cells reads single cells, whose centres x_c may lie half a cell from the particle at x_b. One-way, the
+// velocity is that at the particle:
+//
+//   u_b = sum_c w_bc u_c + (1 - s_b) G_b (x_b - sum_c w_bc x_c),      s_b, G_b: averages of s_c (coupling/water_prediction.hpp) and G
+//
+// exact for linear velocities where s_b = 0, and Du/Dt has G_b times the same change: what it has from u.grad u. A particle that no cell
+// holds has the velocity of its cells. Two-way the average must be the transpose of the spreading.
 #include "coupling/cloth_edges.hpp"
 #include "coupling/fluid_field.hpp"
 #include "coupling/kernel.hpp"
@@ -25,12 +33,13 @@ class KernelField final : public FluidField {
   const ParticleList& particles() const { return particles_; }
   /// Their places then, m.
   const std::vector<Vec3>& places() const { return places_; }
-  /// Mean place of the weights of particle b, m. Two-way.
+  /// Mean place of the weights of particle b, m.
   Vec3 mean_place(std::size_t b) const;
   /// Of the water to particle b of the list, 1/kg. Two-way.
   double response(std::size_t b) const { return arrays_.field(particles_.tile(b), sampled::response)[particles_.place(b)]; }
 
  private:
+  void move_to_place(std::size_t b, double share, int acceleration);
   const Flow& flow_;
   Kernel& kernel_;
   const std::vector<Rag>& rags_;

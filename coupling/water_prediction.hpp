@@ -57,6 +57,8 @@ class WaterPrediction {
   /// `kernel_width`: delta, m; 0 for a kernel without a width.
   WaterPrediction(const Flow& flow, double kernel_width);
 
+  /// s_c of the cells, [n_cells].
+  const std::vector<double>& resolved() const { return resolved_; }
   /// Before a step of the flow of length dt, s.
   void begin_step(double dt);
   /// Sets velocity(), change() and acceleration() of these owned cells for that step, before the mesh turns in it.

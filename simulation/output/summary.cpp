@@ -301,9 +301,9 @@ std::string results_in_words(const Summary& summary) {
       text += ", head " + signed_percent(*head) + " and shaft power " + signed_percent(*power) + " while it passed";
   }
   if (summary.pump)
-    text += (text.empty() ? "" : "\n") +
-            ("pump: head " + number_text(summary.pump->head) + " m at " + number_text(1e3 * summary.pump->flow) + " L/s" +
-             (summary.pump->revolutions < 1 ? ", a mean over the start: no revolution is complete" : ""));
+    text +=
+        (text.empty() ? "" : "\n") + ("pump: head " + number_text(summary.pump->head) + " m at " + number_text(1e3 * summary.pump->flow) +
+                                      " L/s" + (summary.pump->revolutions < 1 ? ", a mean over the start: no revolution is complete" : ""));
   return text;
 }
 

@@ -143,6 +143,8 @@ class Observe(harness.CaseTest):
         # The pictures of it as if they had been taken, with a picture without cloth: of the camera turned away.
         away = self.observe(run.folder, self.camera(CAMERA.replace("0, 0.3]", "5, 9]").replace("[0, 5, 9]", "[9, 9, 9]"), "away"), "away")
         self.assertEqual(json.loads((away.folder / "statistics.json").read_text())["blobs"], 0)
+        self.assertIn("no cloth was found in any picture", away.stdout)
+        self.assertNotIn("no cloth was found", seen.stdout)
         background = away.folder / "pictures" / "view_00000.png"
         camera = self.camera(CAMERA.replace("[cloth]", f'[cloth]\nbackground = "{background}"'), "taken")
         taken = self.observe(seen.folder / "pictures", camera, "taken")

@@ -142,6 +142,7 @@ class RagThroughRings(harness.CaseTest):
         print("  " + self.done.stdout.split("rag 1: ")[-1].splitlines()[0])
         self.assertIn(f"rag 1: {rag['outcome']}, retention time", self.done.stdout)
         self.assertIn("pump: head", self.done.stdout)
+        self.assertEqual("no revolution is complete" in self.done.stdout, self.done.summary["pump"]["revolutions"] < 1)
 
     def test_any_number_of_ranks(self):
         for ranks in self.ranks:

@@ -123,6 +123,7 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   EXPECT_NE(warnings("kernel_width_mm = 1")[0].find("0.5 of the particle diameter (2 mm)"), std::string::npos);
   EXPECT_NE(warnings("kernel_width_mm = 1")[1].find("0.2 of the cells where the particles are (mean 5 mm)"), std::string::npos);
   EXPECT_EQ(warnings("kernel_width_mm = 50").size(), 1u);
+  EXPECT_TRUE(warnings("mode = \"none\"\nkernel_width_mm = 1").empty()) << "nothing is averaged";
   EXPECT_TRUE(warnings("kernel = \"satellite\"\nkernel_width_mm = 12").empty());
   ASSERT_EQ(warnings("kernel = \"satellite\"\nkernel_width_mm = 15").size(), 1u);
   EXPECT_NE(warnings("kernel = \"satellite\"\nkernel_width_mm = 15")[0].find("cells between its points get nothing"), std::string::npos);

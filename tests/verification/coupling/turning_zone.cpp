@@ -58,6 +58,8 @@ TEST_P(SolidBodyRotation, AcceleratesTowardsTheAxis) {
   for (std::size_t t = 0; t < rags.tiles().size(); ++t) {
     const FluidSamples fluid = field.at(t, rags.tiles()[t], 0);
     for_particles(rags.tiles()[t], [&](int k, int, int) {
+      const Vec3 place = rags.tiles()[t].vector(Tile::x, k), u = GetParam().stream + cross(omega, place - shells.origin);
+      EXPECT_LT(norm(fluid.velocity[k] - u), 1e-10 * norm(u)) << "at the particle, not at the centre of its cell";
       const Vec3 exact = cross(omega, fluid.velocity[k]), found = fluid.material_acceleration[k];
       std::printf("  at %.2f m/s: Du/Dt %.2f along Omega x u, exact %.2f m/s2\n", norm(fluid.velocity[k]), dot(found, unit(exact)),
                   norm(exact));
