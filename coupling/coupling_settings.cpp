@@ -244,7 +244,7 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
         warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / shorter_side(rag), " of the shorter side of cloth \"", rag.name,
              "\" (", shorter_side(rag) * 1e3, " mm), advised at most ", largest_width_over_sheet,
              ": it acts as a larger cloth, at a quarter with 13 % more drag across the stream; narrow the kernel");
-  const double most_cells = coupling.shape->cells_reached(width, size);
+  const double most_cells = std::min(coupling.shape->cells_reached(width, size), static_cast<double>(mesh.n_cells_global));
   if (most_cells > most_cells_per_particle)
     warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the cells (mean ", size * 1e3,
          " mm) around a particle, advised at most ", most_cells_per_particle, ": transfers will be slow; narrow the kernel");

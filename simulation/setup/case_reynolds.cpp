@@ -20,8 +20,10 @@ struct Width {
   std::string of;
 };
 
-/// The flow is around the walls, not between them: the walls enclose a volume without water,  1/3 sum (x_f - x_m).S < 0.
+/// The flow is around the walls, not between them: the walls enclose a volume without water,  1/3 sum (x_f - x_m).S < 0. Vanes of a rotor
+/// do that too where the casing is farther from their middle than they are, but a ring of vanes is no body.
 bool is_external(const Simulation& simulation) {
+  if (simulation.water->flow.rotating_zone) return false;
   const Mesh& mesh = *simulation.mesh;
   const BoundarySet& boundary = simulation.water->boundary();
   Vec3 moment, vector;  // sum |S| x_f, m3; sum S, m2

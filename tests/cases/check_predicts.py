@@ -39,6 +39,35 @@ rotation_speed_rpm = 60
 axis = [1, 0, 0]
 """
 
+BLADE_ROWS = """
+[mesh]
+geometry = "blade_rows"
+set = ["blades=3", "blade_radius_mm=[115, 140, 140, 115]", "blade_angle_deg=[0, 0, 10, 10]", "vanes=5", "vane_radius_mm=[180, 205, 205, 180]", "vane_angle_deg=[0, 0, 6, 6]",
+       "inlet_radius_mm=100", "sliding_radius_mm=160", "outlet_radius_mm=230", "thickness_mm=4",
+       "wall_size_mm=5", "edge_size_mm=2", "core_size_mm=8", "layers=2", "first_layer_mm=1"]
+[time]
+end_s = 0.12
+step_s = 0.002
+[rotating_zone]
+zone = "rotor"
+rotation_speed_rad_s = -30
+[turbulence]
+model = "k_epsilon"
+[[boundary]]
+patch = "inlet"
+kind = "velocity_inlet"
+normal_speed_m_s = 0.16
+[[boundary]]
+patch = "outlet"
+kind = "pressure_outlet"
+[[boundary]]
+patches = ["impeller_walls", "vane_walls"]
+kind = "wall"
+[[boundary]]
+patch = "planes"
+kind = "symmetry"
+"""
+
 PUMP = harness.SOURCE_DIR / "cases" / "pump-curve" / "case.toml"
 
 # A closed box of 12 triangles with normals outwards: as STL the water is inside.
@@ -121,6 +150,12 @@ class CheckPredicts(harness.CaseTest):
         reynolds = float(re.search(r"Reynolds number (\S+) with the speed of the case and the width of body sphere", run.stdout)[1])
         self.assertAlmostEqual(reynolds, 300, delta=15)
         self.assertNotIn("laminar at a Reynolds number", run.stdout)
+
+    def test_a_ring_of_vanes_is_no_body(self):
+        """The Reynolds number of a rotor in an open ring is that of an opening."""
+        run = harness.snag(["check", self.case(BLADE_ROWS)])
+        self.assertEqual(run.code, 0, run.tail())
+        self.assertRegex(run.stdout, r"Reynolds number \S+ with the speed of the case and the width of patch (inlet|outlet)")
 
     def test_thin_cells_at_a_wall(self):
         run = self.check(self.water('[turbulence]\nmodel = "k_epsilon"\n[flow]\nkinematic_viscosity_m2_s = 1e-4\n'))
