@@ -23,8 +23,8 @@ constexpr double least_width_over_diameter = 1;
 // The same for cloth, whose particles stand in one wake: down to this width drag and path depend by 1 % on their size
 // (cases/study-independence).
 constexpr double least_width_over_diameter_of_cloth = 0.5;
-// A Gaussian of width delta shares a force out over (4 pi)^(3/2) (delta/h)^3 cells of the size h, 1/sum w^2: 1.2 of them at 0.3.
-constexpr double least_width_over_cell = 0.3;
+// Below it a kernel reads single cells (water_prediction.hpp), whose centres may lie half a cell from the particle.
+constexpr double least_width_over_cell = 0.375;
 // Above this many cells a particle the transfers cost more than the flow.
 constexpr double most_cells_per_particle = 3000;
 // A held square sheet drags as a rigid plate within 4 % up to this width over its side, and 13 % more at twice of it.

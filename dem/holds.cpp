@@ -128,7 +128,7 @@ Vec3 held_part(const HoldSettings& hold, const Vec3& axis, const Vec3& w) {
 
 /// That takes x along during a drift, m/s.
 Vec3 velocity_during(const HoldMotion& motion, const Vec3& x, double time, double drift) {
-  return (motion.moved(x, time, time + drift) - x) / drift;
+  return motion.moves() ? (motion.moved(x, time, time + drift) - x) / drift : Vec3{};
 }
 
 double freedom(const HoldSettings& hold, double time) {
@@ -272,21 +272,23 @@ void Holds::begin(std::span<Tile> tiles, double time, double drift) {
       if (tile.free[k] > 0.5) return;
       const int place = place_of_[static_cast<std::size_t>(particle_id(rag, tile, i, j))];
       if (place < 0) return;
-      Held& held = held_[t].emplace_back(Held{k, place, -1 * tile.vector(Tile::vx, k)});
+      const Vec3 v = tile.vector(Tile::vx, k);
+      const Vec3 v_new = velocity_during(motion_of(place), tile.vector(Tile::x, k), time, drift);
+      const Held& held = held_[t].emplace_back(Held{k, place, v_new - v, v_new});
       ++reactions_[static_cast<std::size_t>(place)].n_particles;
       move(tile, held, time, drift, {}, 0);
-      held.change += tile.vector(Tile::vx, k);
     });
   }
 }
 
 void Holds::announce(std::size_t index, Tile& tile, double time, double drift) {
   for (Held& held : held_[index]) {
-    const HoldMotion& motion = settings_[static_cast<std::size_t>(places_[static_cast<std::size_t>(held.place)].hold)].motion;
+    const HoldMotion& motion = motion_of(held.place);
     if (!motion.moves()) continue;
     const std::size_t n = tile.exists.size();
     if (tile.held_change.empty()) tile.held_change.assign(3 * n, 0.0);
-    held.change += velocity_during(motion, tile.vector(Tile::x, held.k), time, drift) - tile.vector(Tile::vx, held.k);
+    held.velocity = velocity_during(motion, tile.vector(Tile::x, held.k), time, drift);
+    held.change += held.velocity - tile.vector(Tile::vx, held.k);
     for (std::size_t c = 0; c < 3; ++c) tile.held_change[c * n + static_cast<std::size_t>(held.k)] = held.change[static_cast<int>(c)];
     held.change = {};
   }
@@ -306,13 +308,12 @@ void Holds::move(Tile& tile, const Held& held, double time, double drift, const 
   const Rag& rag = rags_.rags()[static_cast<std::size_t>(tile.rag)];
   const Vec3 x = tile.vector(Tile::x, held.k), v = tile.vector(Tile::vx, held.k), w = tile.vector(Tile::wx, held.k),
              torque = tile.vector(Tile::tx, held.k), axis = unit(motion.turned(hold.hinge_axis, 0, time));
-  const Vec3 v_new = motion.moves() ? velocity_during(motion, x, time, drift) : Vec3{};
   const Vec3 turn = held_part(hold, axis, motion.mean_spin(time, time + drift) - w);  // of what is held
-  tile.set_vector(Tile::vx, held.k, v_new), tile.set_vector(Tile::wx, held.k, w + turn);
+  tile.set_vector(Tile::vx, held.k, held.velocity), tile.set_vector(Tile::wx, held.k, w + turn);
   const Vec3 held_torque = step > 0 ? held_part(hold, axis, torque) : Vec3{};
   if (step > 0) tile.set_vector(Tile::tx, held.k, torque - held_torque);  // the rest turns it
 
-  const Vec3 J = rag.mass * (v_new - v) - force_impulse;
+  const Vec3 J = rag.mass * (held.velocity - v) - force_impulse;
   const Vec3 point = motion.moved(place.point, place.start_time, time);
   const Vec3 L = cross(x - point, J) + rag.inertia * turn - step * held_torque;
   std::array<RunningSum, 6>& sums = reactions_[static_cast<std::size_t>(held.place)].impulse;

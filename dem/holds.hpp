@@ -84,12 +84,16 @@ class Holds : public PrescribedMotion {
   };
   struct Held {  // a held particle of this rank
     int k, place;
-    Vec3 change;  // of its velocity at the last begin, which belongs to the next kick, m/s
+    Vec3 change;    // of its velocity at the last begin, which belongs to the next kick, m/s
+    Vec3 velocity;  // of the coming drift, m/s
   };
   struct Reaction {                     // of one place, on this rank, since the last begin
     std::array<RunningSum, 6> impulse;  // N s, N m s
     std::int64_t n_particles = 0;
   };
+  const HoldMotion& motion_of(int place) const {
+    return settings_[static_cast<std::size_t>(places_[static_cast<std::size_t>(place)].hold)].motion;
+  }
   void select(int hold, const std::string& where, const RagSystem& rags, int rag, const std::vector<std::string>& all_where);
   void move(Tile& tile, const Held& held, double time, double drift, const Vec3& force_impulse, double step);
 
