@@ -26,7 +26,7 @@ constexpr double least_width_over_diameter_of_cloth = 0.5;
 // Below it a kernel reads single cells (water_prediction.hpp), whose centres may lie half a cell from the particle.
 constexpr double least_width_over_cell = 0.375;
 // Above this many cells a particle the transfers cost more than the flow.
-constexpr double most_cells_per_particle = 3000;
+constexpr std::int64_t most_cells_per_particle = 3000;
 // A held square sheet drags as a rigid plate within 4 % up to this width over its side, and 13 % more at twice of it.
 constexpr double largest_width_over_sheet = 0.125;
 constexpr int least_rows = 3;  // of a sheet; fewer are a thread or a strap
@@ -244,7 +244,8 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
         warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / shorter_side(rag), " of the shorter side of cloth \"", rag.name,
              "\" (", shorter_side(rag) * 1e3, " mm), advised at most ", largest_width_over_sheet,
              ": it acts as a larger cloth, at a quarter with 13 % more drag across the stream; narrow the kernel");
-  const double most_cells = std::min(coupling.shape->cells_reached(width, size), static_cast<double>(mesh.n_cells_global));
+  const std::int64_t most_cells =
+      std::llround(std::min(coupling.shape->cells_reached(width, size), static_cast<double>(mesh.n_cells_global)));
   if (most_cells > most_cells_per_particle)
     warn("[coupling] kernel_width is ", width * 1e3, " mm and reaches some ", most_cells, " of the cells (mean ", size * 1e3,
          " mm) around a particle, advised at most ", most_cells_per_particle, ": transfers will be slow; narrow the kernel");

@@ -123,7 +123,9 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   EXPECT_NE(warnings("kernel_width_mm = 1")[0].find("0.5 of the particle diameter (2 mm)"), std::string::npos);
   EXPECT_NE(warnings("kernel_width_mm = 1")[1].find("0.2 of the cells where the particles are (mean 5 mm)"), std::string::npos);
   ASSERT_EQ(warnings("kernel_width_mm = 50").size(), 1u);
-  EXPECT_NE(warnings("kernel_width_mm = 50")[0].find("reaches some 8000 of the cells"), std::string::npos) << "there are no more";
+  EXPECT_NE(warnings("kernel_width_mm = 50")[0].find("reaches some 8000 of the cells (mean 5 mm) around a particle, advised at most 3000"),
+            std::string::npos)
+      << "there are no more cells";
   EXPECT_TRUE(warnings("mode = \"none\"\nkernel_width_mm = 1").empty()) << "nothing is averaged";
   EXPECT_TRUE(warnings("kernel = \"satellite\"\nkernel_width_mm = 12").empty());
   ASSERT_EQ(warnings("kernel = \"satellite\"\nkernel_width_mm = 15").size(), 1u);
