@@ -238,12 +238,13 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
          "\": cells between its points get nothing; narrow the kernel, or use kernel = \"gaussian\"");
   const bool has_sheet_drag =
       std::ranges::any_of(coupling.forces, [](const auto& force) { return force->description().name == "sheet_drag"; });
-  if (two_way && has_sheet_drag)
-    for (const Rag& rag : rags)
-      if (is_sheet(rag) && width > largest_width_over_sheet * shorter_side(rag))
-        warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / shorter_side(rag), " of the shorter side of cloth \"", rag.name,
-             "\" (", shorter_side(rag) * 1e3, " mm), advised at most ", largest_width_over_sheet,
-             ": it acts as a larger cloth, at a quarter with 13 % more drag across the stream; narrow the kernel");
+  const Rag* narrowest = nullptr;  // sheet: one warning for all, they may be many copies
+  for (const Rag& rag : rags)
+    if (is_sheet(rag) && (!narrowest || shorter_side(rag) < shorter_side(*narrowest))) narrowest = &rag;
+  if (two_way && has_sheet_drag && narrowest && width > largest_width_over_sheet * shorter_side(*narrowest))
+    warn("[coupling] kernel_width is ", width * 1e3, " mm, ", width / shorter_side(*narrowest), " of the shorter side of cloth \"",
+         narrowest->name, "\" (", shorter_side(*narrowest) * 1e3, " mm), advised at most ", largest_width_over_sheet,
+         ": it acts as a larger cloth, at a quarter with 13 % more drag across the stream; narrow the kernel");
   const std::int64_t most_cells =
       std::llround(std::min(coupling.shape->cells_reached(width, size), static_cast<double>(mesh.n_cells_global)));
   if (most_cells > most_cells_per_particle)

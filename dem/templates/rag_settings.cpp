@@ -186,7 +186,8 @@ void add_contacts(RagSettings& s, Records& r) {
            "cloth on steel: 0.2 to 1.3; sources in the tutorial on cloth.");
   friction("cloth_friction", &s.cloth_friction,
            "Coulomb coefficient with cloth, its own and that of other pieces; of two different ones the geometric mean counts; not given: "
-           "[contact] static_friction. Wet textiles: 0.15 to 0.85; sources in the tutorial on cloth.");
+           "[contact] static_friction. Wet textiles: 0.15 to 0.85; sources in the tutorial on cloth. The particles of one cloth also catch "
+           "in the hollows of another, which holds more than this (same tutorial).");
   r.push_back({.key = "poisson_ratio",
                .target = &s.poisson_ratio,
                .minimum = 0,

@@ -166,7 +166,7 @@ void require_names(const MeshParts& parts, const std::vector<LocalFace>& faces) 
   if (n_unnamed == 0) return;
   Vec3 where;
   for (int i = 0; i < first->n_nodes; ++i) where += parts.node[first->node[i]];
-  throw Error(ExitCode::mesh, parts.source + ": " + std::to_string(n_unnamed) + " boundary faces of a rank have no name, the first at " +
+  throw Error(ExitCode::mesh, parts.source + ": " + std::to_string(n_unnamed) + " boundary faces or more have no name, the first at " +
                                   point_text(where / first->n_nodes) +
                                   "; every surface of the boundary needs a name (gmsh: Physical Surface(\"wall\") = {...})");
 }

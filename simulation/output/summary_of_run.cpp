@@ -145,6 +145,8 @@ ExitCode Outputs::finish(ExitCode exit, const ReportWriter& write_report, const 
     if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
   });
   if (const std::string results = results_in_words(s); !results.empty()) log::info(results);
+  if (exit == ExitCode::ok && simulation_.water && !simulation_.frozen())
+    for (const std::string& one : simulation_.water->boundary().unmet(simulation_.water->flow)) log::warning(one);
   if (!write_report) return code;
   on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_report(folder_);

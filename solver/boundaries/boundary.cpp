@@ -164,6 +164,13 @@ std::vector<double> BoundarySet::knots() const {
   return all;
 }
 
+std::vector<std::string> BoundarySet::unmet(const Flow& flow) const {
+  std::vector<std::string> all;
+  for (std::size_t p = 0; p < conditions_.size(); ++p)
+    if (std::string one = conditions_[p].boundary->unmet(flow, mesh_.patches[p]); !one.empty()) all.push_back(std::move(one));
+  return all;
+}
+
 std::vector<double> BoundarySet::state() const {
   std::vector<double> all;
   for (const PatchBoundary& condition : conditions_) {

@@ -73,6 +73,8 @@ class Boundary {
   virtual void respond(const Flow&, const Patch&, double /*time*/) {}
   /// Values of the patch at a time. Local; called every step, after the mesh has moved.
   virtual void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const = 0;
+  /// Where the flow at the end of a run is not what the case asks of the patch: what to say of it; empty: nothing. Collective.
+  virtual std::string unmet(const Flow&, const Patch&) const { return {}; }
   /// Times at which what the case gives may have its extremes, s: the knots of a table.
   virtual std::vector<double> knots() const { return {}; }
   /// What a resume needs of it, the same on every rank and of the same length at any time.
@@ -123,6 +125,8 @@ class BoundarySet {
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// Of all conditions, s.
   std::vector<double> knots() const;
+  /// Boundary::unmet of all patches. Collective.
+  std::vector<std::string> unmet(const Flow& flow) const;
   /// True if some patch fixes the pressure.
   bool fixes_pressure() const { return fixes_pressure_; }
 

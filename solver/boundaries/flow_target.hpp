@@ -5,8 +5,9 @@
 //   H* <- H* + (1 - exp(-dt/T)) (p + I dQ/dt - H*),       p = H* + I (Q - Q_t)/T
 //
 // so that the error e = Q - Q_t obeys e'' + 2 e'/T + e/T^2 = H'/I: critically damped with the response time T, and none is left once H is
-// steady. Losses lower H as the flow rises: it then comes to its target from one side. Stable for any I between 0 and 1/s times the true
-// one (s = dt/T, explicit in time), so that I need not be exact; one that is too small makes the flow swing about the target.
+// steady. Losses that lower H by R dQ add R/I e': the flow then comes to its target from one side, in the time 2 T + R T^2/I. Stable for
+// any I between 0 and 1/s times the true one (s = dt/T, explicit in time), so that I need not be exact; one that is too small makes the
+// flow swing about the target.
 #include <vector>
 
 namespace snag {

@@ -17,6 +17,18 @@ inline FourValues four(const Vec3& v) { return FourValues{v.x, v.y, v.z, 0}; }
 inline FourValues least(const FourValues& a, const FourValues& b) { return b < a ? b : a; }
 inline FourValues largest(const FourValues& a, const FourValues& b) { return a < b ? b : a; }
 
+/// Weight of face f in a limiter of cell c: of a facet 1 from a quarter of the cell's face on, 0 when it is a sliver that comes or goes.
+inline double weight_in_cell(const Mesh& mesh, int f, int c) {
+  return f < mesh.first_facet ? 1 : std::min(1.0, 4 * share_of_face(mesh, f, mesh.owner[f] == c));
+}
+
+/// From the centre of cell c to that of its face f. Across a period it needs the other cell, which takes half the time of a limiter.
+inline Vec3 way_to_face(const Mesh& mesh, bool has_periods, int c, int f) {
+  if (!has_periods) return mesh.face_centre[f] - mesh.cell_centre[c];
+  const int P = mesh.owner[f];
+  return mesh.face_centre[f] - mesh.cell_centre[P] - static_cast<double>(P != c) * mesh.delta[f];
+}
+
 /// The loop over the faces of the cells, compiled for one function. `Law` has
 ///   static FourValues factor(const FourValues& a, const FourValues& b, double e2)
 /// psi of one face, for each component; what lies above 1 counts as 1, and so does what it gives where a is 0. e2: threshold() times the
@@ -29,12 +41,9 @@ class CellLimiter : public Limiter {
              std::vector<Vec3>& psi) const final {
     const double per_volume = threshold(mesh, reference_speed);
     if (has_periods)
-      limit_cells(mesh, u, G, per_volume, psi, [&mesh](int c, int f) {
-        const int P = mesh.owner[f];
-        return mesh.face_centre[f] - mesh.cell_centre[P] - static_cast<double>(P != c) * mesh.delta[f];
-      });
+      limit_cells<true>(mesh, u, G, per_volume, psi);
     else
-      limit_cells(mesh, u, G, per_volume, psi, [&mesh](int c, int f) { return mesh.face_centre[f] - mesh.cell_centre[c]; });
+      limit_cells<false>(mesh, u, G, per_volume, psi);
     mesh.halo.exchange(psi);
   }
 
@@ -43,10 +52,8 @@ class CellLimiter : public Limiter {
   virtual double threshold(const Mesh&, double /*reference_speed*/) const { return 0; }
 
  private:
-  /// `way_of(c, f)`: from the centre of cell c to that of its face f. Across a period it needs the other cell, which takes half the time.
-  template <class Way>
-  static void limit_cells(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double per_volume, std::vector<Vec3>& psi,
-                          const Way& way_of) {
+  template <bool has_periods>
+  static void limit_cells(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double per_volume, std::vector<Vec3>& psi) {
     const FourValues one{1, 1, 1, 1};
     for (int c = 0; c < mesh.n_cells; ++c) {
       const FourValues here = four(u[c]);
@@ -56,7 +63,7 @@ class CellLimiter : public Limiter {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
         FourValues other = four(u[mesh.owner[f] + mesh.neighbour[f] - c]);
-        if (f >= mesh.first_facet) other = here + say(mesh, f, c) * (other - here);
+        if (f >= mesh.first_facet) other = here + weight_in_cell(mesh, f, c) * (other - here);
         highest = largest(highest, other), lowest = least(lowest, other);
       }
       const FourValues above = highest - here, below = lowest - here;
@@ -67,18 +74,15 @@ class CellLimiter : public Limiter {
       for (int k = first; k < last; ++k) {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
-        const Vec3 way = way_of(c, f);
+        const Vec3 way = way_to_face(mesh, has_periods, c, f);
         const FourValues a = way.x * along_x + way.y * along_y + way.z * along_z, b = a > 0 ? above : below;
         FourValues psi_f = a != 0 ? least(one, Law::factor(a, b, e2)) : one;
-        if (f >= mesh.first_facet) psi_f = 1 - say(mesh, f, c) * (1 - psi_f);
+        if (f >= mesh.first_facet) psi_f = 1 - weight_in_cell(mesh, f, c) * (1 - psi_f);
         smallest = least(smallest, psi_f);
       }
       psi[c] = {smallest[0], smallest[1], smallest[2]};
     }
   }
-
-  /// Weight of a facet in cell c: 1 from a quarter of the cell's face on, 0 when it is a sliver that comes or goes.
-  static double say(const Mesh& mesh, int f, int c) { return std::min(1.0, 4 * share_of_face(mesh, f, mesh.owner[f] == c)); }
 };
 
 }  // namespace snag

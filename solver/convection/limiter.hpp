@@ -20,7 +20,7 @@ class Limiter {
  public:
   virtual ~Limiter() = default;
   virtual LimiterDescription description() const = 0;
-  /// True if the values at the face centres stay between those of the cell and its neighbours.
+  /// True if the velocity at the face centres stays between that of the cell and its neighbours, each component or along its change.
   virtual bool bounds() const { return true; }
   /// Factor in [0, 1] of each row of the gradient G of u, `psi` [n_all_cells], ghosts filled. `reference_speed`, m/s: a limiter may leave
   /// alone variations far below it on the scale of a cell. `has_periods`: faces of this rank are joined across a period. Collective.

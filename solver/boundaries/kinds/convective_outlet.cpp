@@ -6,7 +6,7 @@
 //   Du/Dt = grad u_P . (u - U n)                         for the slope of the pressure, grad u_P extrapolated to t + dt; first order in
 //   cells
 //
-// Steps in which the stream crosses more than three cells may diverge.
+// Steps in which the stream crosses more than three cells may diverge, and so may steps in which friction carries momentum over several.
 //
 // What the patches with a given velocity bring in leaves here (BoundarySet::update): a uniform speed along the normal closes the balance.
 // Eddies leave with little reflection, where a pressure_outlet flattens the pressure across them. Source: I. Orlanski, A simple boundary
@@ -26,12 +26,14 @@ struct ConvectiveOutlet final : Boundary {
   double ratio = 0;  // of the step to the last one; 0 without one
 
   Section section() override {
-    return {.name = name,
-            .meaning =
-                "The flow leaves as it comes, carried on at the mean speed; eddies pass with little reflection. What flows in through "
-                "the other patches leaves here, and no patch needs to give the pressure. A step in which the stream crosses more "
-                "than three cells at the outlet may diverge: take pressure_outlet for such steps.",
-            .parameters = {}};
+    return {
+        .name = name,
+        .meaning =
+            "The flow leaves as it comes, carried on at the mean speed; eddies pass with little reflection. What flows in through "
+            "the other patches leaves here, and no patch needs to give the pressure. A step in which the stream crosses more "
+            "than three cells at the outlet may diverge: take pressure_outlet for such steps. So may a step in which friction reaches over "
+            "several cells, in slow flow: take shorter steps, or three outer correctors.",
+        .parameters = {}};
   }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::velocity; }
   bool is_outlet() const override { return true; }

@@ -141,6 +141,9 @@ TEST(CouplingSettings, WarnsOfUnsuitableKernels) {
   ASSERT_EQ(warnings("kernel_width_mm = 10").size(), 1u);
   EXPECT_NE(warnings("kernel_width_mm = 10")[0].find("0.25 of the shorter side of cloth \"cloth\" (40 mm), advised at most 0.125"),
             std::string::npos);
+  rags.resize(3, rags[0]);
+  EXPECT_EQ(warnings("kernel_width_mm = 10").size(), 1u) << "copies are warned of once";
+  rags.resize(1);
   EXPECT_TRUE(warnings("kernel_width_mm = 10\nforces = [\"published\"]").empty());
   EXPECT_TRUE(warnings("kernel_width_mm = 10\nmode = \"one_way\"").empty());
   rags[0].n_rows = 2;

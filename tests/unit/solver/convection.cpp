@@ -7,6 +7,7 @@
 
 #include "solver/convection/convection.hpp"
 #include "solver/convection/limiter.hpp"
+#include "solver/fields/face.hpp"
 #include "tests/sources.hpp"
 #include "tests/structured_box.hpp"
 
@@ -148,7 +149,7 @@ TEST(ConvectionSchemes, Bounded) {
 }
 
 // Requirement: a limiter leaves a constant velocity alone; its factors lie in [0, 1]; and one that bounds lets no face of a cell lie beyond
-// the values of the cell and its neighbours, where nothing is small against the reference speed.
+// the values of the cell and its neighbours, in each component or along its change, where nothing is small against the reference speed.
 TEST(Limiters, Bounds) {
   const Mesh mesh = structured_box(MPI_COMM_SELF, {}, {1, 1, 1}, {4, 3, 3});
   const Guess guess = rough(mesh);
@@ -160,14 +161,16 @@ TEST(Limiters, Bounds) {
     limiter.limit(mesh, true, guess.u, guess.G, 0, across_periods);
     limiter.limit(mesh, false, guess.u, guess.G, 0, psi);
     for (std::size_t c = 0; c < psi.size(); ++c) EXPECT_LT(norm(psi[c] - across_periods[c]), 1e-12);
-    double beyond = 0;
+    double beyond = 0, beyond_along = 0;
     for (int c = 0; c < mesh.n_cells; ++c) {
       Vec3 low = guess.u[c], high = guess.u[c];
+      std::vector<Vec3> differences{{}};
       for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
         const Vec3& u = guess.u[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]];
         for (int i = 0; i < 3; ++i) low[i] = lowest(low[i], u[i]), high[i] = highest(high[i], u[i]);
+        differences.push_back(u - guess.u[c]);
       }
       for (int i = 0; i < 3; ++i) EXPECT_TRUE(psi[c][i] >= 0 && psi[c][i] <= 1) << psi[c][i];
       for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
@@ -178,12 +181,15 @@ TEST(Limiters, Bounds) {
           const double value = guess.u[c][i] + psi[c][i] * change[i];
           beyond = std::max({beyond, value - high[i], low[i] - value});
         }
+        double along = 0;
+        for (const Vec3& difference : differences) along = std::max(along, dot(difference, unit(change)));
+        beyond_along = std::max(beyond_along, dot(scaled(psi[c], change), unit(change)) - along);
       }
     }
     if (limiter.bounds())
-      EXPECT_LT(beyond, 1e-13);
+      EXPECT_LT(std::min(beyond, beyond_along), 1e-13);
     else
-      EXPECT_GT(beyond, 0.1);
+      EXPECT_GT(std::min(beyond, beyond_along), 0.1);
   });
 }
 
@@ -207,11 +213,37 @@ TEST(Limiters, PublishedFactors) {
     SCOPED_TRACE(y);
     EXPECT_EQ(factor("none", y), 1);
     EXPECT_NEAR(factor("barth_jespersen", y), std::min(1.0, y), 1e-14);
-    EXPECT_NEAR(factor("venkatakrishnan", y), std::min(1.0, (y * y + 2 * y) / (y * y + y + 2)), 1e-14);
+    for (const char* law : {"venkatakrishnan", "vector_venkatakrishnan"})
+      EXPECT_NEAR(factor(law, y), std::min(1.0, (y * y + 2 * y) / (y * y + y + 2)), 1e-14);
   }
   EXPECT_NEAR(factor("michalak_ollivier_gooch", 0.75), 0.6875, 1e-14);
   EXPECT_NEAR(factor("michalak_ollivier_gooch", 1.2), 0.944, 1e-14);
   EXPECT_NEAR(factor("michalak_ollivier_gooch", 1e-3), 1e-3, 1e-9);     // slope 1 at y = 0
   EXPECT_NEAR(factor("michalak_ollivier_gooch", 1.5 - 1e-4), 1, 1e-7);  // slope 0 at y = 3/2
   EXPECT_EQ(factor("michalak_ollivier_gooch", 1.5), 1);
+}
+
+// Requirement: the factors of the limiter of vectors are the same where all velocities are turned; those of components are not.
+TEST(Limiters, VectorsTurn) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {}, {1, 1, 1}, {4, 3, 3});
+  const Guess guess = rough(mesh);
+  const Mat3 turn = rotation(unit(Vec3{1, 2, 3}), 0.6);
+  std::vector<Vec3> u(guess.u);
+  std::vector<Mat3> G(guess.G);
+  for (std::size_t c = 0; c < u.size(); ++c) {
+    u[c] = turn * guess.u[c];
+    for (std::size_t i = 0; i < 3; ++i)  // rows: gradients of the components
+      G[c][i] = turn[i].x * guess.G[c][0] + turn[i].y * guess.G[c][1] + turn[i].z * guess.G[c][2];
+  }
+  const auto largest_change = [&](const char* name) {
+    const auto limiter = limiters().make(name, "test");
+    std::vector<Vec3> psi(u.size()), turned(u.size());
+    limiter->limit(mesh, false, guess.u, guess.G, 0.1, psi);
+    limiter->limit(mesh, false, u, G, 0.1, turned);
+    double largest = 0;
+    for (std::size_t c = 0; c < u.size(); ++c) largest = std::max(largest, norm(turned[c] - psi[c]));
+    return largest;
+  };
+  EXPECT_LT(largest_change("vector_venkatakrishnan"), 1e-12);
+  EXPECT_GT(largest_change("venkatakrishnan"), 0.1);
 }

@@ -49,6 +49,20 @@ TEST(TargetFlow, response_time) {
   EXPECT_LT(swing("0.1"), 0.25 * swing("2"));
 }
 
+// Where the run ends before the flow is at its target, the outlet says by how much it is not; where it is there, nothing.
+TEST(TargetFlow, unmet) {
+  const Mesh mesh = tetrahedra();
+  FlowSolver solver(mesh, settings(), conditions(from_tank("target_flow_rate_m3_s = 0.8")));
+  const double share = share_of_target(solver, 10).back();
+  EXPECT_LT(share, 0.9);
+  const std::vector<std::string> unmet = solver.boundary().unmet(solver.flow);
+  ASSERT_EQ(unmet.size(), 1u);
+  for (const char* part : {"\"x1\"", "800 L/s", "response_time below 0.4 s"})
+    EXPECT_NE(unmet[0].find(part), std::string::npos) << unmet[0];
+  share_of_target(solver, 300);
+  EXPECT_TRUE(solver.boundary().unmet(solver.flow).empty());
+}
+
 // Two outlets share what one inlet gives, each with a target of its own.
 TEST(TargetFlow, two_outlets) {
   const Mesh mesh = tetrahedra();
