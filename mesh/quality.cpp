@@ -15,12 +15,12 @@
 #include <array>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 
 #include "base/words.hpp"
 #include "mesh/bounding_box.hpp"
 #include "mesh/geometry.hpp"
+#include "mesh/regions.hpp"
 #include "mesh/skewness.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
@@ -104,29 +104,10 @@ FaceShape shape_of_face(const Mesh& mesh, int f) {
           .skewness = norm(skewness(mesh, f)) / distance};
 }
 
-/// Connected regions of cells: the lowest cell_id of a region spreads through it, within a rank at once, across ranks by halo.
 std::int64_t count_regions(const Mesh& mesh) {
-  std::vector<int> parent(static_cast<std::size_t>(mesh.n_all_cells()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int cell) {
-    while (parent[cell] != cell) cell = parent[cell] = parent[parent[cell]];
-    return cell;
-  };
-  for (int f = 0; f < mesh.n_interior; ++f) parent[root(mesh.owner[f])] = root(mesh.neighbour[f]);
-
-  std::vector<std::int64_t> label(mesh.cell_id);
-  for (bool changed = true; changed;) {
-    for (int c = 0; c < mesh.n_all_cells(); ++c) label[root(c)] = std::min(label[root(c)], label[c]);
-    std::int64_t n_changed = 0;
-    for (int c = 0; c < mesh.n_all_cells(); ++c)
-      if (label[c] != label[root(c)]) label[c] = label[root(c)], ++n_changed;
-    const std::vector<std::int64_t> before(label);
-    mesh.halo.exchange(std::span(label));
-    for (int c = mesh.n_cells; c < mesh.n_all_cells(); ++c) label[c] = std::min(label[c], before[c]), n_changed += label[c] != before[c];
-    changed = sum(mesh.comm, n_changed) > 0;
-  }
+  const std::vector<std::int64_t> region = regions(mesh);
   std::int64_t n_regions = 0;
-  for (int c = 0; c < mesh.n_cells; ++c) n_regions += label[c] == mesh.cell_id[c];
+  for (int c = 0; c < mesh.n_cells; ++c) n_regions += region[c] == mesh.cell_id[c];
   return sum(mesh.comm, n_regions);
 }
 

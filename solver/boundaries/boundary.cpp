@@ -6,6 +6,8 @@
 #include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "mesh/regions.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -140,6 +142,35 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
     pressure_sides_.push_back(conditions_[p].boundary->pressure_side());
     fixes_pressure_ = fixes_pressure_ || (pressure_sides_.back() == Side::value && mesh.patches[p].count_global > 0);
   }
+  check_regions();
+}
+
+/// Where water passes through several parts of the mesh that no face joins, each needs a pressure of its own.
+void BoundarySet::check_regions() const {
+  struct Opening {
+    std::int64_t region;
+    int patch;
+    bool fixes_pressure;
+    Vec3 place;
+  };
+  const auto same = [](const Opening& a, const Opening& b) { return a.region == b.region && a.patch == b.patch; };
+  const std::vector<std::int64_t> region = regions(mesh_);
+  std::vector<Opening> openings;
+  for (int p = 0; p < static_cast<int>(conditions_.size()); ++p) {
+    if (!is_open(p)) continue;
+    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
+      const Opening one{region[mesh_.owner[f]], p, pressure_sides_[p] == Side::value, mesh_.face_centre[f]};
+      if (openings.empty() || !same(openings.back(), one)) openings.push_back(one);
+    }
+  }
+  openings = gathered(mesh_.comm, openings);
+  if (std::ranges::all_of(openings, [&](const Opening& one) { return one.region == openings[0].region; })) return;
+  for (const Opening& one : openings)
+    if (std::ranges::none_of(openings, [&](const Opening& other) { return other.region == one.region && other.fixes_pressure; }))
+      throw Error(ExitCode::usage, conditions_[one.patch].where + ": the cells at patch \"" + conditions_[one.patch].patch + "\", " +
+                                       point_text(one.place) +
+                                       ", are not joined to those at other openings, and no opening of theirs gives the pressure; join "
+                                       "the volumes (gmsh: BooleanFragments), or give one patch of theirs kind = \"pressure_outlet\"");
 }
 
 void BoundarySet::update(const Flow& flow, double time) {

@@ -143,6 +143,7 @@ class BoundarySet {
   NetFlux net_flux() const;
   void carry_off_the_rest();
   void check_net_flux() const;
+  void check_regions() const;
   const Mesh& mesh_;
   std::vector<PatchBoundary> conditions_;              // in the order of the patches
   std::vector<Side> velocity_sides_, pressure_sides_;  // of each patch

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "mesh/import/import.hpp"
 #include "solver/boundaries/flow_target.hpp"
 #include "solver/boundaries/time_course.hpp"
 #include "solver/flow_solver.hpp"
+#include "tests/sources.hpp"
 #include "tests/structured_box.hpp"
 
 using namespace snag;
@@ -131,6 +133,30 @@ TEST(FlowTarget, column) {
     EXPECT_NEAR(flow, target, 1e-4 * target) << told;
     EXPECT_NEAR(control.level(), driving, 1e-3 * driving) << told;
   }
+}
+
+// Parts of a mesh that no face joins, here a pump without its sliding interface, need a pressure each where water passes through them.
+TEST(Boundaries, regions) {
+  const Mesh mesh = import_mesh(in_sources("cases/meshes/pump_coarse.msh"), MPI_COMM_WORLD);
+  const auto message_of = [&mesh](const std::string& kind_of_inlet) {
+    std::string text;
+    for (const Patch& patch : mesh.patches)
+      text += condition(patch.name,
+                        patch.name == "outlet"  ? "pressure_outlet"
+                        : patch.name == "inlet" ? kind_of_inlet
+                                                : "wall",
+                        patch.name == "inlet" && kind_of_inlet == "velocity_inlet" ? "normal_speed_m_s = 1" : "");
+    try {
+      const BoundarySet set(mesh, conditions(text));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string message = message_of("velocity_inlet");
+  for (const char* word : {"\"inlet\"", "not joined", "pressure_outlet"}) EXPECT_NE(message.find(word), std::string::npos) << message;
+  EXPECT_EQ(message_of("pressure_inlet"), "");
+  EXPECT_EQ(message_of("wall"), "");
 }
 
 // A target of the flow is refused where nothing else gives the pressure, and where the level would have to answer faster than the steps
