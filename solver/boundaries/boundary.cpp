@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/case_tables.hpp"
 #include "base/error.hpp"
@@ -13,9 +14,6 @@
 namespace snag {
 
 namespace {
-
-// Of the flux through the boundary: what rounding of a case's numbers may leave open.
-constexpr double net_flux_tolerance = 1e-9;
 
 struct Heading {
   std::string patch, kind;
@@ -142,11 +140,14 @@ BoundarySet::BoundarySet(const Mesh& mesh, std::vector<PatchBoundary> conditions
     pressure_sides_.push_back(conditions_[p].boundary->pressure_side());
     fixes_pressure_ = fixes_pressure_ || (pressure_sides_.back() == Side::value && mesh.patches[p].count_global > 0);
   }
-  check_regions();
+  for (std::size_t p = 0; p < conditions_.size(); ++p)
+    for (int f = mesh.patches[p].first; flux(static_cast<int>(p)) == FaceFlux::given && f < mesh.patches[p].end(); ++f)
+      given_faces_.push_back(f - mesh.n_interior);
+  find_loose_regions();
 }
 
-/// Where water passes through several parts of the mesh that no face joins, each needs a pressure of its own.
-void BoundarySet::check_regions() const {
+/// Where water passes through several parts of the mesh that no face joins: those in which no opening gives the pressure.
+void BoundarySet::find_loose_regions() {
   struct Opening {
     std::int64_t region;
     int patch;
@@ -165,18 +166,35 @@ void BoundarySet::check_regions() const {
   }
   openings = gathered(mesh_.comm, openings);
   if (std::ranges::all_of(openings, [&](const Opening& one) { return one.region == openings[0].region; })) return;
-  for (const Opening& one : openings)
-    if (std::ranges::none_of(openings, [&](const Opening& other) { return other.region == one.region && other.fixes_pressure; }))
-      throw Error(ExitCode::usage, conditions_[one.patch].where + ": the cells at patch \"" + conditions_[one.patch].patch + "\", " +
-                                       point_text(one.place) +
-                                       ", are not joined to those at other openings, and no opening of theirs gives the pressure; join "
-                                       "the volumes (gmsh: BooleanFragments), or give one patch of theirs kind = \"pressure_outlet\"");
+  for (const Opening& one : openings) {
+    const auto in_region = [&](const Opening& other) { return other.region == one.region; };
+    if (std::ranges::any_of(openings, [&](const Opening& other) { return in_region(other) && other.fixes_pressure; })) continue;
+    if (std::ranges::any_of(loose_regions_, [&](const LooseRegion& known) { return known.id == one.region; })) continue;
+    LooseRegion& loose = loose_regions_.emplace_back(LooseRegion{one.region, one.patch, one.place, {}});
+    std::ranges::copy_if(given_faces_, std::back_inserter(loose.faces),
+                         [&](int b) { return region[mesh_.owner[mesh_.n_interior + b]] == one.region; });
+  }
+}
+
+void BoundarySet::check_loose_regions() const {
+  for (const LooseRegion& loose : loose_regions_) {
+    const NetFlux flux = net_flux(loose.faces);
+    if (flux.is_balanced()) continue;
+    const PatchBoundary& opening = conditions_[loose.patch];
+    throw Error(
+        ExitCode::usage,
+        opening.where + ": the cells at patch \"" + opening.patch + "\", " + point_text(loose.place) +
+            ", are not joined to those at other openings; no opening of theirs gives the pressure, and their net flow out (" +
+            number_text(flux.net) +
+            " m3/s) must then be zero; join the volumes (gmsh: BooleanFragments), or give one patch of theirs kind = \"pressure_outlet\"");
+  }
 }
 
 void BoundarySet::update(const Flow& flow, double time) {
   for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->respond(flow, mesh_.patches[p], time);
   for (std::size_t p = 0; p < conditions_.size(); ++p) conditions_[p].boundary->update(flow, mesh_.patches[p], time, values_);
   if (!fixes_pressure_) carry_off_the_rest(), check_net_flux();
+  check_loose_regions();
 }
 
 BoundaryValues BoundarySet::exchange_for_rest_state() {
@@ -220,16 +238,12 @@ void BoundarySet::restore_state(const std::vector<double>& state) {
   }
 }
 
-BoundarySet::NetFlux BoundarySet::net_flux() const {
+BoundarySet::NetFlux BoundarySet::net_flux(std::span<const int> faces) const {
   std::vector<double> out, carried;
-  for (std::size_t p = 0; p < conditions_.size(); ++p) {
-    if (flux(static_cast<int>(p)) != FaceFlux::given) continue;
-    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
-      const auto b = static_cast<std::size_t>(f - mesh_.n_interior);
-      out.push_back(values_.flux[b]);
-      // Also what a wall carries along itself: the fluxes of a drum that turns are round-off of that.
-      carried.push_back(std::abs(values_.flux[b]) + norm(values_.velocity[b]) * norm(mesh_.face_vector[f]));
-    }
+  for (const int b : faces) {
+    out.push_back(values_.flux[b]);
+    // Also what a wall carries along itself: the fluxes of a drum that turns are round-off of that.
+    carried.push_back(std::abs(values_.flux[b]) + norm(values_.velocity[b]) * norm(mesh_.face_vector[mesh_.n_interior + b]));
   }
   return {sum(mesh_.comm, std::span<const double>(out)), sum(mesh_.comm, std::span<const double>(carried))};
 }
@@ -247,16 +261,16 @@ void BoundarySet::carry_off_the_rest() {
   for_each_face([&](int f, int) { areas.push_back(norm(mesh_.face_vector[f])); });
   const double area = sum(mesh_.comm, std::span<const double>(areas));
   if (area == 0) return;
-  const double speed = -net_flux().net / area;
+  const double speed = -net_flux(given_faces_).net / area;
   for_each_face([&](int f, int b) {
     values_.velocity[b] += speed * unit(mesh_.face_vector[f]), values_.flux[b] += speed * norm(mesh_.face_vector[f]);
   });
 }
 
 void BoundarySet::check_net_flux() const {
-  const auto [net, carried] = net_flux();
-  if (std::abs(net) > net_flux_tolerance * carried)
-    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + number_text(net) +
+  const NetFlux flux = net_flux(given_faces_);
+  if (!flux.is_balanced())
+    throw Error(ExitCode::usage, "[[boundary]]: net flow out of the domain (" + number_text(flux.net) +
                                      " m3/s) must be zero where no patch fixes the pressure; give one patch kind = \"pressure_outlet\"");
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 // Boundary conditions of the flow: one kind, one file in solver/boundaries/kinds/, chosen for each patch by the [[boundary]] tables of the
 // case.
+#include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -139,16 +141,28 @@ class BoundarySet {
   struct NetFlux {
     double net = 0;      // out less in
     double carried = 0;  // sum of what passes the faces and of what walls carry along themselves: the scale of the round-off
+    /// But for the rounding of a case's numbers.
+    bool is_balanced() const { return std::abs(net) <= 1e-9 * carried; }
   };
-  NetFlux net_flux() const;
+  NetFlux net_flux(std::span<const int> faces) const;
   void carry_off_the_rest();
   void check_net_flux() const;
-  void check_regions() const;
+  /// Cells that are not joined to those at other openings, with openings of which none gives the pressure.
+  struct LooseRegion {
+    std::int64_t id;         // regions()
+    int patch;               // an opening,
+    Vec3 place;              // and where it is, m
+    std::vector<int> faces;  // of given_faces_
+  };
+  void find_loose_regions();
+  void check_loose_regions() const;
   const Mesh& mesh_;
   std::vector<PatchBoundary> conditions_;              // in the order of the patches
   std::vector<Side> velocity_sides_, pressure_sides_;  // of each patch
+  std::vector<int> given_faces_;  // of this rank, whose flux is given; counted from n_interior, which turns with the mesh
   BoundaryValues values_;
   bool fixes_pressure_ = false;
+  std::vector<LooseRegion> loose_regions_;  // the same on every rank
 };
 
 }  // namespace snag

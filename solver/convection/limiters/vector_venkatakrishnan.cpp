@@ -10,6 +10,7 @@
 // Fluids 65, 1365, from memory; they take the hull of these velocities. The law along the change is this program's.
 #include <vector>
 
+#include "mesh/geometry.hpp"
 #include "solver/convection/cell_limiter.hpp"
 #include "solver/convection/limiters/venkatakrishnan.hpp"
 
@@ -31,7 +32,7 @@ struct VectorVenkatakrishnan final : Limiter {
     const double per_volume = venkatakrishnan_threshold(mesh, reference_speed);
     std::vector<Vec3> differences;
     for (int c = 0; c < mesh.n_cells; ++c) {
-      const std::span faces(&mesh.cell_face[mesh.cell_face_start[c]], &mesh.cell_face[mesh.cell_face_start[c + 1]]);
+      const std::span<const int> faces = row(mesh.cell_face_start, mesh.cell_face, c);
       differences.clear();
       for (const int f : faces)
         if (f < mesh.n_interior) differences.push_back(weight_in_cell(mesh, f, c) * (u[mesh.owner[f] + mesh.neighbour[f] - c] - u[c]));

@@ -57,8 +57,7 @@ TEST(TargetFlow, unmet) {
   EXPECT_LT(share, 0.9);
   const std::vector<std::string> unmet = solver.boundary().unmet(solver.flow);
   ASSERT_EQ(unmet.size(), 1u);
-  for (const char* part : {"\"x1\"", "800 L/s", "response_time below 0.4 s"})
-    EXPECT_NE(unmet[0].find(part), std::string::npos) << unmet[0];
+  for (const char* part : {"\"x1\"", "800 L/s", "response_time below 0.4 s"}) EXPECT_NE(unmet[0].find(part), std::string::npos) << unmet[0];
   share_of_target(solver, 300);
   EXPECT_TRUE(solver.boundary().unmet(solver.flow).empty());
 }
