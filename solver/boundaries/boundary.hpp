@@ -159,7 +159,7 @@ class BoundarySet {
   const Mesh& mesh_;
   std::vector<PatchBoundary> conditions_;              // in the order of the patches
   std::vector<Side> velocity_sides_, pressure_sides_;  // of each patch
-  std::vector<int> given_faces_;  // of this rank, whose flux is given; counted from n_interior, which turns with the mesh
+  std::vector<int> given_faces_;  // of this rank, whose flux is given; counted from n_interior, which changes as a mesh turns
   BoundaryValues values_;
   bool fixes_pressure_ = false;
   std::vector<LooseRegion> loose_regions_;  // the same on every rank
