@@ -231,7 +231,8 @@ void RagSystem::set_ghosts(std::map<int, TileLists> new_lists) {
     for (const auto& [number, first, end] : list.receive) n.receive.push_back({place(ghost_numbers_, number), first, end});
     neighbours.push_back(std::move(n));
   }
-  halo_ = std::make_unique<TileHalo>(comm_, std::move(neighbours), tiles_, ghosts_);
+  const bool can_break = std::any_of(rags_.begin(), rags_.end(), [](const Rag& rag) { return rag.breakage; });
+  halo_ = std::make_unique<TileHalo>(comm_, std::move(neighbours), tiles_, ghosts_, contacts_ && can_break);
   const auto local = [&](int number) -> const Tile* {
     if (number < 0) return nullptr;
     const int owned = place(numbers_, number);

@@ -18,10 +18,21 @@ const double* unpack_state(Tile& tile, int first, int end, const double* in) {
 
 namespace {
 
-std::size_t state_size(std::span<const Tile> tiles, const std::vector<TileRows>& rows) {
+std::size_t message_size(std::span<const Tile> tiles, const std::vector<TileRows>& rows, bool with_bonds) {
   std::size_t n = 0;
-  for (const TileRows& r : rows) n += static_cast<std::size_t>(Tile::n_state) * tiles[r.tile].nx * (r.end - r.first);
+  for (const TileRows& r : rows) {
+    const int nx = tiles[r.tile].nx, n_rows = r.end - r.first;
+    n += static_cast<std::size_t>(Tile::n_state) * nx * n_rows;
+    if (with_bonds) n += static_cast<std::size_t>((nx + 1) * n_rows + nx * (n_rows + 1));
+  }
   return n;
+}
+
+/// f(mark, number) for the rows of bond marks at the particles in rows first .. end of a tile, from the ring on.
+template <class AnyTile, class F>
+void for_bond_rows(AnyTile& tile, int first, int end, const F& f) {
+  for (int j = first; j < end; ++j) f(&tile.bond_x[tile.index(-1, j)], tile.nx + 1);
+  for (int j = first - 1; j < end; ++j) f(&tile.bond_y[tile.index(0, j)], tile.nx);
 }
 
 /// Copies n particles' states; places advance by `to_step`, `from_step`.
@@ -35,9 +46,17 @@ void copy_line(Tile& to, int to_place, int to_step, const Tile& from, int from_p
 
 }  // namespace
 
-TileHalo::TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts)
-    : comm_(comm), neighbours_(std::move(neighbours)), owned_(owned), ghosts_(ghosts), requests_(2 * neighbours_.size()) {
-  for (Neighbour& n : neighbours_) n.out.resize(state_size(owned_, n.send)), n.in.resize(state_size(ghosts_, n.receive));
+TileHalo::TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts, bool with_bonds)
+    : comm_(comm),
+      neighbours_(std::move(neighbours)),
+      owned_(owned),
+      ghosts_(ghosts),
+      with_bonds_(with_bonds),
+      requests_(2 * neighbours_.size()) {
+  for (Neighbour& n : neighbours_) {
+    n.out.resize(message_size(owned_, n.send, with_bonds_));
+    n.in.resize(message_size(ghosts_, n.receive, with_bonds_));
+  }
 }
 
 void TileHalo::add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above) {
@@ -50,13 +69,21 @@ void TileHalo::exchange_ghosts() {
   for (Neighbour& n : neighbours_) MPI_Irecv(n.in.data(), static_cast<int>(n.in.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
   for (Neighbour& n : neighbours_) {
     double* out = n.out.data();
-    for (const auto& [t, first, end] : n.send) out = pack_state(owned_[t], first, end, out);
+    for (const auto& [t, first, end] : n.send) {
+      out = pack_state(owned_[t], first, end, out);
+      if (with_bonds_)
+        for_bond_rows(owned_[t], first, end, [&out](const double* marks, int count) { out = std::copy_n(marks, count, out); });
+    }
     MPI_Isend(n.out.data(), static_cast<int>(n.out.size()), MPI_DOUBLE, n.rank, tag, comm_, &requests_[r++]);
   }
   MPI_Waitall(r, requests_.data(), MPI_STATUSES_IGNORE);
   for (const Neighbour& n : neighbours_) {
     const double* in = n.in.data();
-    for (const auto& [t, first, end] : n.receive) in = unpack_state(ghosts_[t], first, end, in);
+    for (const auto& [t, first, end] : n.receive) {
+      in = unpack_state(ghosts_[t], first, end, in);
+      if (with_bonds_)
+        for_bond_rows(ghosts_[t], first, end, [&in](double* marks, int count) { std::copy_n(in, count, marks), in += count; });
+    }
   }
 }
 

@@ -26,8 +26,8 @@ class TileHalo {
     std::vector<double> out, in;
   };
 
-  /// `local(number)`: pointer to the tile of that number here, owned or ghost, or null. Ghosts of the neighbours must be sized.
-  TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts);
+  /// Ghosts of the neighbours must be sized. `with_bonds`: which bonds of the ghosts are whole is kept up to date as well.
+  TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts, bool with_bonds);
   /// Lists what the ring of an owned tile is copied from: the tiles left, right, below and above (null at the edge of the piece).
   void add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above);
   /// Brings ghosts up to date. Collective over the neighbours.
@@ -45,6 +45,7 @@ class TileHalo {
   MPI_Comm comm_;
   std::vector<Neighbour> neighbours_;
   std::span<Tile> owned_, ghosts_;
+  bool with_bonds_;
   std::vector<Ring> rings_;
   std::vector<MPI_Request> requests_;
 };

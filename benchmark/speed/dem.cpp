@@ -83,7 +83,8 @@ void single_rank(Findings& findings, const Limits& limit, bool quick) {
   const double in_memory = std::min(limit.computing, limit.memory);
   findings.add("dem.flat", flat_sheets(self, 1, columns, rows), limit.computing, "16,500 particles in waves, none in contact; target 35");
   findings.add("dem.flat_whole", flat_sheets(self, 1, columns, rows, false), limit.computing, "the same without breakage, as runs have it");
-  findings.add("dem.stack", stacked_sheets(self), limit.computing, "four layers in hollow sites between two planes; target 10");
+  findings.add("dem.stack", stacked_sheets(self), limit.computing,
+               "four layers between two planes, each above the gaps of the next; target 10");
   findings.add("dem.stack_moving", stacked_sheets(self, 3, 60), limit.computing, "the same carried along at 3 m/s and turned at 60 rad/s");
   findings.add("dem.flat_4k", flat_sheets(self, 1, 75, 55), limit.computing, "4 thousand particles");
   if (quick) return;

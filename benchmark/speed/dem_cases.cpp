@@ -50,7 +50,7 @@ DemBenchCase flat_sheets(MPI_Comm comm, int n_sheets, int n_columns, int n_rows,
 
 DemBenchCase stacked_sheets(MPI_Comm comm, double speed, double spin) {
   constexpr int n_layers = 4;
-  constexpr double layer = 1.4e-3, to_plane = 0.99e-3;  // m
+  constexpr double layer = 1.99e-3, to_plane = 0.99e-3;  // m
   std::vector<RagPiece> pieces;
   for (int s = 0; s < n_layers; ++s) {
     const Vec3 centre{s % 2 * radius, s % 2 * radius, s * layer};

@@ -17,9 +17,8 @@
 
 namespace snag {
 
-struct PairBlock;
-struct WallBlock;
-struct ContactGeometry;
+struct ContactBlock;
+struct RollingFriction;
 
 /// Two elastic bodies that may touch.
 ///   1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2,  1/G* = (2 - nu_1)/G_1 + (2 - nu_2)/G_2,  E = 2 G (1 + nu)
@@ -84,9 +83,8 @@ struct ContactRates {
 class PairLaw {
  public:
   virtual ~PairLaw() = default;
-  /// Forces, torques and slips of a block of contacts of two particles, or of a particle and a wall.
-  virtual void evaluate(PairBlock& block, const ContactGeometry& bodies, double step) const = 0;
-  virtual void evaluate(WallBlock& block, const ContactGeometry& bodies, double step) const = 0;
+  /// Forces, rolling torques and slips of a block of contacts.
+  virtual void evaluate(ContactBlock& block, const RollingFriction& rolling, double step) const = 0;
   /// Of an elastic impact at `speed` (m/s): how long it lasts, s, and the deepest overlap, m.
   virtual double impact_time(double speed) const = 0;
   virtual double deepest_overlap(double speed) const = 0;

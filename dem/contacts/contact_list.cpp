@@ -9,8 +9,10 @@ namespace {
 constexpr double most_cells = 4e6;  // 16 MB of cell starts; wider cells beyond that
 }
 
-ContactList::ContactList(std::vector<double> radius, double skin) : radius_(std::move(radius)), skin_(skin) {
-  for (double r : radius_) largest_radius_ = std::max(largest_radius_, r);
+ContactList::ContactList(const std::vector<Rag>& rags, double skin) : rags_(&rags), skin_(skin) {
+  double surface = 0, layer = 0;
+  for (const Rag& rag : rags) surface = std::max(surface, rag.surface_reach()), layer = std::max(layer, rag.layer_reach());
+  furthest_ = std::hypot(surface, 2 * layer);
 }
 
 void ContactList::build(ContactParticles& particles, ListedPairs listed) {
@@ -23,7 +25,7 @@ void ContactList::build(ContactParticles& particles, ListedPairs listed) {
     find_partners(particles, p, listed);
     std::sort(partners_.begin(), partners_.end());
     for (int q : partners_) {
-      pairs.push_back({p, q});
+      pairs.push_back({p, q, particles.near_on_lattice(p, q)});
       particles.rows[particles.row_of[q]].near = true;
     }
     if (!partners_.empty()) particles.rows[particles.row_of[p]].near = true;
@@ -53,7 +55,7 @@ void ContactList::sort_into_cells(const ContactParticles& particles) {
     upper = {std::max(upper.x, x.x), std::max(upper.y, x.y), std::max(upper.z, x.z)};
   }
   if (!(lower.x <= upper.x)) lower = upper = {};
-  cell_width_ = 2 * largest_radius_ + skin_;
+  cell_width_ = cutoff();
   const double limit = std::max(most_cells, 4.0 * particles.size());
   const auto n_cells = [&] {
     double n = 1;
@@ -86,7 +88,8 @@ void ContactList::sort_into_cells(const ContactParticles& particles) {
 
 void ContactList::find_partners(const ContactParticles& particles, int p, ListedPairs listed) {
   const ParticlePosition a = particles.position[p];
-  const double reach = radius_[particles.rag_of(p)] + skin_;
+  const Rag& rag = (*rags_)[particles.rag_of(p)];
+  const double furthest = cutoff() * cutoff();
   const bool owned = particles.owned(p);
   for (int dz = -1; dz <= 1; ++dz) {
     for (int dy = -1; dy <= 1; ++dy) {
@@ -96,9 +99,11 @@ void ContactList::find_partners(const ContactParticles& particles, int p, Listed
         if (q <= p) continue;
         const ParticlePosition& b = particles.position[q];
         const double dx = b.x - a.x, dy_ = b.y - a.y, dz_ = b.z - a.z, square = dx * dx + dy_ * dy_ + dz_ * dz_;
-        if (square >= (reach + largest_radius_) * (reach + largest_radius_)) continue;
+        if (square >= furthest) continue;
         if (!(particles.rag_of(p) == particles.rag_of(q) ? listed.within_pieces : listed.between_pieces)) continue;
-        const double limit = reach + radius_[particles.rag_of(q)];
+        const Rag& other = (*rags_)[particles.rag_of(q)];
+        const double limit =
+            skin_ + (particles.near_on_lattice(p, q) ? rag.layer_reach() + other.layer_reach() : contact_distance(rag, other));
         if (square < limit * limit && (owned || particles.owned(q)) && !particles.bonded(p, q)) partners_.push_back(q);
       }
     }

@@ -1,8 +1,8 @@
 #pragma once
 // List of pairs of particles that are or may soon be in contact, with the slip of those that are (a Verlet list from a cell grid).
 //
-// A pair is listed when its centres are nearer than r_1 + r_2 + skin and it is neither bonded nor of two ghosts. The list holds every pair
-// that can touch until a particle has moved skin/2. Cost of a build: proportional to the number of particles.
+// A pair is listed when its centres are nearer than contact_distance + skin and it is neither bonded nor of two ghosts. The list holds
+// every pair that can touch until a particle has moved skin/2. Cost of a build: proportional to the number of particles.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,6 +15,7 @@ namespace snag {
 /// Two particles by local number, p < q.
 struct NearPair {
   int p = 0, q = 0;
+  bool as_points = false;  // ContactParticles::near_on_lattice
 };
 
 /// Slip xi of a touching pair, m; zero and not touching otherwise.
@@ -36,8 +37,9 @@ struct ListedPairs {
 
 class ContactList {
  public:
-  /// `radius`: [n_rags], m.
-  ContactList(std::vector<double> radius, double skin);
+  ContactList(const std::vector<Rag>& rags, double skin);
+  /// Distance of two centres beyond which no pair is listed, m.
+  double cutoff() const { return furthest_ + skin_; }
 
   /// New list from the marked positions; pairs that are still near keep their slip, and pairs that were stored take theirs. Marks the rows
   /// that are near.
@@ -55,8 +57,8 @@ class ContactList {
   void sort_into_cells(const ContactParticles& particles);
   void find_partners(const ContactParticles& particles, int p, ListedPairs listed);
 
-  std::vector<double> radius_;
-  double skin_, largest_radius_ = 0;
+  const std::vector<Rag>* rags_;
+  double skin_, furthest_ = 0;  // m; over all pairs of rags
   std::vector<StoredSlip> stored_;
   // cells: x fastest, one empty layer around, so that the neighbours of a cell in a row of cells are one range of `sorted_`
   Vec3 origin_;

@@ -33,9 +33,11 @@ ContactPair particle_pair(const Rag& a, const Rag& b, const ContactSettings& set
                          settings);
   pair.rolling = {settings.rolling_friction * R, a.inertia * b.inertia / (a.inertia + b.inertia)};
   pair.reach = a.layer_reach() + b.layer_reach();
-  pair.arm_1 = a.layer_reach() / pair.reach;
-  pair.arm_2 = b.layer_reach() / pair.reach;
-  pair.smaller_radius = std::min(a.layer_reach(), b.layer_reach());
+  pair.share_1 = a.layer_reach() / pair.reach;
+  pair.share_2 = b.layer_reach() / pair.reach;
+  pair.radius_1 = a.radius, pair.radius_2 = b.radius;
+  pair.cutoff = contact_distance(a, b);
+  pair.smaller_reach = std::min(a.layer_reach(), b.layer_reach());
   return pair;
 }
 
@@ -50,8 +52,9 @@ ContactPair wall_pair(const Rag& rag, const ContactSettings& settings) {
                           .with_wall = true},
                          settings);
   pair.rolling = {settings.wall_rolling_friction * rag.radius, rag.inertia};
-  pair.reach = pair.smaller_radius = rag.wall_reach();
-  pair.arm_1 = 1;
+  pair.reach = pair.smaller_reach = rag.wall_reach();
+  pair.share_1 = 1;
+  pair.radius_1 = rag.radius;
   return pair;
 }
 

@@ -11,8 +11,14 @@
 namespace snag {
 
 /// A pair of particles, or a particle and a wall.
-struct ContactPair : ContactGeometry {
+struct ContactPair {
   std::shared_ptr<const PairLaw> law;
+  RollingFriction rolling;
+  double reach = 0;  // distance of the surfaces below which they touch: l_1 + l_2, or l_1 of a wall, m (l: Rag::layer_reach, wall_reach)
+  double share_1 = 0, share_2 = 0;    // of the distance of the surfaces, where the contact point lies: l_1/(l_1 + l_2), l_2/(l_1 + l_2)
+  double radius_1 = 0, radius_2 = 0;  // r_p, m
+  double cutoff = 0;                  // distance of the centres beyond which they never touch, m
+  double smaller_reach = 0;           // of l_1, l_2, m
 };
 
 // The surface of cloth lies half its contact thickness from the particles, which are cells of the cloth, (2 r_p)^2 wide: that thickness

@@ -6,7 +6,21 @@
 #include <limits>
 #include <map>
 
+#include "dem/bonds/elastic_bond.hpp"
+
 namespace snag {
+
+namespace {
+
+ParticleSurface surface_of(const Tile& tile, int k) {
+  const double w = tile.field(Tile::qw)[k];
+  const auto [x, y, z] = tile.vector(Tile::qx, k);
+  const auto mark = [](double bond) { return static_cast<float>(bond); };
+  const Vec3 a = carried_direction<0>(w, x, y, z), b = carried_direction<1>(w, x, y, z);
+  return {a, b, {mark(tile.bond_x[k - 1]), mark(tile.bond_x[k])}, {mark(tile.bond_y[k - tile.stride]), mark(tile.bond_y[k])}, cross(a, b)};
+}
+
+}  // namespace
 
 bool ContactParticles::holds(std::span<Tile* const> owned, std::span<const Tile* const> ghosts) const {
   if (pieces_.size() != owned.size() + ghosts.size()) return false;
@@ -48,7 +62,7 @@ void ContactParticles::assign(std::span<Tile* const> owned, std::span<const Tile
   for (std::size_t i = 0; i < owned.size(); ++i) number[owned[i]] = i;
   for (std::size_t r = 0; r < rows.size(); ++r)
     if (rows[r].owned) rows_of_[number[rows[r].owned]].push_back(static_cast<int>(r));
-  position.resize(n), motion.resize(n), load.resize(n), present.resize(n);
+  position.resize(n), surface.resize(n), motion.resize(n), load.resize(n), present.resize(n);
   marked_x_.resize(n), marked_y_.resize(n), marked_z_.resize(n);
 }
 
@@ -163,10 +177,17 @@ bool ContactParticles::bonded(int p, int q) const {
   const int right = b.column + q - b.first - (a.column + p - a.first), up = b.lattice_row - a.lattice_row;
   const bool along_row = right == 1 && up == 0, between_rows = right == 0 && up == 1;
   if (!along_row && !between_rows) return false;
-  // Masks of ghosts may be out of date: read those of the owned end, which holds its bonds to the ring as well.
+  // Bonds of ghosts may be those at birth here: read those of the owned end, which holds its bonds to the ring as well.
   const Tile& tile = a.owned ? *a.tile : *b.tile;
   const int k = a.owned ? place(p) : place(q) - (along_row ? 1 : tile.stride);
   return (along_row ? tile.bond_x : tile.bond_y)[k] > 0;
+}
+
+bool ContactParticles::near_on_lattice(int p, int q) const {
+  constexpr int nearest = 3;  // places: a crease of three bonds turns back on itself, and its particles lie in each other's planes
+  const ParticleRow &a = rows[row_of[p]], &b = rows[row_of[q]];
+  return a.tile->rag == b.tile->rag && std::abs(b.column + q - b.first - (a.column + p - a.first)) <= nearest &&
+         std::abs(b.lattice_row - a.lattice_row) <= nearest;
 }
 
 void ContactParticles::gather() {
@@ -178,6 +199,7 @@ void ContactParticles::gather() {
       position[row.first + i] = {field[Tile::x][i], field[Tile::y][i], field[Tile::z][i]};
       motion[row.first + i] = {field[Tile::vx][i], field[Tile::vy][i], field[Tile::vz][i], 0,
                                field[Tile::wx][i], field[Tile::wy][i], field[Tile::wz][i]};
+      surface[row.first + i] = surface_of(*row.tile, row.place + i);
     }
   }
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "dem/contacts/surface_contact.hpp"
 #include "dem/particles/integrator.hpp"
 #include "dem/particles/rag.hpp"
 #include "dem/particles/tile.hpp"
@@ -34,6 +35,10 @@ struct alignas(64) ParticleMotion {
 };
 struct alignas(64) ParticleLoad {
   double fx = 0, fy = 0, fz = 0, unused = 0, tx = 0, ty = 0, tz = 0, unused_t = 0;
+  void add(const Vec3& force, const Vec3& torque) {
+    fx += force.x, fy += force.y, fz += force.z;
+    tx += torque.x, ty += torque.y, tz += torque.z;
+  }
 };
 
 class ContactParticles {
@@ -57,7 +62,7 @@ class ContactParticles {
   /// True if bonds of an owned tile broke since mark_positions.
   bool bonds_changed() const;
 
-  /// Gather positions and velocities of rows that are near others.
+  /// Gather positions, surfaces and velocities of rows that are near others.
   void gather();
   /// Clear the loads of rows that are near others or walls / add them to the owned tile that was given to assign as number i.
   void clear_loads();
@@ -70,10 +75,14 @@ class ContactParticles {
   std::int64_t id(int p) const { return rows[row_of[p]].id + p - rows[row_of[p]].first; }
   /// True if p < q are neighbours on the lattice of one rag with a whole bond between them.
   bool bonded(int p, int q) const;
+  /// True if two particles are of one rag and so near on its lattice that the surface which either carries holds the other: those touch as
+  /// spheres, when the cloth is sheared or creased enough.
+  bool near_on_lattice(int p, int q) const;
 
   std::vector<ParticleRow> rows;           // sorted by id
   std::vector<int> row_of;                 // [n]
   std::vector<ParticlePosition> position;  // [n] m; of near rows, or of all right after mark_positions
+  std::vector<ParticleSurface> surface;    // [n] of near rows
   std::vector<ParticleMotion> motion;      // [n] m/s, rad/s; of near rows
   std::vector<ParticleLoad> load;          // [n] N, N m; of rows near others or walls
   std::vector<char> is_owned;              // [n]

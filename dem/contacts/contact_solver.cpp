@@ -23,12 +23,6 @@ double largest_radius(const std::vector<Rag>& rags) {
   return largest;
 }
 
-std::vector<double> radii(const std::vector<Rag>& rags) {
-  std::vector<double> all;
-  for (const Rag& rag : rags) all.push_back(rag.radius);
-  return all;
-}
-
 void check_rag(const Rag& rag) {
   const auto demand = [&](bool holds, const char* what, double value, const char* rule) {
     if (!holds)
@@ -46,7 +40,7 @@ void check_rag(const Rag& rag) {
 
 struct ContactSolver::State {
   State(const ContactSettings& s, const std::vector<Rag>& r, const WallSet* w)
-      : settings(s), rags(&r), skin(s.skin_over_radius * largest_radius(r)), particles(r), list(radii(r), skin), forces(r, s) {
+      : settings(s), rags(&r), skin(s.skin_over_radius * largest_radius(r)), particles(r), list(r, skin), forces(r, s) {
     if (w && !w->empty()) walls.emplace(r, s, *w);
     measures.max_wall_overlap_over_radius.assign(r.size(), 0);
     measures.beyond_walls.assign(r.size(), 0);
@@ -162,7 +156,7 @@ void ContactSolver::State::add_wall_forces(double step, std::vector<HeldParticle
   }
 }
 
-double ContactSolver::cutoff() const { return 2 * largest_radius(*state_->rags) + state_->skin; }
+double ContactSolver::cutoff() const { return state_->list.cutoff(); }
 double ContactSolver::skin() const { return state_->skin; }
 
 namespace {
@@ -182,7 +176,8 @@ StepLimit step_limit(const std::vector<Rag>& rags, const std::vector<ContactPair
     limit.lower(rayleigh_fraction * rayleigh_time(rag), "Rayleigh time of the particles of rag \"" + rag.name + "\"");
   const std::string impact = " at impact_speed = " + number_text(speed) + " m/s";
   for (const ContactPair& pair : pairs)
-    limit.lower(pair.law->stable_step(speed), "contact of particles of radius " + number_text(pair.smaller_radius) + " m" + impact);
+    limit.lower(pair.law->stable_step(speed),
+                "contact of particles of radius " + number_text(std::min(pair.radius_1, pair.radius_2)) + " m" + impact);
   for (std::size_t i = 0; i < walls.size(); ++i)
     limit.lower(walls[i].law->stable_step(speed), "contact of rag \"" + rags[i].name + "\" with a wall" + impact);
   return limit;

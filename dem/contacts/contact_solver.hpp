@@ -1,6 +1,7 @@
 #pragma once
 // Contacts of particles that are not bonded to each other, and of particles with walls: Hertz-Mindlin with tangential history, Coulomb
-// limit and rolling friction (laws: laws/, rolling_friction.hpp; search: contact_list.hpp, wall_contacts.hpp).
+// limit and rolling friction (laws: laws/, rolling_friction.hpp; where two pieces touch: surface_contact.hpp; search: contact_list.hpp,
+// wall_contacts.hpp).
 //
 // Two particles may touch when they belong to different rags, or to one rag without a whole bond between them: so neighbours on the lattice
 // touch once their bond broke, and diagonal neighbours (2 sqrt2 r apart at rest) when the cloth is sheared enough.

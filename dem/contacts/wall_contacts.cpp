@@ -18,12 +18,13 @@ namespace {
 constexpr double allowance_over_radius = 4, path_over_radius = 1;
 }  // namespace
 
-struct WallContacts::Block : WallBlock {
+struct WallContacts::Block : ContactBlock {
   struct Place {
     int particle, body, part;
     std::int64_t id;
     Vec3 direction;  // frame of the wall
     Vec3 point;      // of the contact, m
+    Vec3 arm;        // from the particle to it, m
   };
   const ContactPair* pair = nullptr;
   Place place[contact_block_size];
@@ -220,8 +221,8 @@ void WallContacts::put(ContactParticles& particles, const Particle& p, const Tou
   const int c = block.n++;
   const WallBody& body = walls_->bodies()[touch.body];
   const int part = body.planes.empty() ? surfaces_[touch.body].part(touch.triangle) : body.planes[touch.triangle].part;
-  block.place[c] = {p.number, touch.body, part, p.id, direction, p.x + arm};
-  block.distance[c] = s;
+  block.place[c] = {p.number, touch.body, part, p.id, direction, p.x + arm, arm};
+  block.overlap[c] = std::min(radius - s, 2 * radius), block.weight[c] = 1;
   snag::put(block.normal, c, n);
   snag::put(block.velocity, c, p.v + cross(p.w, arm) - (moves ? pose.velocity_at(p.x + arm) : Vec3{}));
   snag::put(block.spin, c, p.w - pose.spin);
@@ -233,24 +234,17 @@ void WallContacts::put(ContactParticles& particles, const Particle& p, const Tou
 void WallContacts::evaluate(ContactParticles& particles) {
   Block& block = *block_;
   if (block.n == 0) return;
-  block.pair->law->evaluate(block, *block.pair, step_);
+  block.pair->law->evaluate(block, block.pair->rolling, step_);
   for (int c = 0; c < block.n; ++c) {
     const Block::Place& place = block.place[c];
     ParticleLoad& load = particles.load[place.particle];
-    load.fx += block.force[0][c], load.fy += block.force[1][c], load.fz += block.force[2][c];
-    load.tx += block.torque[0][c], load.ty += block.torque[1][c], load.tz += block.torque[2][c];
-    if (step_ > 0) {
-      const Vec3 normal = snag::get(block.normal, c), force = snag::get(block.force, c);
-      impulses[place.part].add({.point = place.point,
-                                .normal = normal,
-                                .force = force,
-                                .rolling_torque = snag::get(block.torque, c) - cross(block.distance[c] * normal, force)},
-                               poses_[place.body], axes_[place.body], step_);
-    }
-    if (held_) {
-      const double overlap = std::max(block.pair->reach - block.distance[c], 0.0);
-      (*held_)[place.particle].add(snag::get(block.normal, c), block.pair->law->rates(overlap, step_));
-    }
+    const Vec3 normal = snag::get(block.normal, c), force = snag::get(block.force, c), rolling = snag::get(block.rolling, c);
+    load.add(force, cross(place.arm, force) + rolling);
+    if (step_ > 0)
+      impulses[place.part].add({.point = place.point, .normal = normal, .force = force, .rolling_torque = rolling}, poses_[place.body],
+                               axes_[place.body], step_);
+    if (held_)
+      (*held_)[place.particle].add(normal, block.pair->law->rates(block.overlap[c], step_), (1 / block.pair->radius_1) * place.arm);
     const Vec3 slip = snag::get(block.slip, c);
     slips.push_back(
         {place.id, place.body, place.direction, walls_->bodies()[place.body].motion.moves() ? poses_[place.body].turned_back(slip) : slip});

@@ -1,6 +1,8 @@
 #pragma once
 // One piece of cloth: its lattice, its place, and the properties that all its particles and bonds share.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -66,6 +68,13 @@ struct Rag {
   /// Distance from a wall below which a particle touches it, and its share of that from another particle, m.
   double wall_reach() const { return contact_thickness > 0 ? contact_thickness / 2 : radius; }
   double layer_reach() const { return layer_thickness > 0 ? layer_thickness / 2 : radius; }
+  /// Along the sheet, how far from a particle another piece may touch the surface that it carries, m.
+  double surface_reach() const { return 2 * radius * std::sqrt((n_columns > 1 ? 1.0 : 0.0) + (n_rows > 1 ? 1.0 : 0.0)); }
 };
+
+/// Distance of the centres below which particles of two rags may touch, m.
+inline double contact_distance(const Rag& a, const Rag& b) {
+  return std::hypot(std::max(a.surface_reach(), b.surface_reach()), a.layer_reach() + b.layer_reach());
+}
 
 }  // namespace snag

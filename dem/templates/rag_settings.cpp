@@ -176,7 +176,7 @@ void add_contacts(RagSettings& s, Records& r) {
     r.push_back(
         number("layer_thickness", &s.layer_thickness, "m", 1e-7, Basis::assumed,
                "Distance of layers of cloth that lie on each other, at most 2 r_p, the default. Below sqrt(2) r_p the particles of one "
-               "layer fit through the lattice of the other."));
+               "layer fit through the lattice of the other where the two meet at more than 37 degrees."));
   }
   const auto friction = [&](const char* key, std::optional<double>* target, const char* meaning) {
     r.push_back({.key = key, .target = target, .minimum = 0, .maximum = 10, .basis = Basis::assumed, .meaning = meaning});
@@ -186,8 +186,7 @@ void add_contacts(RagSettings& s, Records& r) {
            "cloth on steel: 0.2 to 1.3; sources in the tutorial on cloth.");
   friction("cloth_friction", &s.cloth_friction,
            "Coulomb coefficient with cloth, its own and that of other pieces; of two different ones the geometric mean counts; not given: "
-           "[contact] static_friction. Wet textiles: 0.15 to 0.85; sources in the tutorial on cloth. The particles of one cloth also catch "
-           "in the hollows of another, which holds more than this (same tutorial).");
+           "[contact] static_friction. Wet textiles: 0.15 to 0.85; sources in the tutorial on cloth.");
   r.push_back({.key = "poisson_ratio",
                .target = &s.poisson_ratio,
                .minimum = 0,

@@ -22,10 +22,11 @@ const ContactBodies soft{
 
 /// Force on the first of two particles whose centres are `r` apart, at relative velocity u and slip xi; and the slip after it.
 ContactForce between(const PairLaw& law, const Vec3& r, const Vec3& u, const Vec3& xi, double step) {
-  PairBlock block;
+  ContactBlock block;
   block.n = 1;
-  put(block.x, 0, r), put(block.v, 0, u), put(block.slip, 0, xi);
-  law.evaluate(block, ContactGeometry{.rolling = {}, .reach = reach, .arm_1 = 0.5, .arm_2 = 0.5, .smaller_radius = reach / 2}, step);
+  put(block.normal, 0, unit(r)), put(block.velocity, 0, u), put(block.slip, 0, xi);
+  block.overlap[0] = std::max(reach - norm(r), 0.0), block.weight[0] = 1;
+  law.evaluate(block, {}, step);
   const Vec3 force = get(block.force, 0);
   return {force, -dot(force, unit(r)), get(block.slip, 0)};
 }

@@ -11,48 +11,56 @@
 namespace snag {
 namespace {
 
-/// The block A of dem/contacts/held_particle.hpp, of stiffness alone, written out: a contact strains its normal spring by n.u and its
-/// tangential one by (1 - n n')(u + sqrt(q) w x n).
-double largest_eigenvalue(const std::vector<Vec3>& normals, double s_n, double s_t) {
+struct Contact {
+  Vec3 n, arm;
+};
+
+/// The block A of dem/contacts/held_particle.hpp, of stiffness alone, written out: a contact strains its normal spring by n.y and its
+/// tangential one by (1 - n n') y, y = u + sqrt(q) w x a.
+double largest_eigenvalue(const std::vector<Contact>& contacts, double s_n, double s_t) {
   using Row = Eigen::Matrix<double, 3, 6>;
   Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
-  for (const Vec3& direction : normals) {
-    const Eigen::Vector3d n(direction.x, direction.y, direction.z);
-    const Eigen::Matrix3d nn = n * n.transpose(), across = Eigen::Matrix3d::Identity() - nn;
-    Eigen::Matrix3d turned;  // w x n = turned w
-    turned << 0, n.z(), -n.y(), -n.z(), 0, n.x(), n.y(), -n.x(), 0;
-    Row slip;
-    slip << across, std::sqrt(turning_sphere - 1) * turned;
-    Row normal = Row::Zero();
-    normal.leftCols<3>() = nn;
-    sum += s_n * normal.transpose() * normal + s_t * slip.transpose() * slip;
+  for (const Contact& contact : contacts) {
+    const Eigen::Vector3d n(contact.n.x, contact.n.y, contact.n.z), a(contact.arm.x, contact.arm.y, contact.arm.z);
+    Row strain;
+    for (int i = 0; i < 3; ++i) {
+      strain.col(i) = Eigen::Vector3d::Unit(i);
+      strain.col(3 + i) = std::sqrt(turning_sphere - 1) * Eigen::Vector3d::Unit(i).cross(a);
+    }
+    const Row along = n * (n.transpose() * strain), across = strain - along;
+    sum += s_n * along.transpose() * along + s_t * across.transpose() * across;
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(sum, Eigen::EigenvaluesOnly).eigenvalues()(5);
 }
 
-HeldParticle held_by(const std::vector<Vec3>& normals, double s_n, double s_t) {
+HeldParticle held_by(const std::vector<Contact>& contacts, double s_n, double s_t) {
   HeldParticle particle;
-  for (const Vec3& n : normals) particle.add(n, {.normal = {s_n, 0, 0}, .tangential = {s_t, 0, 0}});
+  for (const Contact& c : contacts) particle.add(c.n, {.normal = {s_n, 0, 0}, .tangential = {s_t, 0, 0}}, c.arm);
   return particle;
 }
 
 TEST(HeldParticle, OneContactIsExact) {
   // Requirement: without a stiffer normal spring one contact gives 3.5 s_t, the sliding and rolling of a sphere on its own.
-  const HeldParticle particle = held_by({{0.6, 0, 0.8}}, 1, 2);
+  const HeldParticle particle = held_by({{{0.6, 0, 0.8}, {0.6, 0, 0.8}}}, 1, 2);
   EXPECT_NEAR(particle.rates().stiffness, turning_sphere * 2, 1e-6);  // closed-form eigenvalues are good to the root of round-off
   EXPECT_EQ(particle.rates().damping, 0);
 }
 
 TEST(HeldParticle, BoundsTheEigenvaluesOfManyContacts) {
-  // Requirement: for any contacts the bound is not below the largest eigenvalue and at most half above it, and not above the coarse one.
+  // Requirement: for any contacts, wherever on the cloth around the particle, the bound is not below the largest eigenvalue and at most
+  // half above it, and not above the coarse one.
   std::mt19937 generator(7);
   std::normal_distribution<double> normal;
   double most = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    std::vector<Vec3> normals;
-    for (int c = 0; c < 1 + trial % 9; ++c) normals.push_back(unit(Vec3{normal(generator), normal(generator), normal(generator)}));
-    const double s_n = 0.2 + trial % 5, exact = largest_eigenvalue(normals, s_n, 1);
-    const HeldParticle particle = held_by(normals, s_n, 1);
+    std::vector<Contact> contacts;
+    const auto any = [&] { return Vec3{normal(generator), normal(generator), normal(generator)}; };
+    for (int c = 0; c < 1 + trial % 9; ++c) {
+      const Vec3 n = unit(any()), beside = trial % 2 == 0 ? Vec3{} : 0.5 * any();
+      contacts.push_back({n, n + beside});
+    }
+    const double s_n = 0.2 + trial % 5, exact = largest_eigenvalue(contacts, s_n, 1);
+    const HeldParticle particle = held_by(contacts, s_n, 1);
     EXPECT_GE(particle.rates().stiffness, exact * (1 - 1e-7)) << trial;
     EXPECT_LE(particle.rates().stiffness, 1.5 * exact) << trial;
     EXPECT_GE(particle.coarse_rates().stiffness, particle.rates().stiffness * (1 - 1e-7)) << trial;

@@ -112,11 +112,11 @@ TEST(Adhesion, FrictionOfPieces) {
   // Requirement: a piece's own coefficients replace those of [contact]; between two pieces the geometric mean counts.
   Rag a = testing_pieces::cloth(2, 2).rag, b = a;
   const auto limit = [](const ContactPair& pair) {
-    WallBlock block;
+    ContactBlock block;
     block.n = 1;
     put(block.normal, 0, {0, 0, -1}), put(block.velocity, 0, {1, 0, 0});
-    block.distance[0] = pair.reach - 1e-5;
-    pair.law->evaluate(block, pair, 1e-3);
+    block.overlap[0] = 1e-5, block.weight[0] = 1;
+    pair.law->evaluate(block, pair.rolling, 1e-3);
     return std::abs(block.force[0][0] / block.force[2][0]);
   };
   const ContactSettings settings;
