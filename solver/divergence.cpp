@@ -251,16 +251,16 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
   if (turn > large_turn)
     causes.push_back("the rotor turns " + rounded(turn) + " degrees a step: [time] step_ms = " + rounded(1e3 * dt * large_turn / turn) +
                      " gives 5");
+  const auto scheme = convection_schemes().make(settings_.convection, "[flow] convection");
+  if (!scheme->is_bounded() || (scheme->is_limited() && !limiters().make(settings_.limiter, "[flow] limiter")->bounds()))
+    causes.push_back("[flow] convection = \"" + settings_.convection + "\" with limiter = \"" + settings_.limiter +
+                     "\" is not bounded: use linear_upwind with limiter = \"venkatakrishnan\"");
   const CellQuality shape = quality_of_cell(mesh_, found.cell);
   if (shape.quality < poor_quality || shape.non_orthogonality_deg > oblique_faces || shape.skewness > skew_faces)
     causes.push_back("the mesh is poor at this cell: refine or optimise it there (quality above " + rounded(poor_quality) +
                      ", non-orthogonality below " + rounded(oblique_faces) + " degrees, skewness below " + rounded(skew_faces) + ")");
   if (!flow.reaction.empty() && flow.reaction[found.cell] != Vec3{})
     causes.push_back("a rag is in this cell: a wider [coupling] kernel_width softens its force on the water");
-  const auto scheme = convection_schemes().make(settings_.convection, "[flow] convection");
-  if (!scheme->is_bounded() || (scheme->is_limited() && !limiters().make(settings_.limiter, "[flow] limiter")->bounds()))
-    causes.push_back("[flow] convection = \"" + settings_.convection + "\" with limiter = \"" + settings_.limiter +
-                     "\" is not bounded: use linear_upwind with limiter = \"venkatakrishnan\"");
   const double courant = 0.5 * dt * speed_ * area_[found.cell] / mesh_.cell_volume[found.cell];
   if (turn <= large_turn && courant > large_courant)
     causes.push_back("the speed of the case gives this cell a Courant number of " + rounded(courant) +

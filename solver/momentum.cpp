@@ -67,6 +67,7 @@ Momentum::Momentum(const Mesh& mesh, const MomentumSettings& settings, Workspace
       right_side_(workspace.vector[1]),
       psi_(workspace.vector[2]),
       mean_gradient_(workspace.mean_gradient()),
+      reconstruction_(mesh),
       convection_rate_(workspace.scalar_in(workspace.vector[0], 0)),
       diffusion_rate_(workspace.scalar_in(workspace.vector[0], 1)),
       flux_(workspace.face) {
@@ -169,10 +170,11 @@ void Momentum::guess_from_last(const Flow& flow) {
 }
 
 void Momentum::limit(const Flow& flow) {
+  convected_ = scheme_->is_limited() ? &reconstruction_.of(flow.velocity_gradient) : &flow.velocity_gradient;
   if (!scheme_->is_limited()) return;
   double speed2 = 0;
   for (int c = 0; c < mesh_.n_cells; ++c) speed2 = std::max(speed2, norm_squared(flow.velocity[c]));
-  limiter_->limit(mesh_, has_periods_, flow.velocity, flow.velocity_gradient, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
+  limiter_->limit(mesh_, has_periods_, flow.velocity, *convected_, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
@@ -186,7 +188,13 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
 }
 
 FaceInputs Momentum::inputs(const Flow& flow, const std::vector<Vec3>& guess) const {
-  return {.flow = flow, .guess = guess, .flux = flux_, .gradient = flow.velocity_gradient, .psi = psi_, .in_corner = in_corner_};
+  return {.flow = flow,
+          .guess = guess,
+          .flux = flux_,
+          .gradient = flow.velocity_gradient,
+          .reconstruction = *convected_,
+          .psi = psi_,
+          .in_corner = in_corner_};
 }
 
 void Momentum::fluxes(const Flow& flow, const std::vector<Vec3>& guess, const std::vector<Vec3>& predicted, int first,

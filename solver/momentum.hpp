@@ -85,6 +85,8 @@ class Momentum {
   std::vector<Vec3>&diagonal_, &right_side_;  // [n_all_cells], the ghosts' parts are not used
   std::vector<Vec3>& psi_;                    // limiter
   MeanGradient mean_gradient_;                // for a guess of the flux
+  ReconstructionGradient reconstruction_;
+  const std::vector<Mat3>* convected_ = nullptr;  // of the last prediction
   std::span<double> convection_rate_, diffusion_rate_;
   std::vector<double>& flux_;            // F, relative to the mesh, [n_faces], m3/s
   std::vector<std::uint8_t> in_corner_;  // [n_all_cells] 1 for cells in a corner

@@ -3,7 +3,10 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/random_numbers.hpp"
+#include "base/words.hpp"
+#include "dem/templates/rag_settings.hpp"
 
 namespace snag {
 
@@ -35,6 +38,14 @@ std::vector<RagPiece> copies_of(const RagPiece& piece, const RagCopies& copies, 
   if (copies.poses > 1 && !piece.plan.crumpled())
     throw Error(ExitCode::usage, where + ": copy_poses needs pose = \"confined\" or \"hopper\", it is \"" + piece.plan.kind.word() +
                                      "\"; set pose, or remove it");
+  if (copies.count > 1 && copies.step == Vec3{} && copies.interval == 0 && release.patch.empty())
+    throw Error(ExitCode::usage, where + ": copies = " + std::to_string(copies.count) +
+                                     " would all begin at one place; give copy_step, copy_interval or release_patch");
+  const double n_particles = double(copies.count) * piece.rag.n_columns * piece.rag.n_rows;
+  if (n_particles > most_particles())
+    throw Error(ExitCode::usage, where + ": copies = " + std::to_string(copies.count) + " have " + number_text(n_particles) +
+                                     " particles, must be at most " + number_text(most_particles()) + " in the " +
+                                     number_text(physical_memory() / 1e9) + " GB of this machine; give fewer copies or a larger radius");
   std::vector<RagPiece> all(copies.count, piece);
   for (int k = 0; k < copies.count; ++k) {
     RagPiece& copy = all[k];

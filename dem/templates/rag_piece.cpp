@@ -14,6 +14,11 @@
 
 namespace snag {
 
+double most_particles() {
+  constexpr double by_counts = 2e8, bytes_per_particle = 2e3;
+  return std::min(by_counts, physical_memory() / bytes_per_particle);
+}
+
 namespace {
 
 using Shape = RagSettings::Shape;
@@ -27,12 +32,6 @@ const Passport& published_passport() {
                                   {1.5e-3, {{{3.40e8, 1.0e6, 7.86e6, 3.65e5, 0}, {1.88e8, 1.0e6, 1.59e6, 1.49e5, 0}}}},
                                   {2.0e-3, {{{1.91e8, 5.0e5, 3.15e6, 2.74e5, 0}, {1.06e8, 5.0e5, 4.05e5, 1.12e5, 0}}}}}};
   return passport;
-}
-
-/// Of one piece: beyond it the counts of a lattice no longer fit, nor does its memory.
-double most_particles() {
-  constexpr double by_counts = 2e8, bytes_per_particle = 2e3;
-  return std::min(by_counts, physical_memory() / bytes_per_particle);
 }
 
 void check_size(const RagSettings& s, const std::string& where) {

@@ -72,6 +72,9 @@ struct RagSettings {
   Section section();
 };
 
+/// Of one table: beyond it the counts of a lattice no longer fit, nor does its memory.
+double most_particles();
+
 /// The piece that settings describe. `where` stands in messages ("case.toml: [[rag]] 1"), `folder` is that of the case file, for the pose
 /// file. A pose that takes a run of its own is still to be made (make_poses, dem/poses/crumpled.hpp). Throws Error(usage, io).
 RagPiece make_piece(const RagSettings& settings, const std::string& where, const std::filesystem::path& folder = {});

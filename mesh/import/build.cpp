@@ -99,14 +99,26 @@ void warn_of_empty(const MeshParts& parts, const std::string& patch) {
                  "\" has no face on the boundary of the volume (it is empty or lies inside); water passes through it");
 }
 
+/// A wall without thickness that has the name of others.
+void warn_of_inside(const MeshParts& parts, const std::string& patch, std::int64_t n_inside) {
+  if (n_inside > 0 && rank_of(parts.comm) == 0)
+    log::warning(parts.source + ": surface \"" + patch + "\" lies inside the volume with " + std::to_string(n_inside) +
+                 " of its faces, between two cells of water; water passes through them. A wall without thickness needs nodes of its "
+                 "own on either side (gmsh: Plugin(Crack))");
+}
+
 /// Patches that keep faces somewhere, by name.
 void number_patches(const MeshParts& parts, const std::vector<LocalFace>& faces, Mesh& mesh) {
-  std::vector<std::int64_t> count(parts.patches.size(), 0), total(parts.patches.size(), 0);
-  for (const LocalFace& face : faces)
+  const std::size_t n = parts.patches.size();
+  std::vector<std::int64_t> count(2 * n, 0), total(2 * n, 0);  // on the boundary, inside
+  for (const LocalFace& face : faces) {
     if (face.neighbour < 0) ++count[face.patch];
+    if (face.name_inside >= 0 && face.owner < mesh.n_cells) ++count[n + face.name_inside];
+  }
   MPI_Allreduce(count.data(), total.data(), static_cast<int>(count.size()), MPI_INT64_T, MPI_SUM, parts.comm);
   int first = mesh.n_interior;
-  for (std::size_t p = 0; p < parts.patches.size(); ++p) {
+  for (std::size_t p = 0; p < n; ++p) {
+    if (total[p] > 0) warn_of_inside(parts, parts.patches[p], total[n + p]);
     if (total[p] == 0) {
       warn_of_empty(parts, parts.patches[p]);
       continue;

@@ -109,6 +109,7 @@ LocalFace face_of(const MeshParts& parts, std::span<const Side> group) {
     Side neighbour = first_cell[1];
     if (parts.cell_id[neighbour.cell] < parts.cell_id[owner.cell]) std::swap(owner, neighbour);
     face.neighbour = neighbour.cell;
+    if (first_cell != group.begin()) face.name_inside = group.front().index;
   } else if (first_cell != group.begin()) {
     face.patch = group.front().index;
     if (first_cell[-1].index != face.patch)
@@ -166,9 +167,11 @@ void require_names(const MeshParts& parts, const std::vector<LocalFace>& faces) 
   if (n_unnamed == 0) return;
   Vec3 where;
   for (int i = 0; i < first->n_nodes; ++i) where += parts.node[first->node[i]];
-  throw Error(ExitCode::mesh, parts.source + ": " + std::to_string(n_unnamed) + " boundary faces or more have no name, the first at " +
-                                  point_text(where / first->n_nodes) +
-                                  "; every surface of the boundary needs a name (gmsh: Physical Surface(\"wall\") = {...})");
+  throw Error(ExitCode::mesh,
+              parts.source + ": " + std::to_string(n_unnamed) + " or more faces of the boundary have no name, the first at " +
+                  point_text(where / first->n_nodes) +
+                  "; every surface of the boundary needs a name (gmsh: Physical Surface(\"wall\") = {...}). If the place lies "
+                  "inside the water, two volumes meet there without common nodes: merge them (gmsh: Coherence Mesh)");
 }
 
 }  // namespace

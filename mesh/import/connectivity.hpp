@@ -10,6 +10,7 @@ namespace snag {
 struct LocalFace {
   int owner = -1, neighbour = -1;  // cells of MeshParts; neighbour -1 on the boundary; the owner has the lower cell_id
   int patch = -1;                  // of a boundary face
+  int name_inside = -1;            // patch whose name an interior face has
   int n_nodes = 0;
   std::array<int, 4> node{-1, -1, -1,
                           -1};  // out of the owner, from the node of lowest node_id: so the same on both ranks that hold the face

@@ -64,8 +64,8 @@ void add_names(DM dm, const MeshParts& whole, const std::vector<LocalFace>& face
   DMLabel patches = nullptr;
   check_petsc(DMGetLabel(dm, patch_label, &patches), "DMGetLabel");
   for (std::size_t f = 0; f < faces.size(); ++f)
-    if (faces[f].patch >= 0)
-      check_petsc(DMLabelSetValue(patches, first_face + static_cast<PetscInt>(f), faces[f].patch), "DMLabelSetValue");
+    if (const int patch = std::max(faces[f].patch, faces[f].name_inside); patch >= 0)
+      check_petsc(DMLabelSetValue(patches, first_face + static_cast<PetscInt>(f), patch), "DMLabelSetValue");
 }
 
 void add_positions(DM dm, const MeshParts& whole, PetscInt n_cells) {

@@ -52,7 +52,8 @@ class FaceScheme : public ConvectionScheme {
     const int P = mesh.owner[f], N = mesh.neighbour[f];
     const Vec3 &S = mesh.face_vector[f], &d = mesh.delta[f];
     const double mu = flow.face_viscosity[f];
-    MomentumFlux flux{.convection = F * Scheme::high_order_part({mesh, faces.guess, faces.gradient, faces.psi}, f, F), .friction = {}};
+    MomentumFlux flux{.convection = F * Scheme::high_order_part({mesh, faces.guess, faces.reconstruction, faces.psi}, f, F),
+                      .friction = {}};
     const Mat3 G = blend(mesh.weight[f], faces.gradient[P], faces.gradient[N]);
     if (!flow.variable_viscosity)
       flux.friction -= mu * (G * (S - c * d));

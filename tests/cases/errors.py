@@ -111,6 +111,10 @@ class Mistakes(harness.CaseTest):
 
     def test_too_many_particles(self):
         self.refused(2, ["particles", "radius"], self.sheets(), "--set", "rag.0.length_mm=1e9")
+        self.refused(2, ["copies = 1000000 have", "fewer copies"], self.sheets(), "--set", "rag.0.copies=1000000", "--set", "rag.0.copy_step_m=[0, 0, 0.1]")
+
+    def test_copies_at_one_place(self):
+        self.refused(2, ["copies = 3 would all begin at one place", "copy_step"], self.sheets(), "--set", "rag.0.copies=3")
 
     def test_folder_with_a_run(self):
         case = self.sheets("end_s = 0.02", "end_s = 8e-4")

@@ -29,6 +29,19 @@ class Judgement(harness.CaseTest):
         mesh = self.mesh("box", 'cells="hexahedra"', "size_m=1", "lower_m=[0,0,0]", "upper_m=[2,1,1]")
         self.assertIn("cells                                 2\n", self.same_on_all(mesh, 0))
 
+    def test_named_faces_inside(self):
+        """A wall without thickness that has the name of another wall."""
+        lines = self.mesh("box", 'cells="hexahedra"', "size_m=1", "lower_m=[0,0,0]", "upper_m=[2,1,1]").read_text().splitlines()
+        nodes = [line.split() for line in lines[lines.index("$Nodes") + 2 : lines.index("$EndNodes")]]
+        at = {tuple(round(float(x)) for x in node[1:]): node[0] for node in nodes}
+        patch = next(line.split()[1] for line in lines if line.endswith('"y0"'))
+        count, end = lines.index("$Elements") + 1, lines.index("$EndElements")
+        lines[count] = str(int(lines[count]) + 1)
+        lines.insert(end, f"{lines[count]} 3 2 {patch} 99 {at[1, 0, 0]} {at[1, 1, 0]} {at[1, 1, 1]} {at[1, 0, 1]}")
+        mesh = self.work / "plate.msh"
+        mesh.write_text("\n".join(lines) + "\n")
+        self.assertIn('surface "y0" lies inside the volume with 1 of its faces, between two cells of water; water passes through them', self.same_on_all(mesh, 0))
+
     def test_cell_turned_inside_out(self):
         lines = self.mesh("box", 'cells="hexahedra"', "size_m=0.25", "lower_m=[0,0,0]", "upper_m=[1,1,1]").read_text().splitlines()
         first = lines.index("$Nodes") + 2

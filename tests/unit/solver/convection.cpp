@@ -64,7 +64,13 @@ Vec3 value_at_face(const ConvectionScheme& scheme, const Mesh& mesh, const Guess
   std::vector<double> fluxes(static_cast<std::size_t>(mesh.n_faces));
   fluxes[f] = flux;
   const std::vector<std::uint8_t> in_corner(n);
-  const FaceInputs inputs{.flow = flow, .guess = guess.u, .flux = fluxes, .gradient = guess.G, .psi = guess.psi, .in_corner = in_corner};
+  const FaceInputs inputs{.flow = flow,
+                          .guess = guess.u,
+                          .flux = fluxes,
+                          .gradient = guess.G,
+                          .reconstruction = guess.G,
+                          .psi = guess.psi,
+                          .in_corner = in_corner};
   scheme.add_interior(inputs, {matrix, diagonal, right_side});
   const int P = mesh.owner[f], N = mesh.neighbour[f];
   const Vec3 out = diagonal[P].x * guess.u[P] + matrix.value[matrix.place_of_owner[f]] * guess.u[N] - right_side[P];
