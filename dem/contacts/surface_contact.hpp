@@ -9,14 +9,15 @@
 //   h = (1 - |xi|/2 r)+ (1 - |eta|/2 r)+                                      share of the particle i in it
 //
 // Over the particles of a flat lattice h sums to 1 and h (xi, eta) to 0, wherever the point lies: a point on cloth is carried by the nodes
-// around it as by a bilinear finite element, and slides over them without feeling them. Particles 1 and 2 see each other so:
+// around it as by a bilinear finite element, and slides over them without feeling them. That is so where the cloth is flat over a bond; the
+// plane of one particle says nothing of cloth that bends away. So layers touch as surfaces with the share chi, which falls from 1 to 0 as
+// the angle between them grows, and otherwise as spheres. There are three views, 1 as seen from 2, 2 as seen from 1, and two spheres:
 //
-//   overlaps o_k = (l_1 + l_2 - s_k)+, weights g_k = h_k o_k of both views, n_k from 1 to 2,  N = sum g_k n_k
+//   overlaps o_k = (l_1 + l_2 - s_k)+,  g_1 = chi h_1 o_1,  g_2 = chi h_2 o_2,  g_0 = 2 (1 - chi) o_0,  n_k from 1 to 2,  N = sum g_k n_k
 //   n = N/|N|,  overlap = sum g_k o_k / sum g_k,  weight = |N|/(2 overlap),  contact point = sum g_k c_k / sum g_k
 //
-// with c_k at l/(l_1 + l_2) of the distance from the seen particle's surface. For a linear spring that is the mean of the two forces; it is
-// continuous as either view begins. Two single particles touch as spheres, with weight 1. Source of the shares: consistent nodal loads of
-// bilinear elements, as in contact smoothing of finite elements (Wriggers, Computational Contact Mechanics, 2006, chapter 6).
+// with c_k at the share l_i/(l_1 + l_2) of s_k from the particle that is seen. For a linear spring that is the mean of the forces; it is
+// continuous as any view begins. Two single particles touch as spheres, with weight 1.
 #include <algorithm>
 #include <cmath>
 
@@ -44,8 +45,8 @@ struct SurfaceContact {
 
 namespace surface_contact {
 
-// Cosines of the angle between two surfaces at which they begin to touch as such, and do so alone: 37 and 18 degrees, less than what a bond
-// of crumpled cloth bends by.
+// Cosines of the angle between two surfaces at which chi begins and is 1: 37 and 18 degrees, by choice. Where the layers of a crumpled
+// sheet met at more, their planes passed through each other.
 inline constexpr double least_parallelism = 0.8, full_parallelism = 0.95;
 inline constexpr double least_weight = 1e-9;  // above the round-off of 1 - |xi|/2 r
 

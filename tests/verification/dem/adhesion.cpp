@@ -90,7 +90,7 @@ TEST(Adhesion, UnloadedContactHoldsByFriction) {
   const Vec3 n{0, 1, 0};
   RagPiece piece = OnWall::piece();
   piece.orientation = rotation_to({1, 0, 0}, {0, 0, 1});
-  double fall[2];
+  double fall[2] = {};
   for (const bool slides : {false, true}) {
     WallSet walls;
     walls.add_plane("wall", -0.99e-3 * n, n);

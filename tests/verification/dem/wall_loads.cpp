@@ -22,7 +22,7 @@ using namespace testing_pieces;
 constexpr double g = 9.81;  // m/s2
 
 struct ClothAndWalls {
-  ClothAndWalls(MPI_Comm comm, std::vector<RagPiece> pieces, WallSet all_walls, ContactSettings settings = {})
+  ClothAndWalls(MPI_Comm comm, std::vector<RagPiece> pieces, WallSet all_walls, const ContactSettings& settings = {})
       : walls(std::move(all_walls)), rags(comm, {}, std::move(pieces)) {
     rags.set_contacts(std::make_unique<ContactSolver>(settings, rags.rags(), &walls));
   }
