@@ -26,7 +26,8 @@ class TileHalo {
     std::vector<double> out, in;
   };
 
-  /// Ghosts of the neighbours must be sized. `with_bonds`: which bonds of the ghosts are whole is kept up to date as well.
+  /// Allocate the ghosts first: the constructor sizes the messages by them. `with_bonds`: each exchange also sends the marks of whole
+  /// bonds.
   TileHalo(MPI_Comm comm, std::vector<Neighbour> neighbours, std::span<Tile> owned, std::span<Tile> ghosts, bool with_bonds);
   /// Lists what the ring of an owned tile is copied from: the tiles left, right, below and above (null at the edge of the piece).
   void add_ring(Tile& tile, const Tile* left, const Tile* right, const Tile* below, const Tile* above);

@@ -130,7 +130,8 @@ class Pile(PileTest):
     def test_they_touch_each_other(self):
         contacts = self.done.monitor("contacts")
         position, rag = harness.particles(max((self.done.folder / "rags").glob("particles_*.vtp")))
-        # On a face a particle is nearest to four others at most sqrt(2) r beside it, a diameter off: sqrt(6) r.
+        # A particle of radius r lies one layer thickness, 2 r, above another cloth. Along the cloth, the nearest of its particles is at most
+        # sqrt(2) r away. So their distance is at most sqrt(4 + 2) r.
         touching = harness.touching_particles(position, rag, math.sqrt(6) * RADIUS)
         rag_pairs = numpy.unique(touching, axis=0)
         n_touching, heap = len(numpy.unique(rag_pairs)), largest_heap(rag_pairs, self.n_piled)
