@@ -267,6 +267,27 @@ std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_
   return warnings;
 }
 
+std::string undragged_warning(const Coupling& coupling, const std::vector<Rag>& rags) {
+  bool of_particles = false, of_cloth = false, of_fibres = false;
+  for (const auto& force : coupling.forces) {
+    const ForceDescription description = force->description();
+    of_particles = of_particles || description.role == Role::drag;
+    of_cloth = of_cloth || description.name == "sheet_drag";
+    of_fibres = of_fibres || description.name == "fibre_drag";
+  }
+  if (coupling.settings.mode == CouplingSettings::Mode::none || of_particles || !(of_cloth || of_fibres)) return "";
+  const auto is_dragged = [&](const Rag& rag) {
+    return std::min(rag.n_columns, rag.n_rows) > 1 ? of_cloth : of_fibres && rag.n_particles > 1;
+  };
+  const auto rag = std::ranges::find_if_not(rags, is_dragged);
+  if (rag == rags.end()) return "";
+  const std::string laws = of_cloth && of_fibres ? "sheet_drag acts on cloth and fibre_drag on fibres"
+                           : of_cloth            ? "sheet_drag acts on cloth"
+                                                 : "fibre_drag acts on fibres";
+  return "[coupling] forces: " + laws + " alone, and \"" + rag->name +
+         "\" is neither dragged by that nor by another force; add a law of drag of single particles, \"free_stream_drag\"";
+}
+
 std::string viscous_step_warning(const Coupling& coupling, const std::vector<Rag>& rags, double step, double viscosity) {
   const double width = coupling.kernel_width(rags);
   if (!coupling.settings.two_way() || !coupling.shape->has_width() || std::ranges::none_of(rags, is_sheet)) return "";

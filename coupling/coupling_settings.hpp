@@ -60,6 +60,9 @@ std::vector<std::string> kernel_warnings(const Coupling& coupling, const std::ve
 /// force is nothing without.
 std::vector<std::string> wall_warnings(const Coupling& coupling, bool rags_know_walls, bool water_has_walls);
 
+/// A remark where the laws of drag are those of cloth or fibres alone and a piece is neither; empty otherwise.
+std::string undragged_warning(const Coupling& coupling, const std::vector<Rag>& rags);
+
 /// A remark where friction carries the impulse of a two-way cloth out of its kernel within less than a step (s) of water of this kinematic
 /// viscosity (m2/s): delta^2/nu; empty where it does not.
 std::string viscous_step_warning(const Coupling& coupling, const std::vector<Rag>& rags, double step, double viscosity);

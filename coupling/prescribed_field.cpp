@@ -5,12 +5,14 @@
 
 #include "base/case_tables.hpp"
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace snag {
 
 namespace {
 
-constexpr double water_viscosity = 1.003e-3;  // Pa s, at 20 degrees Celsius
+constexpr double rounding_of_divergence = 1e-3;  // of the gradient: numbers of a case file have three digits or more
+constexpr double water_viscosity = 1.003e-3;     // Pa s, at 20 degrees Celsius
 using namespace sampled;
 
 }  // namespace
@@ -45,6 +47,16 @@ double PrescribedFlow::viscosity() const {
   if (kinematic_viscosity) return *kinematic_viscosity * density;
   return dynamic_viscosity.value_or(water_viscosity);
 }
+
+void PrescribedFlow::check_divergence() const {
+  const double divergence = gradient[0].x + gradient[1].y + gradient[2].z;
+  const double size = std::sqrt(norm_squared(gradient[0]) + norm_squared(gradient[1]) + norm_squared(gradient[2]));
+  if (std::abs(divergence) > rounding_of_divergence * size)
+    throw Error(ExitCode::usage, "[flow]: gradient_per_s has the sum of du/dx, dv/dy and dw/dz (" + rounded(divergence) +
+                                     " 1/s), must be zero: water keeps its volume; take a third of the sum from each of them");
+}
+
+PrescribedField::PrescribedField(const PrescribedFlow& flow) : flow_(flow), viscosity_(flow.viscosity()) { flow.check_divergence(); }
 
 void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& needed) {
   needed_ = needed;

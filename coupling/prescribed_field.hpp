@@ -29,11 +29,14 @@ struct PrescribedFlow {
   double pipe_speed() const { return dot(velocity, pipe.axis); }
   /// Throws Error(usage) if both viscosities are given.
   double viscosity() const;  // mu, Pa s
+  /// Throws Error(usage) if the flow makes or takes volume.
+  void check_divergence() const;
 };
 
 class PrescribedField final : public FluidField {
  public:
-  explicit PrescribedField(const PrescribedFlow& flow) : flow_(flow), viscosity_(flow.viscosity()) {}
+  /// Throws Error(usage) for a flow that cannot be.
+  explicit PrescribedField(const PrescribedFlow& flow);
   /// Time at the start of the step that comes, s.
   void set_time(double time) { time_ = time; }
   void sample(std::span<const Tile> tiles, const SampleSet& needed) override;

@@ -30,7 +30,7 @@ constexpr double large_turn = 5;        // degrees a step; steps of 1.4 to 5.8 d
 constexpr double large_courant = 10;    // with the speed of the case through the cell
 constexpr double poor_quality = 0.1;    // 1 is a regular cell
 constexpr double oblique_faces = 70;    // degrees
-constexpr double skew_faces = 1;        // distance of the face centre from the line of centres over that line's length
+constexpr double large_skewness = 1;    // distance of the face centre from the line of centres over that line's length
 constexpr double large_backflow = 0.1;  // of the volume through a patch
 
 enum Bound : int { velocity, k, courant, pressure, lost_volume };
@@ -256,9 +256,9 @@ std::string DivergenceWatch::advice(const Flow& flow, const Finding& found, doub
     causes.push_back("[flow] convection = \"" + settings_.convection + "\" with limiter = \"" + settings_.limiter +
                      "\" is not bounded: use linear_upwind with limiter = \"venkatakrishnan\"");
   const CellQuality shape = quality_of_cell(mesh_, found.cell);
-  if (shape.quality < poor_quality || shape.non_orthogonality_deg > oblique_faces || shape.skewness > skew_faces)
+  if (shape.quality < poor_quality || shape.non_orthogonality_deg > oblique_faces || shape.skewness > large_skewness)
     causes.push_back("the mesh is poor at this cell: refine or optimise it there (quality above " + rounded(poor_quality) +
-                     ", non-orthogonality below " + rounded(oblique_faces) + " degrees, skewness below " + rounded(skew_faces) + ")");
+                     ", non-orthogonality below " + rounded(oblique_faces) + " degrees, skewness below " + rounded(large_skewness) + ")");
   if (!flow.reaction.empty() && flow.reaction[found.cell] != Vec3{})
     causes.push_back("a rag is in this cell: a wider [coupling] kernel_width softens its force on the water");
   const double courant = 0.5 * dt * speed_ * area_[found.cell] / mesh_.cell_volume[found.cell];

@@ -169,16 +169,22 @@ void Momentum::guess_from_last(const Flow& flow) {
   for (int f = 0; f < mesh_.n_faces; ++f) flux_[f] = flow.flux[f] - flow.mesh_flux[f];
 }
 
-void Momentum::limit(const Flow& flow) {
-  convected_ = scheme_->is_limited() ? &reconstruction_.of(flow.velocity_gradient) : &flow.velocity_gradient;
+void Momentum::limit(const Flow& flow, const BoundarySet& boundary) {
+  convected_ = scheme_->is_limited() ? &reconstruction_.gradient(flow.velocity_gradient) : &flow.velocity_gradient;
   if (!scheme_->is_limited()) return;
   double speed2 = 0;
   for (int c = 0; c < mesh_.n_cells; ++c) speed2 = std::max(speed2, norm_squared(flow.velocity[c]));
-  limiter_->limit(mesh_, has_periods_, flow.velocity, *convected_, std::sqrt(maximum(mesh_.comm, speed2)), psi_);
+  limiter_->limit({.mesh = mesh_,
+                   .has_periods = has_periods_,
+                   .u = flow.velocity,
+                   .G = *convected_,
+                   .reference_speed = std::sqrt(maximum(mesh_.comm, speed2)),
+                   .ranges = reconstruction_.ranges(flow.velocity, boundary.velocity_sides(), boundary.values().velocity)},
+                  psi_);
 }
 
 SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
-  limit(flow);
+  limit(flow, boundary);
   start_rows(flow, time);
   scheme_->add_interior(inputs(flow, flow.velocity), {matrix_, diagonal_, right_side_});
   add_boundary(flow, boundary);

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "solver/boundaries/boundary.hpp"
+#include "solver/convection/tetrahedra.hpp"
 #include "solver/fields/time_scheme.hpp"
 #include "solver/flux_history.hpp"
 #include "solver/operators/gradient.hpp"
@@ -71,7 +72,7 @@ class Momentum {
   void set_convection_rate();
   void set_diffusion_rate(const Flow& flow);
   double flux_share(const Flow& flow, const TimeScheme& time) const;
-  void limit(const Flow& flow);
+  void limit(const Flow& flow, const BoundarySet& boundary);
   FaceInputs inputs(const Flow& flow, const std::vector<Vec3>& guess) const;
   void start_rows(const Flow& flow, const TimeScheme& time);
   void add_boundary(Flow& flow, const BoundarySet& boundary);
@@ -85,7 +86,7 @@ class Momentum {
   std::vector<Vec3>&diagonal_, &right_side_;  // [n_all_cells], the ghosts' parts are not used
   std::vector<Vec3>& psi_;                    // limiter
   MeanGradient mean_gradient_;                // for a guess of the flux
-  ReconstructionGradient reconstruction_;
+  TetrahedronReconstruction reconstruction_;
   const std::vector<Mat3>* convected_ = nullptr;  // of the last prediction
   std::span<double> convection_rate_, diffusion_rate_;
   std::vector<double>& flux_;            // F, relative to the mesh, [n_faces], m3/s

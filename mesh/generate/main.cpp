@@ -2,9 +2,11 @@
 #include <fcntl.h>
 #include <gmsh.h>
 #include <spdlog/fmt/fmt.h>
+#include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -235,6 +237,7 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace snag;
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // `snag mesh` that is killed leaves no mesh generator behind that fills the memory
   try {
     return generate::parse_and_run(argc, argv);
   } catch (const Error& error) {

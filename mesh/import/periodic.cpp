@@ -80,7 +80,9 @@ std::vector<Record> sorted_records(const MeshParts& parts, const std::vector<Loc
                                   (record.side == 0 ? pair.second : pair.first) +
                                   "\", faces must coincide within 1e-6 of their size after the translation " +
                                   point_text(pair.translation) +
-                                  "; mesh the second patch as a copy of the first (gmsh: Periodic Surface) and check the translation");
+                                  "; mesh the second patch as a copy of the first (gmsh: Periodic Surface) and check the translation; "
+                                  "patches that a rotation joins, as of a "
+                                  "sector of a machine, are not supported: mesh the whole machine");
 }
 
 /// Partner among `second` of every record of `first`.

@@ -119,6 +119,10 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
     for (const std::string& warning :
          wall_warnings(simulation.coupled->coupling(), !simulation.walls.bodies().empty(), water_has_walls(simulation)))
       log::warning(warning);
+  if (simulation.coupled) {
+    const std::string undragged = undragged_warning(simulation.coupled->coupling(), simulation.rags->rags());
+    if (!undragged.empty()) log::warning(undragged);
+  }
   if (simulation.coupled && simulation.mesh) {
     for (const std::string& warning :
          kernel_warnings(simulation.coupled->coupling(), simulation.rags->rags(), *simulation.mesh, places_of_cloth(simulation)))

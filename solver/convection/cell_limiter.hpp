@@ -1,26 +1,12 @@
 #pragma once
-// Cell limiters: a psi in [0, 1] for which u_P + psi G (x_f - x_P) stays within [u_min, u_max] of the cell and its face neighbours.
+// Cell limiters: a psi in [0, 1] for which u_P + psi G (x_f - x_P) stays within [u_min, u_max] of the cell (velocity_range.hpp).
 //
 //   a = change to the face, G (x_f - x_P);   b = u_max - u_P where a > 0, u_min - u_P where a < 0;   psi: a function of a and b
 //
 // The minimum over faces, for each component of u by itself: one that hardly varies does not limit the others.
-#include <algorithm>
-
 #include "solver/convection/limiter.hpp"
-#include "solver/fields/face.hpp"
 
 namespace snag {
-
-/// x, y, z and a place that is not used: all components of a vector in one instruction.
-using FourValues = double __attribute__((vector_size(4 * sizeof(double))));
-inline FourValues four(const Vec3& v) { return FourValues{v.x, v.y, v.z, 0}; }
-inline FourValues least(const FourValues& a, const FourValues& b) { return b < a ? b : a; }
-inline FourValues largest(const FourValues& a, const FourValues& b) { return a < b ? b : a; }
-
-/// Weight of face f in a limiter of cell c: of a facet 1 from a quarter of the cell's face on, 0 when it is a sliver that comes or goes.
-inline double weight_in_cell(const Mesh& mesh, int f, int c) {
-  return f < mesh.first_facet ? 1 : std::min(1.0, 4 * share_of_face(mesh, f, mesh.owner[f] == c));
-}
 
 /// From the centre of cell c to that of its face f. Across a period it needs the other cell, which takes half the time of a limiter.
 inline Vec3 way_to_face(const Mesh& mesh, bool has_periods, int c, int f) {
@@ -37,14 +23,13 @@ inline Vec3 way_to_face(const Mesh& mesh, bool has_periods, int c, int f) {
 template <class Law>
 class CellLimiter : public Limiter {
  public:
-  void limit(const Mesh& mesh, bool has_periods, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
-             std::vector<Vec3>& psi) const final {
-    const double per_volume = threshold(mesh, reference_speed);
-    if (has_periods)
-      limit_cells<true>(mesh, u, G, per_volume, psi);
+  void limit(const LimiterInputs& inputs, std::vector<Vec3>& psi) const final {
+    const double per_volume = threshold(inputs.mesh, inputs.reference_speed);
+    if (inputs.has_periods)
+      limit_cells<true>(inputs, per_volume, psi);
     else
-      limit_cells<false>(mesh, u, G, per_volume, psi);
-    mesh.halo.exchange(psi);
+      limit_cells<false>(inputs, per_volume, psi);
+    inputs.mesh.halo.exchange(psi);
   }
 
  protected:
@@ -53,25 +38,18 @@ class CellLimiter : public Limiter {
 
  private:
   template <bool has_periods>
-  static void limit_cells(const Mesh& mesh, std::span<const Vec3> u, std::span<const Mat3> G, double per_volume, std::vector<Vec3>& psi) {
+  static void limit_cells(const LimiterInputs& inputs, double per_volume, std::vector<Vec3>& psi) {
+    const Mesh& mesh = inputs.mesh;
+    const std::span<const Mat3> G = inputs.G;
     const FourValues one{1, 1, 1, 1};
     for (int c = 0; c < mesh.n_cells; ++c) {
-      const FourValues here = four(u[c]);
-      FourValues highest = here, lowest = here;
-      const int first = mesh.cell_face_start[c], last = mesh.cell_face_start[c + 1];
-      for (int k = first; k < last; ++k) {
-        const int f = mesh.cell_face[k];
-        if (f >= mesh.n_interior) continue;
-        FourValues other = four(u[mesh.owner[f] + mesh.neighbour[f] - c]);
-        if (f >= mesh.first_facet) other = here + weight_in_cell(mesh, f, c) * (other - here);
-        highest = largest(highest, other), lowest = least(lowest, other);
-      }
-      const FourValues above = highest - here, below = lowest - here;
+      const FourRange range = range_of_cell(mesh, c, inputs.u, inputs.ranges);
+      const FourValues here = four(inputs.u[c]), above = range.highest - here, below = range.lowest - here;
       const FourValues along_x{G[c][0].x, G[c][1].x, G[c][2].x, 0}, along_y{G[c][0].y, G[c][1].y, G[c][2].y, 0},
           along_z{G[c][0].z, G[c][1].z, G[c][2].z, 0};
       const double e2 = per_volume * mesh.cell_volume[c];
       FourValues smallest = one;
-      for (int k = first; k < last; ++k) {
+      for (int k = mesh.cell_face_start[c]; k < mesh.cell_face_start[c + 1]; ++k) {
         const int f = mesh.cell_face[k];
         if (f >= mesh.n_interior) continue;
         const Vec3 way = way_to_face(mesh, has_periods, c, f);

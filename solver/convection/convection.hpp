@@ -29,7 +29,7 @@ struct FaceInputs {
   const std::vector<Vec3>& guess;              // of the velocity, [n_all_cells], m/s
   const std::vector<double>& flux;             // F, relative to the mesh, [n_faces], m3/s
   const std::vector<Mat3>& gradient;           // G of the guess, [n_all_cells], 1/s
-  const std::vector<Mat3>& reconstruction;     // what a scheme takes for G (ReconstructionGradient), [n_all_cells], 1/s
+  const std::vector<Mat3>& reconstruction;     // what a scheme takes for G (TetrahedronReconstruction), [n_all_cells], 1/s
   const std::vector<Vec3>& psi;                // factor of each row of G by the limiter, [n_all_cells]; 1 where the scheme takes none
   const std::vector<std::uint8_t>& in_corner;  // [n_all_cells] 1 for cells that take no explicit viscous stress
 };

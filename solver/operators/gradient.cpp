@@ -365,27 +365,4 @@ Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g) 
   return weight > 0 ? sum / weight : g[cell];
 }
 
-ReconstructionGradient::ReconstructionGradient(const Mesh& mesh) : mesh_(mesh) {
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    double n_faces = for_each_neighbour(mesh, c, [](int, double) {});
-    for (const int f : row(mesh.cell_face_start, mesh.cell_face, c)) n_faces += f >= mesh.n_interior;
-    if (std::lround(n_faces) == 4) tetrahedra_.push_back(c);
-  }
-  anywhere_ = sum(mesh.comm, static_cast<std::int64_t>(tetrahedra_.size())) > 0;
-}
-
-const std::vector<Mat3>& ReconstructionGradient::of(const std::vector<Mat3>& G) {
-  if (!anywhere_) return G;
-  gradient_ = G;
-  for (const int c : tetrahedra_) {
-    Mat3& wide = gradient_[static_cast<std::size_t>(c)];
-    const double weight = for_each_neighbour(mesh_, c, [&](int other, double share) {
-      for (std::size_t i = 0; i < 3; ++i) wide[i] += share * G[static_cast<std::size_t>(other)][i];
-    });
-    for (Vec3& row : wide) row *= 1 / (1 + weight);
-  }
-  exchange(mesh_, gradient_);
-  return gradient_;
-}
-
 }  // namespace snag

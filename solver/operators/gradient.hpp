@@ -108,24 +108,6 @@ class LeastSquares {
   bool open_anywhere_ = false, skew_anywhere_ = false;
 };
 
-/// Gradients for a linear reconstruction in the upwind cell. In tetrahedra, least squares over the four faces alone make its convection
-/// grow from round-off: a uniform stream does not stay one. So these cells take the mean of their gradient and those of their neighbours,
-/// 1/(1 + n) (G_P + sum_f share G_N), which is exact for linear fields too; others have their own.
-/// Source: Haider, Croisille and Courbet (2009), Numer. Math. 113, 555: stability on tetrahedra asks for more than the face neighbours.
-class ReconstructionGradient {
- public:
-  /// Collective.
-  explicit ReconstructionGradient(const Mesh& mesh);
-  /// Of G, [n_all_cells], ghosts filled; stays valid until the next call. G itself on a mesh without tetrahedra. Collective.
-  const std::vector<Mat3>& of(const std::vector<Mat3>& G);
-
- private:
-  const Mesh& mesh_;
-  std::vector<int> tetrahedra_;  // owned cells with four faces, a facet counts with its share
-  bool anywhere_ = false;
-  std::vector<Mat3> gradient_;  // [n_all_cells] where there are tetrahedra
-};
-
 /// Values of a scalar at the boundary faces from what is given there (value or slope, by side) and its gradient.
 void fill_boundary(const Mesh& mesh, const LeastSquares& squares, std::span<const double> phi, std::span<const Vec3> g,
                    std::span<const double> given, std::span<double> values);

@@ -66,6 +66,10 @@ class Mistakes(harness.CaseTest):
     def test_unit_of_another_dimension(self):
         self.refused(2, ["end", "m"], self.sheets("end_s = 0.02", 'end = "20 mm"'))
 
+    def test_prescribed_flow_that_makes_volume(self):
+        flow = '[flow]\nkind = "prescribed"\ngradient_per_s = [[1, 0, 0], [0, -0.5, 0], [0, 0, 0]]\n'
+        self.refused(2, ["[flow]", "gradient_per_s", "0.5 1/s", "must be zero"], self.case(TWO_SHEETS + flow))
+
     def test_run_on_without_its_condition(self):
         self.refused(2, ["run_on", "end_when_rags_left"], self.sheets(), "--set", "time.run_on_s=0.01")
 

@@ -3,8 +3,10 @@
 # processors: 2
 """Requirement: a run that was interrupted and resumed gives the summary of the uninterrupted run. A damaged checkpoint and removed monitors are reported. A second run in an output folder that is in use is refused, others leave it alone."""
 import os
+import pathlib
 import shutil
 import signal
+import time
 
 import harness
 from small_cases import CHANNEL, CHANNEL_MESH, SMALL_SHEETS
@@ -35,6 +37,22 @@ class Interrupted(harness.CaseTest):
     def test_resume_behind_the_end(self):
         whole = self.resumed_behind_the_end(self.case(SHEETS), 2)
         self.assertGreater(whole.summary["rags"][0]["projected_area_m2"], 0)
+
+    def test_mesh_generator_ends_with_its_command(self):
+        """Requirement: `snag mesh` that is killed leaves no mesh generator behind."""
+        process = harness.start(["mesh", "box", "--set", "size_m=0.015", "--out", self.work / "box.msh"])
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        while not children.read_text():
+            time.sleep(0.01)
+        generator = int(children.read_text().split()[0])
+        time.sleep(0.5)
+        self.assertIsNone(process.poll(), "a mesh of more than a million cells takes longer")
+        process.kill()
+        process.wait()
+        try:
+            harness.wait_for_the_end_of(generator, timeout=5)
+        finally:
+            process.communicate()  # ends when the generator, which has the same pipes, has ended
 
     def test_resume_when_the_rags_have_left(self):
         case = self.case(LEAVING.format(mesh=self.mesh(*CHANNEL_MESH), kernel="cell"))

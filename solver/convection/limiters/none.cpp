@@ -11,9 +11,7 @@ struct NoLimiter final : Limiter {
 
   LimiterDescription description() const override { return {"psi = 1, not bounded", ""}; }
   bool bounds() const override { return false; }
-  void limit(const Mesh&, bool, std::span<const Vec3>, std::span<const Mat3>, double, std::vector<Vec3>& psi) const override {
-    std::fill(psi.begin(), psi.end(), Vec3{1, 1, 1});
-  }
+  void limit(const LimiterInputs&, std::vector<Vec3>& psi) const override { std::fill(psi.begin(), psi.end(), Vec3{1, 1, 1}); }
 };
 const bool registered = limiters().add<NoLimiter>();
 

@@ -27,8 +27,8 @@ struct VectorVenkatakrishnan final : Limiter {
         "after Luttwak and Falcovitz 2011"};
   }
 
-  void limit(const Mesh& mesh, bool has_periods, std::span<const Vec3> u, std::span<const Mat3> G, double reference_speed,
-             std::vector<Vec3>& psi) const override {
+  void limit(const LimiterInputs& inputs, std::vector<Vec3>& psi) const override {
+    const auto& [mesh, has_periods, u, G, reference_speed, ranges] = inputs;
     const double per_volume = venkatakrishnan_threshold(mesh, reference_speed);
     std::vector<Vec3> differences;
     for (int c = 0; c < mesh.n_cells; ++c) {

@@ -172,6 +172,22 @@ TEST(CouplingSettings, WarnsOfForcesThatFindNoWall) {
   EXPECT_TRUE(warnings(R"("free_stream_drag")", false, true).empty());
 }
 
+// Requirement: a piece that is no cloth is remarked on where the law of cloth is the only drag.
+TEST(CouplingSettings, WarnsOfPiecesWithoutDrag) {
+  std::vector<Rag> rags(2);
+  rags[0].name = "cloth", rags[0].n_columns = 8, rags[0].n_rows = 6, rags[0].n_particles = 48;
+  rags[1].name = "thread", rags[1].n_columns = 8, rags[1].n_rows = 1, rags[1].n_particles = 8;
+  const auto warning = [](const std::string& forces, const std::vector<Rag>& pieces) {
+    return undragged_warning(read_coupling(CaseFile::parse("[coupling]\nforces = [" + forces + "]\n").root()), pieces);
+  };
+  EXPECT_NE(warning(R"("sheet_drag")", rags).find("\"thread\" is neither dragged"), std::string::npos);
+  EXPECT_NE(warning(R"("fibre_drag")", rags).find("\"cloth\" is neither dragged"), std::string::npos);
+  EXPECT_EQ(warning(R"("sheet_drag", "fibre_drag")", rags), "");
+  EXPECT_EQ(warning(R"("sheet_drag", "free_stream_drag")", rags), "");
+  EXPECT_EQ(warning(R"("added_mass")", rags), "");
+  EXPECT_EQ(warning(R"("sheet_drag")", {rags[0]}), "");
+}
+
 // Requirement: a two-way cloth in water so viscous that friction carries its impulse out of the kernel within a step is remarked on.
 TEST(CouplingSettings, WarnsOfLongStepsInSlowFlow) {
   std::vector<Rag> rags(1);

@@ -7,6 +7,7 @@
 
 #include "solver/convection/convection.hpp"
 #include "solver/convection/limiter.hpp"
+#include "solver/convection/tetrahedra.hpp"
 #include "solver/fields/face.hpp"
 #include "tests/sources.hpp"
 #include "tests/structured_box.hpp"
@@ -133,7 +134,7 @@ TEST(ConvectionSchemes, Bounded) {
   Guess guess = rough(mesh);
   for_each(convection_schemes(), [&](const ConvectionScheme& scheme) {
     if (!scheme.is_bounded()) return;
-    if (scheme.is_limited()) limiters().make("barth_jespersen", "test")->limit(mesh, false, guess.u, guess.G, 0, guess.psi);
+    if (scheme.is_limited()) limiters().make("barth_jespersen", "test")->limit({mesh, false, guess.u, guess.G, 0, {}}, guess.psi);
     for (int f = 0; f < mesh.first_facet; ++f)
       for (const double flux : {0.3, -0.7}) {
         const Vec3 value = value_at_face(scheme, mesh, guess, f, flux);
@@ -161,11 +162,11 @@ TEST(Limiters, Bounds) {
   const Guess guess = rough(mesh);
   for_each(limiters(), [&](const Limiter& limiter) {
     std::vector<Vec3> psi(guess.u.size(), Vec3{-1, -1, -1});
-    limiter.limit(mesh, false, guess.u, std::vector<Mat3>(guess.u.size()), 1, psi);
+    limiter.limit({mesh, false, guess.u, std::vector<Mat3>(guess.u.size()), 1, {}}, psi);
     for (const Vec3& factor : psi) EXPECT_EQ(norm(factor - Vec3{1, 1, 1}), 0);
     std::vector<Vec3> across_periods(psi);
-    limiter.limit(mesh, true, guess.u, guess.G, 0, across_periods);
-    limiter.limit(mesh, false, guess.u, guess.G, 0, psi);
+    limiter.limit({mesh, true, guess.u, guess.G, 0, {}}, across_periods);
+    limiter.limit({mesh, false, guess.u, guess.G, 0, {}}, psi);
     for (std::size_t c = 0; c < psi.size(); ++c) EXPECT_LT(norm(psi[c] - across_periods[c]), 1e-12);
     double beyond = 0, beyond_along = 0;
     for (int c = 0; c < mesh.n_cells; ++c) {
@@ -212,7 +213,7 @@ TEST(Limiters, PublishedFactors) {
   }();
   const auto factor = [&](const char* name, double y) {
     guess.G[middle] = {Vec3{2 / y, 0, 0}, {}, {}};  // the change to a neighbour is 1 m/s, that to the face 1/y
-    limiters().make(name, "test")->limit(mesh, false, guess.u, guess.G, 0, guess.psi);
+    limiters().make(name, "test")->limit({mesh, false, guess.u, guess.G, 0, {}}, guess.psi);
     return guess.psi[middle].x;
   };
   for (const double y : {0.25, 0.75, 1.25, 1.5, 4.0}) {
@@ -227,6 +228,53 @@ TEST(Limiters, PublishedFactors) {
   EXPECT_NEAR(factor("michalak_ollivier_gooch", 1e-3), 1e-3, 1e-9);     // slope 1 at y = 0
   EXPECT_NEAR(factor("michalak_ollivier_gooch", 1.5 - 1e-4), 1, 1e-7);  // slope 0 at y = 3/2
   EXPECT_EQ(factor("michalak_ollivier_gooch", 1.5), 1);
+}
+
+// Requirement: in tetrahedra, limiters of components leave a linear velocity alone up to walls whose velocity is known, and let no face lie
+// beyond the cells around, their neighbours and the boundaries of these. Within the four neighbours they cut a linear velocity.
+TEST(Limiters, Tetrahedra) {
+  const Mesh mesh = tetrahedral_box(MPI_COMM_SELF, {.upper = {1, 1, 1}, .distortion = 0.2}, {4, 3, 3});
+  const std::vector<Side> walls(mesh.patches.size(), Side::value);
+  std::vector<Vec3> given;
+  for (int f = mesh.n_interior; f < mesh.n_faces; ++f) given.push_back(Vec3{1, 2, 3} + slope * mesh.face_centre[f]);
+  TetrahedronReconstruction reconstruction(mesh);
+  const Guess smooth = linear(mesh), noise = rough(mesh);
+  std::vector<Vec3> psi(smooth.u.size());
+  const auto smallest = [&psi] {
+    double least = 1;
+    for (const Vec3& factor : psi) least = std::min({least, factor.x, factor.y, factor.z});
+    return least;
+  };
+  for (const char* name : {"barth_jespersen", "michalak_ollivier_gooch", "venkatakrishnan"}) {
+    SCOPED_TRACE(name);
+    const auto limiter = limiters().make(name, "test");
+    limiter->limit({mesh, false, smooth.u, smooth.G, 0, {}}, psi);
+    EXPECT_LT(smallest(), 0.7);
+    limiter->limit({mesh, false, smooth.u, smooth.G, 0, reconstruction.ranges(smooth.u, walls, given)}, psi);
+    EXPECT_GT(smallest(), 1 - 1e-12);
+
+    limiter->limit({mesh, false, noise.u, noise.G, 0, reconstruction.ranges(noise.u, walls, given)}, psi);
+    double beyond = 0;
+    for (int c = 0; c < mesh.n_cells; ++c) {
+      Vec3 low = noise.u[c], high = noise.u[c];
+      const auto include = [&](const Vec3& u) {
+        for (int i = 0; i < 3; ++i) low[i] = lowest(low[i], u[i]), high[i] = highest(high[i], u[i]);
+      };
+      const auto include_around = [&](int cell) {
+        include(noise.u[cell]);
+        for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell))
+          include(f < mesh.n_interior ? noise.u[mesh.owner[f] + mesh.neighbour[f] - cell] : given[f - mesh.n_interior]);
+      };
+      include_around(c);
+      for_each_neighbour(mesh, c, [&](int other, double) { include_around(other); });
+      for (const int f : row(mesh.cell_face_start, mesh.cell_face, c)) {
+        if (f >= mesh.n_interior) continue;
+        const Vec3 value = noise.u[c] + scaled(psi[c], noise.G[c] * (mesh.face_centre[f] - mesh.cell_centre[c]));
+        for (int i = 0; i < 3; ++i) beyond = std::max({beyond, value[i] - high[i], low[i] - value[i]});
+      }
+    }
+    EXPECT_LT(beyond, 1e-13);
+  }
 }
 
 // Requirement: the factors of the limiter of vectors are the same where all velocities are turned; those of components are not.
@@ -244,8 +292,8 @@ TEST(Limiters, VectorsTurn) {
   const auto largest_change = [&](const char* name) {
     const auto limiter = limiters().make(name, "test");
     std::vector<Vec3> psi(u.size()), turned(u.size());
-    limiter->limit(mesh, false, guess.u, guess.G, 0.1, psi);
-    limiter->limit(mesh, false, u, G, 0.1, turned);
+    limiter->limit({mesh, false, guess.u, guess.G, 0.1, {}}, psi);
+    limiter->limit({mesh, false, u, G, 0.1, {}}, turned);
     double largest = 0;
     for (std::size_t c = 0; c < u.size(); ++c) largest = std::max(largest, norm(turned[c] - psi[c]));
     return largest;
