@@ -20,6 +20,7 @@ import unittest
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkCellCenters
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPUnstructuredGridReader
 
 BINARY_DIR = pathlib.Path(os.environ["SNAG_BINARY_DIR"])
@@ -215,6 +216,13 @@ def read_vtk(file):
     reader.SetFileName(str(file))
     reader.Update()
     return reader.GetOutput()
+
+
+def cell_centres(grid):
+    centres = vtkCellCenters()
+    centres.SetInputData(grid)
+    centres.Update()
+    return vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
 
 
 def arrays(attributes):

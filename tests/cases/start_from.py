@@ -3,8 +3,6 @@
 # processors: 3
 """Requirement: a run that starts from another one begins with its water, on any number of ranks and, where asked, on another mesh; what cannot be read is refused."""
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkCellCenters
 
 import harness
 from small_cases import CHANNEL_OUTLET_AND_WALLS
@@ -42,10 +40,7 @@ class Water:
 
     def __init__(self, file):
         grid = harness.read_vtk(file)
-        centres = vtkCellCenters()
-        centres.SetInputData(grid)
-        centres.Update()
-        self.centre = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
+        self.centre = harness.cell_centres(grid)
         order = numpy.lexsort(numpy.round(self.centre, 6).T)
         self.centre = self.centre[order]
         self.field = {name: values[order] for name, values in harness.arrays(grid.GetCellData()).items()}
