@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/geometry.hpp"
 #include "parallel/sum.hpp"
 
 namespace snag {
@@ -20,7 +21,8 @@ std::vector<Opening> openings(const Mesh& mesh, const BoundarySet& boundary) {
     }
     Opening opening{patch.name, sum(mesh.comm, moments) / sum(mesh.comm, areas), unit(sum(mesh.comm, vectors)), 0, leads_out};
     double radius = 0;
-    for (int f = patch.first; f < patch.end(); ++f) radius = std::max(radius, norm(mesh.face_centre[f] - opening.centre));
+    for (int f = patch.first; f < patch.end(); ++f)
+      for (const int node : row(mesh.face_node_start, mesh.face_node, f)) radius = std::max(radius, norm(mesh.node[node] - opening.centre));
     opening.radius = maximum(mesh.comm, radius);
     found.push_back(opening);
   }

@@ -16,6 +16,8 @@
 #include "dem/walls/walls.hpp"
 #include "parallel/session.hpp"
 #include "simulation/output/rag_forces.hpp"
+#include "simulation/setup/boundary_openings.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {
@@ -374,6 +376,22 @@ TEST(RagForces, QuantilesOfMagnitudes) {
   EXPECT_EQ(spread.n_in_contact, 10);
   EXPECT_EQ(spread.contact.mean, 5.5);
   EXPECT_EQ(spread.contact.largest, 10);
+}
+
+// Requirement: an opening reaches as far as its patch does, also where that is a single face.
+TEST(Openings, HoldTheirPatch) {
+  for (const int n : {1, 3}) {
+    const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {3, 0.6, 0.8}, {4, n, n});
+    const BoundarySet boundary(mesh, read_boundaries(CaseFile::parse("[[boundary]]\npatch = \"x1\"\nkind = \"pressure_outlet\"\n"
+                                                                     "[[boundary]]\npatches = [\"x0\", \"y0\", \"y1\", \"z0\", \"z1\"]\n"
+                                                                     "kind = \"wall\"\n")
+                                                         .root()));
+    const auto found = openings(mesh, boundary);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].name, "x1");
+    EXPECT_NEAR(found[0].radius, 0.5, 1e-12);
+    EXPECT_LT(norm(found[0].centre - Vec3{3, 0.3, 0.4}), 1e-12);
+  }
 }
 
 }  // namespace
