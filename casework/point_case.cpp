@@ -25,7 +25,6 @@ struct PointCase::Tree {
 
 namespace {
 
-constexpr const char* flow_field = "flow.amplitude";
 constexpr const char* drag_slope = "drag_law_uncertainty.slope";
 const std::map<std::string, std::string> former_inputs{{"drag_form", drag_law_uncertainty},
                                                        {"drag_form_of_point", drag_law_uncertainty_per_point}};

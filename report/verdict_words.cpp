@@ -64,7 +64,11 @@ std::string correction(const Verdict& v, const std::string& name) {
   if (kind == "frame_rate") return "Correct the frame rate of the data: relative error" + strength + ".";
   if (kind == "scale") return "Calibrate the points " + of + " again: relative error" + strength + ".";
   if (kind == "offset") return "Calibrate " + of + " again: offset" + strength + ".";
-  if (kind == "input") return "Look up or measure " + of + " again: relative error of the case's value" + strength + ".";
+  if (kind == "input") {
+    const std::size_t at = of.find('@');
+    const std::string where = at == std::string::npos ? "" : " at " + of.substr(at + 1);
+    return "Look up or measure " + of.substr(0, at) + where + " again: relative error of the case's value" + strength + ".";
+  }
   if (kind == "measurement") return "Calibrate the camera again: relative error of its scale" + strength + ".";
   return "";
 }

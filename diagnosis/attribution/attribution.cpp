@@ -24,7 +24,9 @@ Attribution Attributor::attribute() {
   identify(screening);
   std::vector<int> other_names;
   for (const int k : candidates_)
-    if (is_effect_by_another_name(screening, k)) other_names.push_back(k), forget(model_.effects()[k].name);
+    if (is_effect_by_another_name(screening, k)) other_names.push_back(k);
+  find_same_inputs(screening, other_names);
+  for (const int k : other_names) forget(model_.effects()[k].name);
   const auto is_other_name = [&](int k) { return std::count(other_names.begin(), other_names.end(), k) > 0; };
   std::erase_if(live, is_other_name), std::erase_if(candidates_, is_other_name);
   // What the data do not show is the base model under another name: friction of what touches nothing is no hypothesis.

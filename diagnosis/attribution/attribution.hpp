@@ -44,8 +44,9 @@ struct Attribution {
   Identifiability identifiability;
   double placebo_rate = 0;
   std::vector<std::string> notes{};
-  std::map<std::string, LocalCause> local{};  // by name of the effect
-  std::map<int, int> other_name_of{};         // effect -> the one of the verdict that is the same cause (same_cause.hpp)
+  std::map<std::string, LocalCause> local{};     // by name of the effect
+  std::map<int, int> other_name_of{};            // effect -> the one of the verdict that is the same cause (same_cause.hpp)
+  std::map<int, std::vector<int>> same_input{};  // effect -> wrong inputs that have its signature and are no hypotheses
 
   /// The effects of a fit, each by its name in the verdict, in order, once.
   std::vector<int> causes_of(int fit) const;

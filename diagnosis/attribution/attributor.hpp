@@ -68,8 +68,11 @@ class Attributor {
   /// screening as much as from that effect alone, whose evidence is that of all places already.
   double screened_share_of_places(const Hypothesis& hypothesis) const;
   double fitted_share_of_places(const Fit& fit);
-  /// An input that does the same as an effect (the flow of all points as operating_point, the drag law as drag_magnitude) is that effect.
+  /// A mistake that does the same as an effect (the flow of all points as operating_point, the viscosity of slow flow as drag_magnitude) is
+  /// that effect.
   bool is_effect_by_another_name(const Screening& screening, int k) const;
+  /// Of these other names, the inputs whose difference from an effect the data cannot show.
+  void find_same_inputs(const Screening& screening, const std::vector<int>& other_names);
   void forget(const std::string& name);
   void identify(const Screening& screening);
   std::vector<Screened> screened_singles(const Screening& screening);

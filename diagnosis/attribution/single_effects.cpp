@@ -102,11 +102,40 @@ void Attributor::add(Fit fit) {
   result_.fits.push_back(std::move(fit));
 }
 
+namespace {
+
+constexpr double same_signature = 0.999;  // cosine
+constexpr const char* operating_point = "operating_point";
+
+}  // namespace
+
 bool Attributor::is_effect_by_another_name(const Screening& screening, int k) const {
-  constexpr double same = 0.999;
-  return model_.effects()[k].is_mistake && !model_.effects()[k].fixed &&
-         std::any_of(candidates_.begin(), candidates_.end(),
-                     [&](int other) { return !model_.effects()[other].is_mistake && std::abs(screening.cosine(k, other)) > same; });
+  if (!model_.effects()[k].is_mistake || model_.effects()[k].fixed) return false;
+  const Mistake* mistake = model_.mistake(k);
+  const bool is_whole_flow = mistake != nullptr && mistake->input == flow_field;
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](int other) {
+    const Effect& effect = model_.effects()[other];
+    if (effect.is_mistake) return false;
+    // Both scale the whole flow. Their signatures may differ, because they are of different strengths. An alternative (fixed) may have this
+    // name and be something else.
+    if (is_whole_flow && effect.name == operating_point && !effect.fixed) return true;
+    return std::abs(screening.cosine(k, other)) > same_signature;
+  });
+}
+
+void Attributor::find_same_inputs(const Screening& screening, const std::vector<int>& other_names) {
+  for (const int input : other_names) {
+    const Mistake* mistake = model_.mistake(input);
+    if (mistake == nullptr || mistake->kind != Mistake::Kind::input) continue;
+    for (const int k : candidates_) {
+      const Effect& effect = model_.effects()[k];
+      // These two effects mean that inputs of the flow are wrong.
+      if (effect.is_mistake || effect.name == operating_point || effect.name == "flow_error") continue;
+      const double cosine = screening.cosine(input, k), least = std::min(screening.detectability(input), screening.detectability(k));
+      if (std::abs(cosine) > same_signature && least * std::sqrt(std::max(0.0, 1 - cosine * cosine)) < blind_detectability)
+        result_.same_input[k].push_back(input);
+    }
+  }
 }
 
 void Attributor::forget(const std::string& name) {

@@ -81,35 +81,62 @@ Interpolated at_time(const Path& path, double t) {
 
 }  // namespace
 
+namespace {
+
+/// Points that state an input as uncertain.
+struct StatedInput {
+  std::map<int, double> variance;        // of the relative deviation, by point
+  std::set<std::vector<int>> one_value;  // points with the same value of it
+};
+
+std::ptrdiff_t n_training(const Experiment& experiment, const std::vector<int>& points) {
+  return std::count_if(points.begin(), points.end(), [&](int p) { return !experiment.points[static_cast<std::size_t>(p)].withheld; });
+}
+
+/// A value that is wrong is so by a multiple of what was thought to be possible; u: largest standard uncertainty of these points.
+Mistake wrong_input(const std::string& key, const std::string& name, const StatedInput& stated, const std::vector<int>& points) {
+  constexpr double multiple = 10, named_from = 3;
+  double variance = 0;
+  for (const int p : points) variance = std::max(variance, stated.variance.at(p));
+  const double u = std::sqrt(variance);
+  return {.effect = {.name = name,
+                     .parameter = "relative error of " + key,
+                     .mean = 0,
+                     .sd = multiple * u,
+                     .minimum = -0.9,
+                     .maximum = 9,
+                     .least = named_from * u,
+                     .is_mistake = true},
+          .input = key,
+          .points = points};
+}
+
+}  // namespace
+
 std::vector<Mistake> mistakes_of_inputs(const Experiment& experiment, std::span<const Nuisance> nuisances) {
   std::set<std::string> calibrations;
   for (const Observable& observable : experiment.observables) calibrations.insert(calibration_of(observable));
-  std::map<std::string, Mistake> all;
-  std::map<std::string, double> own, common;  // variances: of one point, of those that share it
+  std::map<std::string, StatedInput> inputs;
   for (const Nuisance& n : nuisances) {
     // A drag law that is further off than it is known is drag_magnitude or drag_exponent, no input.
     if (n.u <= 0 || calibrations.contains(n.name) || n.name.starts_with("drag_law_uncertainty")) continue;
-    Mistake& mistake = all[n.name];
-    if (n.points.size() > 1) common[n.name] = n.u * n.u;
-    if (n.points.size() == 1) own[n.name] = n.u * n.u;
-    if (n.points.size() > mistake.points.size()) mistake.points = n.points;
+    StatedInput& stated = inputs[n.name];
+    for (const int p : n.points) stated.variance[p] += n.u * n.u;
+    if (n.points.size() > 1) stated.one_value.insert(n.points);
   }
   std::vector<Mistake> mistakes;
-  for (auto& [key, mistake] : all) {
-    if (mistake.points.size() < std::min<std::size_t>(2, experiment.points.size())) continue;
-    const double u = std::sqrt(common[key] + own[key]);
-    // A value that is wrong is so by a multiple of what was thought to be possible.
-    constexpr double multiple = 10, named_from = 3;
-    mistake.input = key;
-    mistake.effect = {.name = "input:" + key,
-                      .parameter = "relative error of " + key,
-                      .mean = 0,
-                      .sd = multiple * u,
-                      .minimum = -0.9,
-                      .maximum = 9,
-                      .least = named_from * u,
-                      .is_mistake = true};
-    mistakes.push_back(mistake);
+  for (const auto& [key, stated] : inputs) {
+    std::vector<int> all;
+    for (const auto& [p, variance] : stated.variance) all.push_back(p);
+    if (all.size() < std::min<std::size_t>(2, experiment.points.size())) continue;
+    mistakes.push_back(wrong_input(key, "input:" + key, stated, all));
+    // One of several values may be wrong by itself: that of one kind of particle, of one of two liquids.
+    for (const std::vector<int>& some : stated.one_value) {
+      if (n_training(experiment, some) < 2 || n_training(experiment, some) == n_training(experiment, all)) continue;
+      std::vector<std::string> ids;
+      for (const int p : some) ids.push_back(experiment.points[static_cast<std::size_t>(p)].id);
+      mistakes.push_back(wrong_input(key, "input:" + key + "@" + joined(ids), stated, some));
+    }
   }
   return mistakes;
 }

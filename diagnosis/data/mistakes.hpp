@@ -2,7 +2,9 @@
 // Mistakes that an experiment may hold, as hypotheses beside the effects: a known input that is far off, a clock that starts late, a frame
 // rate, the sign of an axis, a unit. They are candidates of their own, with one strength theta each:
 //
-//   input:KEY   the input is (1 + theta) times what the case says, at all points that share it; named from 3 u on
+//   input:KEY   the input is (1 + theta) times what the case says, at all points that state it as uncertain, whether it has one value there
+//               or, as from a scale that reads too high, several; named from 3 u on
+//   input:KEY@A, B  the same at the points with one of several values
 //   clock       what is measured at t was there at t + theta, s
 //   frame_rate  what is measured at t was there at (1 + theta) t
 //   sign:AXIS   positions and velocities along an axis have the other sign; there or not
@@ -29,14 +31,14 @@ struct Mistake {
   Kind kind = Kind::input;
   Effect effect;
   std::string input{};              // key of it
-  std::vector<int> points{};        // that share the input, or the calibration; of the other mistakes none: they are made at all points
+  std::vector<int> points{};        // with the wrong input, or the calibration; of the other mistakes none: they are made at all points
   std::vector<int> observables{};   // that it changes
   std::map<int, double> periods{};  // of them, of angles: a path is interpolated along the turn, not across where the angle begins again
   std::vector<int> rates{};         // of them: per time, so that a frame rate changes their numbers too
   double factor = 1;                // of a unit: simulated numbers times this are as the data say them; of an offset: SI value of its unit
 };
 
-/// Those of inputs: keys that several points share, or the only point has.
+/// Those of inputs: keys that several points state as uncertain, or the only point.
 std::vector<Mistake> mistakes_of_inputs(const Experiment& experiment, std::span<const Nuisance> nuisances);
 /// Those of times and axes that the data can hold.
 std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment);

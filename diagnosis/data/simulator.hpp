@@ -49,6 +49,9 @@ struct Gate {
   }
 };
 
+/// The whole flow field as an input. At all points by one factor it is what `operating_point` is, to the bit.
+inline constexpr const char* flow_field = "flow.amplitude";
+
 /// An input that is known up to a relative standard uncertainty; free with a tight prior in every hypothesis.
 struct Nuisance {
   std::string name;         // "flow.amplitude", "drag_law_uncertainty", "camera" (a calibration group)

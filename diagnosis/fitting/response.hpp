@@ -84,6 +84,8 @@ class Responses {
   /// Gate of a local effect, with the name of the effect that it is of; null: acts everywhere.
   const Gate* gate_of(int effect) const;
   void set_gate(int local_effect, Gate gate);
+  /// Null: it is no mistake.
+  const Mistake* mistake(int effect) const;
   /// False of mistakes of the measurement: they change what a run answers with, so that their derivatives are exact whatever chance does.
   bool changes_runs(int effect) const;
   /// Seeds a state is run with, and as many as fill in the distribution that a random effect makes (where the base model is random, every
@@ -135,7 +137,6 @@ class Responses {
   void note_rows_left_out(std::size_t point, const Response& answer);
   void leave_out_rows_without_answer(const std::vector<Response>& answers);
   void find_mistakes(const std::vector<Response>& answers);
-  const Mistake* mistake(int effect) const;
   /// Under these mistakes, from the numbers in their right units.
   void find_noise_in_right_units();
   /// Data covariance of a state at a point; empty: as stated. And what a bias of an observable is to be multiplied by.

@@ -290,6 +290,24 @@ class Judge {
       v_.notes.push_back(a_.names[other] + " explains the data nearly as well as " + a_.names[first] + " does: " +
                          rounded(a_.weight[first] - a_.weight[other]) + " nats less, and 6 are wanted to distinguish two causes.");
     }
+    note_same_inputs(first);
+  }
+
+  void note_same_inputs(int first) {
+    const std::vector<int>& effects = a_.fits[static_cast<std::size_t>(first)].hypothesis.effects;
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      const auto same = a_.same_input.find(effects[e]);
+      if (same == a_.same_input.end()) continue;
+      for (const int input : same->second) {
+        Hypothesis instead{effects};
+        instead.effects[e] = input;
+        std::sort(instead.effects.begin(), instead.effects.end(),
+                  [&](int a, int b) { return model_.effects()[a].name < model_.effects()[b].name; });
+        v_.alternatives.push_back(name_of(instead, model_.effects()));
+        v_.notes.push_back(model_.effects()[input].name + " has the same signature as " + model_.effects()[effects[e]].name +
+                           ": these data do not distinguish the wrong input from the effect.");
+      }
+    }
   }
 
   // The rule of 6 nats is stricter than the probabilities.

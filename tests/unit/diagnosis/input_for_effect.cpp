@@ -1,10 +1,12 @@
 // Requirement: where an input that is far off stands for an effect, the screening beside the fit promises what a fit of the effect reaches.
+// An effect that data do not distinguish from a wrong input is not named alone.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
 #include "diagnosis/attribution/screening.hpp"
+#include "diagnosis/diagnose.hpp"
 #include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
@@ -53,6 +55,46 @@ TEST(InputForEffect, ScreeningInItsPlacePromisesWhatTheFitReaches) {
   EXPECT_LT(linear.log_evidence, none.log_evidence);
   EXPECT_GT(in_its_place.log_evidence, reached - 6);  // what a further effect has to bring
   EXPECT_NEAR(in_its_place.theta[0], 0.4, 0.05);
+}
+
+/// Paths at a speed that an effect and an input of every point change by the same factor, which says nothing of which of the two it is.
+class Speed final : public TestSimulator {
+ public:
+  explicit Speed(int n_points) {
+    effects_ = {{.name = "effect", .mean = 0.2, .sd = 0.2, .minimum = -1, .maximum = 2},
+                {.name = "other", .mean = 0.2, .sd = 0.2, .minimum = -1, .maximum = 2}};
+    for (int p = 0; p < n_points; ++p) nuisances_.push_back({"speed", 0.01, {p}});
+    for (int i = 0; i < n_times; ++i) slots_.push_back({0, time_of(i)});
+  }
+  static double answer(int point, double factor, double other, double t) { return (1 + point) * factor * t + other * t * t; }
+
+ private:
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    const double factor = (1 + number_of(request.nuisances, "speed")) * (1 + number_of(request.effects, "effect"));
+    std::vector<double> values;
+    for (const Slot& slot : slots_) values.push_back(answer(request.point, factor, number_of(request.effects, "other"), slot.time));
+    return values;
+  }
+};
+
+TEST(InputForEffect, EffectThatAnInputEqualsIsNotCertain) {
+  constexpr int n_points = 3;
+  constexpr double noise = 1e-2;
+  Experiment experiment;
+  experiment.observables = {{.id = "x", .unit = "m", .noise_u = noise, .calibration_group = "", .numerics_u = 0}};
+  NormalNumbers random(3);
+  for (int p = 0; p < n_points; ++p) {
+    experiment.points.push_back({.id = std::string(1, static_cast<char>('A' + p)), .case_file = {}});
+    for (int i = 0; i < n_times; ++i)
+      experiment.data.push_back({.point = p, .time = time_of(i), .value = Speed::answer(p, 1.3, 0, time_of(i)) + noise * random()});
+  }
+  experiment.candidates = {"effect", "other", "input:speed"};
+  Speed simulator(n_points);
+  const Verdict verdict = diagnose(experiment, simulator);
+  EXPECT_EQ(verdict.verdict, VerdictKind::effects);
+  EXPECT_EQ(verdict.effects, std::vector<std::string>{"effect"});
+  EXPECT_EQ(verdict.wording, Wording::suspected);
+  EXPECT_EQ(verdict.alternatives, std::vector<std::string>{"input:speed"});
 }
 
 }  // namespace

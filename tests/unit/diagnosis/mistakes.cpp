@@ -1,5 +1,5 @@
-// Requirement: what a mistake of the measurement says of a run is known where the run has numbers, and as uncertain beyond as the run
-// bends.
+// Requirement: an input may be wrong by one factor at all points that state it, whatever its values there. What a mistake of the
+// measurement says of a run is known where the run has numbers, and as uncertain beyond as the run bends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,6 +17,47 @@ std::vector<Slot> slots(int n) {
   std::vector<Slot> all;
   for (int i = 1; i <= n; ++i) all.push_back({0, h * i});
   return all;
+}
+
+Experiment experiment_of(int n_points) {
+  Experiment experiment;
+  for (int p = 0; p < n_points; ++p) experiment.points.push_back({.id = std::string(1, static_cast<char>('A' + p)), .case_file = {}});
+  return experiment;
+}
+
+void expect_input(const Mistake& mistake, const std::string& name, const std::vector<int>& points, double u) {
+  EXPECT_EQ(mistake.effect.name, name);
+  EXPECT_EQ(mistake.input, "density");
+  EXPECT_EQ(mistake.points, points);
+  EXPECT_NEAR(mistake.effect.sd, 10 * u, 1e-12);
+  EXPECT_NEAR(mistake.effect.least, 3 * u, 1e-12);
+}
+
+/// One value at all points: half of the variance is common. Another value at each: all of it is the point's own.
+TEST(Mistakes, InputOfOneValueOrOfSeveralIsWrongByOneFactor) {
+  constexpr double u = 0.01, half = u / std::numbers::sqrt2;
+  const std::vector<Nuisance> one{{"density", half, {0, 1, 2}}, {"density", half, {0}}, {"density", half, {1}}, {"density", half, {2}}},
+      several{{"density", u, {0}}, {"density", 0.5 * u, {1}}, {"density", u, {2}}};
+  for (const auto& nuisances : {one, several}) {
+    const std::vector<Mistake> found = mistakes_of_inputs(experiment_of(3), nuisances);
+    ASSERT_EQ(found.size(), 1u);
+    expect_input(found[0], "input:density", {0, 1, 2}, u);
+  }
+  EXPECT_TRUE(mistakes_of_inputs(experiment_of(3), std::vector<Nuisance>{{"density", u, {1}}}).empty());  // one of several points
+  EXPECT_EQ(mistakes_of_inputs(experiment_of(1), std::vector<Nuisance>{{"density", u, {0}}}).size(), 1u);
+}
+
+/// Two kinds of spheres: all densities are wrong by one factor, or those of one kind. A kind with one point of training is no hypothesis.
+TEST(Mistakes, OneOfSeveralValuesMayBeWrong) {
+  constexpr double u = 0.01, half = u / std::numbers::sqrt2;
+  Experiment experiment = experiment_of(5);
+  experiment.points[4].withheld = true;
+  std::vector<Nuisance> nuisances{{"density", half, {0, 2}}, {"density", half, {3, 4}}, {"density", u, {1}}};
+  for (const int p : {0, 2, 3, 4}) nuisances.push_back({"density", half, {p}});
+  const std::vector<Mistake> found = mistakes_of_inputs(experiment, nuisances);
+  ASSERT_EQ(found.size(), 2u);
+  expect_input(found[0], "input:density", {0, 1, 2, 3, 4}, u);
+  expect_input(found[1], "input:density@A, C", {0, 2}, u);
 }
 
 Mistake clock_mistake() {

@@ -96,6 +96,8 @@ TEST(VerdictPage, MistakesAreCorrectedWhereTheyWereMade) {
             "Correct the unit of the data that are stated in mm.");
   EXPECT_EQ(verdict_advice(of(VerdictKind::effects, Wording::attributed, {"scale:high"}, 0.99)),
             "Calibrate the points high again: relative error = 0.48 ± 0.02.");
+  EXPECT_EQ(verdict_advice(of(VerdictKind::effects, Wording::attributed, {"input:particle.density_kg_m3@A, C"}, 0.99)),
+            "Look up or measure particle.density_kg_m3 at A, C again: relative error of the case's value = 0.48 ± 0.02.");
   Verdict v = of(VerdictKind::effects, Wording::attributed, {"input:particle.density_kg_m3"}, 0.99);
   v.improved.files = {"case_with_effects.toml"};
   EXPECT_EQ(verdict_advice(v),
