@@ -28,6 +28,12 @@ struct OneMore {
   double log_prior = 0;
 };
 
+/// A wrong input that has the signature of an effect and so is no hypothesis of its own.
+struct SameInput {
+  int input = -1;
+  double sds = 0;  // of its prior, that do what one of the effect's prior does
+};
+
 struct Attribution {
   std::vector<Fit> fits;                 // none first
   std::vector<std::string> names;        // of the fits
@@ -44,9 +50,9 @@ struct Attribution {
   Identifiability identifiability;
   double placebo_rate = 0;
   std::vector<std::string> notes{};
-  std::map<std::string, LocalCause> local{};     // by name of the effect
-  std::map<int, int> other_name_of{};            // effect -> the one of the verdict that is the same cause (same_cause.hpp)
-  std::map<int, std::vector<int>> same_input{};  // effect -> wrong inputs that have its signature and are no hypotheses
+  std::map<std::string, LocalCause> local{};            // by name of the effect
+  std::map<int, int> other_name_of{};                   // effect -> the one of the verdict that is the same cause (same_cause.hpp)
+  std::map<int, std::vector<SameInput>> same_inputs{};  // by effect
 
   /// The effects of a fit, each by its name in the verdict, in order, once.
   std::vector<int> causes_of(int fit) const;

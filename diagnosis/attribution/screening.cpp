@@ -260,8 +260,12 @@ double Screening::Metric::product(const Eigen::VectorXd& a, const Eigen::VectorX
 
 double Screening::detectability(int k) const {
   const Effect& effect = model_.effects()[k];
+  return change_of_one_sd(k) * std::abs(probe_strength(effect)) / effect.sd;
+}
+
+double Screening::change_of_one_sd(int k) const {
   const Eigen::VectorXd own = column(k, 0, exact_.whitening, exact_.rho);
-  return std::sqrt(std::max(0.0, exact_.product(own, own))) * std::abs(probe_strength(effect)) / effect.sd;
+  return std::sqrt(std::max(0.0, exact_.product(own, own)));
 }
 
 bool Screening::changes_runs(int k) const {

@@ -34,6 +34,8 @@ class Screening {
   /// d_k = sqrt(s (1 + J J^T)^-1 s): the signature s of a candidate over its uncertainty, nuisances projected out, without an error of
   /// form of the effects around which was screened: such an error takes up what is still missing.
   double detectability(int candidate) const;
+  /// What one standard deviation of its prior changes, in standard deviations of the data.
+  double change_of_one_sd(int candidate) const;
   /// Whether any run with a candidate, in any of its forms, differs from that without it.
   bool changes_runs(int candidate) const;
   /// Why no run with a candidate in its leading form came through; empty: one did.

@@ -133,7 +133,7 @@ void Attributor::find_same_inputs(const Screening& screening, const std::vector<
       if (effect.is_mistake || effect.name == operating_point || effect.name == "flow_error") continue;
       const double cosine = screening.cosine(input, k), least = std::min(screening.detectability(input), screening.detectability(k));
       if (std::abs(cosine) > same_signature && least * std::sqrt(std::max(0.0, 1 - cosine * cosine)) < blind_detectability)
-        result_.same_input[k].push_back(input);
+        result_.same_inputs[k].push_back({input, screening.change_of_one_sd(k) / screening.change_of_one_sd(input)});
     }
   }
 }

@@ -293,12 +293,16 @@ class Judge {
     note_same_inputs(first);
   }
 
+  // An input that would have to be wrong by more than three standard deviations of its prior is no rival of the effect.
   void note_same_inputs(int first) {
-    const std::vector<int>& effects = a_.fits[static_cast<std::size_t>(first)].hypothesis.effects;
+    constexpr double likely = 3;
+    const Fit& fit = a_.fits[static_cast<std::size_t>(first)];
+    const std::vector<int>& effects = fit.hypothesis.effects;
     for (std::size_t e = 0; e < effects.size(); ++e) {
-      const auto same = a_.same_input.find(effects[e]);
-      if (same == a_.same_input.end()) continue;
-      for (const int input : same->second) {
+      const auto same = a_.same_inputs.find(effects[e]);
+      if (same == a_.same_inputs.end()) continue;
+      for (const auto& [input, sds] : same->second) {
+        if (std::abs(fit.theta[static_cast<Eigen::Index>(e)]) / model_.effects()[effects[e]].sd * sds > likely) continue;
         Hypothesis instead{effects};
         instead.effects[e] = input;
         std::sort(instead.effects.begin(), instead.effects.end(),

@@ -60,10 +60,10 @@ TEST(InputForEffect, ScreeningInItsPlacePromisesWhatTheFitReaches) {
 /// Paths at a speed that an effect and an input of every point change by the same factor, which says nothing of which of the two it is.
 class Speed final : public TestSimulator {
  public:
-  explicit Speed(int n_points) {
+  Speed(int n_points, double u) {
     effects_ = {{.name = "effect", .mean = 0.2, .sd = 0.2, .minimum = -1, .maximum = 2},
                 {.name = "other", .mean = 0.2, .sd = 0.2, .minimum = -1, .maximum = 2}};
-    for (int p = 0; p < n_points; ++p) nuisances_.push_back({"speed", 0.01, {p}});
+    for (int p = 0; p < n_points; ++p) nuisances_.push_back({"speed", u, {p}});
     for (int i = 0; i < n_times; ++i) slots_.push_back({0, time_of(i)});
   }
   static double answer(int point, double factor, double other, double t) { return (1 + point) * factor * t + other * t * t; }
@@ -77,7 +77,8 @@ class Speed final : public TestSimulator {
   }
 };
 
-TEST(InputForEffect, EffectThatAnInputEqualsIsNotCertain) {
+/// Of a speed that is 1.3 times what it should be.
+Verdict verdict_on_speed(double u) {
   constexpr int n_points = 3;
   constexpr double noise = 1e-2;
   Experiment experiment;
@@ -89,12 +90,24 @@ TEST(InputForEffect, EffectThatAnInputEqualsIsNotCertain) {
       experiment.data.push_back({.point = p, .time = time_of(i), .value = Speed::answer(p, 1.3, 0, time_of(i)) + noise * random()});
   }
   experiment.candidates = {"effect", "other", "input:speed"};
-  Speed simulator(n_points);
-  const Verdict verdict = diagnose(experiment, simulator);
+  Speed simulator(n_points, u);
+  return diagnose(experiment, simulator);
+}
+
+TEST(InputForEffect, EffectThatAnInputEqualsIsNotCertain) {
+  const Verdict verdict = verdict_on_speed(0.02);
   EXPECT_EQ(verdict.verdict, VerdictKind::effects);
   EXPECT_EQ(verdict.effects, std::vector<std::string>{"effect"});
   EXPECT_EQ(verdict.wording, Wording::suspected);
   EXPECT_EQ(verdict.alternatives, std::vector<std::string>{"input:speed"});
+}
+
+// An input that is known far too well to be wrong by so much is none.
+TEST(InputForEffect, EffectBeyondWhatAnInputCanBe) {
+  const Verdict verdict = verdict_on_speed(0.004);
+  EXPECT_EQ(verdict.effects, std::vector<std::string>{"effect"});
+  EXPECT_EQ(verdict.wording, Wording::attributed);
+  EXPECT_TRUE(verdict.alternatives.empty());
 }
 
 }  // namespace
