@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "base/error.hpp"
+#include "base/words.hpp"
 #include "mesh/import/import.hpp"
 #include "mesh/import/mesh_reader.hpp"
 #include "mesh/quality.hpp"
@@ -16,6 +18,9 @@ namespace snag {
 namespace {
 
 ExitCode judge(const std::string& file, double scale) {
+  if (!(scale > 0))
+    throw Error(ExitCode::usage,
+                "--scale: the metres in one unit of length (" + rounded(scale) + "), must be positive; 0.001 for millimetres");
   const Mesh mesh = import_mesh(file, MPI_COMM_WORLD, {.scale = scale});
   const MeshQuality found = quality(mesh);
   const std::string table = quality_table(mesh, found);

@@ -3,6 +3,7 @@
 #include <petscsys.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -56,6 +57,7 @@ class NoNetwork {
 
 Session::Session(int argc, char** argv) {
   const NoNetwork parameters;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that reaches a limit of its size is an error of writing, with its message, and no sudden end
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);

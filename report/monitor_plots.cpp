@@ -93,8 +93,8 @@ std::string spaced(std::string name) {
 /// What a reader calls a column of a monitor; without an entry: its name with spaces. The plots of patches say which quantity they show.
 std::string title_of(const std::string& monitor, const std::string& column) {
   static const std::map<std::string, std::string> titles = {
-      {"head", "static head"},
-      {"head_total", "total head"},
+      {"head", "mean pressures and velocities"},
+      {"head_total", "total pressure, weighted with the flux"},
       {"flow_in", "into the inlet"},
       {"flow_out", "out of the outlet"},
       {"torque", "torque"},

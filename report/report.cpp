@@ -1,5 +1,6 @@
 #include "report/report.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -21,7 +22,8 @@ namespace snag {
 
 namespace {
 
-constexpr std::size_t log_tail = 6000;  // bytes
+constexpr std::size_t log_tail = 6000;                                 // bytes
+constexpr std::size_t time_stamp = sizeof("2026-01-01 00:00:00") - 1;  // of a line of the log
 
 std::string problem(const std::string& text) { return "<p class=\"problem\">" + escaped(text) + "</p>\n"; }
 
@@ -99,6 +101,21 @@ std::string tail(const std::string& text) {
   return "...\n" + text.substr(line == std::string::npos ? text.size() - log_tail : line + 1);
 }
 
+/// Each warning of the log once, in the order in which they came.
+std::string warning_list(const std::string& log) {
+  static const std::string mark = " warning: ";
+  std::vector<std::string> found;
+  for (const std::string& line : split(log, '\n')) {
+    const auto at = line.find(mark);
+    if (at != time_stamp) continue;
+    const std::string text = line.substr(at + mark.size());
+    if (std::find(found.begin(), found.end(), text) == found.end()) found.push_back(text);
+  }
+  std::string list;
+  for (const std::string& text : found) list += "<li>" + escaped(text) + "</li>\n";
+  return list.empty() ? "" : "<ul>\n" + list + "</ul>\n";
+}
+
 std::string today() {
   char text[32] = "";
   const std::time_t now = std::time(nullptr);
@@ -163,7 +180,9 @@ void write_report(const std::filesystem::path& dir) {
   const PictureParts drawn = picture_parts(pictures);
   const bool is_passage = !passages.section.empty();
   page += heading(summary, title, passages.verdict);
+  const std::string log = file_text(dir / "log.txt").value_or("");
   page += section("Run summary", run_table(summary));
+  page += section("Warnings", warning_list(log));
   if (is_passage) page += section("Passage of the rag through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
   page += section("Time step", step_section(summary));
@@ -177,7 +196,7 @@ void write_report(const std::filesystem::path& dir) {
   page += section("A closer look with ParaView", paraview_section(dir));
   page += section("The case and the log",
                   folded("The case with all its defaults (case.resolved.toml)", file_text(dir / "case.resolved.toml").value_or("")) +
-                      folded("The end of the log (log.txt)", tail(file_text(dir / "log.txt").value_or(""))));
+                      folded("The end of the log (log.txt)", tail(log)));
   page += "</body>\n</html>\n";
   write_atomically(dir / "report.html", page);
 }

@@ -11,6 +11,7 @@
 #include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/quotation.hpp"
+#include "base/sha256.hpp"
 #include "base/words.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/session.hpp"
@@ -139,24 +140,43 @@ void check_keys(const Study& study, const std::filesystem::path& file) {
   check_names(study, file);
 }
 
-/// What a run is made of, to see on a repetition whether it is still the same.
-std::string input_of(const Study& study, const StudyRun& run) {
+/// What a run is made of, to see on a repetition whether it is still the same: the case, and the files that it names.
+struct RunInput {
+  std::string text, files;
+};
+
+/// A line for each file that stands between quotes, with what is in it. `folder`: of the case.
+std::string contents_of_files(std::string text, const std::filesystem::path& folder) {
+  std::string lines;
+  std::replace(text.begin(), text.end(), '\'', '"');
+  for (const std::string& part : split(text, '"')) {  // also what stands outside of quotes: a comment may have a single one
+    std::error_code ignored;
+    if (part.empty() || !std::filesystem::is_regular_file(folder / part, ignored)) continue;
+    if (const auto content = file_text(folder / part)) lines += "# " + part + ": sha256 " + sha256(*content) + "\n";
+  }
+  return lines;
+}
+
+RunInput input_of(const Study& study, const StudyRun& run) {
   const auto text = file_text(study.case_file);
   if (!text) throw Error(ExitCode::io, study.case_file.string() + ": the case of the study cannot be read; check the path");
-  std::string input = *text + "\n# The study runs this with\n";
-  for (const std::string& one : run.overrides) input += "# --set " + one + "\n";
+  RunInput input{*text + "\n# The study runs this with\n", ""};
+  for (const std::string& one : run.overrides) input.text += "# --set " + one + "\n";
+  input.files = contents_of_files(input.text, study.case_file.parent_path());
   return input;
 }
 
 enum class RunState : int { nothing, ended, stopped, partial };
 
 /// What an earlier start of the study left of a run; a partial one has begun and has no summary.
-RunState previous_state(const std::filesystem::path& folder, const std::string& input) {
+RunState previous_state(const std::filesystem::path& folder, const RunInput& input) {
   if (!std::filesystem::exists(folder / "monitors")) return RunState::nothing;
-  if (file_text(folder / "input.toml") != input)
+  const auto before = file_text(folder / "input.toml");
+  // Runs of earlier versions do not say what was in the files.
+  if (before != input.text + input.files && before != input.text)
     throw Error(ExitCode::usage, folder.string() +
-                                     ": has a run of another case or of other values than the study (see its input.toml); "
-                                     "choose another --out, or remove the folder");
+                                     ": has a run of another case, of other values or of other files (as a mesh that was made again) than "
+                                     "the study (see its input.toml); choose another --out, or remove the folder");
   const auto summary = nlohmann::json::parse(file_text(folder / "summary.json").value_or(""), nullptr, false);
   if (!summary.is_object()) return RunState::partial;
   const int code = summary.value("exit", -1);
@@ -169,11 +189,11 @@ RunState prepare(const std::filesystem::path& folder, const Study& study, const 
   int before = 0;
   on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
-    const std::string input = input_of(study, run);
+    const RunInput input = input_of(study, run);
     before = static_cast<int>(previous_state(folder, input));
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
-    write_atomically(folder / "input.toml", input);
+    write_atomically(folder / "input.toml", input.text + input.files);
   });
   MPI_Bcast(&before, 1, MPI_INT, 0, world);
   return static_cast<RunState>(before);
@@ -283,6 +303,9 @@ Study read_study(const std::filesystem::path& file) {
     VarySettings& vary = study.vary.emplace_back();
     table.read(vary.section().parameters);
     if (vary.name.empty()) vary.name = split(vary.key, '.').back();
+    if (std::count_if(study.vary.begin(), study.vary.end(), [&](const VarySettings& one) { return one.name == vary.name; }) > 1)
+      throw Error(ExitCode::usage, table.where() + ": another [[vary]] has the name \"" + vary.name +
+                                       "\" too, by which columns are named; give it a name of its own");
   }
   for (const Table& table : root.tables("plot")) table.read(study.plots.emplace_back().section().parameters);
   if (root.has("plateau")) root.table("plateau").read(study.plateau.emplace().section().parameters);

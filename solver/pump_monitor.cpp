@@ -1,10 +1,14 @@
 #include "solver/pump_monitor.hpp"
 
+#include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "base/case_tables.hpp"
 #include "base/error.hpp"
 #include "base/words.hpp"
+#include "parallel/sum.hpp"
+#include "solver/fields/rotating_zone.hpp"
 #include "solver/monitors.hpp"
 
 namespace snag {
@@ -44,12 +48,39 @@ Section PumpSettings::section() {
 }
 const bool pump_table = add_case_table<PumpSettings>(100);
 
+std::vector<std::string> pump_warnings(const Flow& flow, const PumpSettings& settings) {
+  constexpr double alike = 1.25;  // of diameters
+  const Mesh& mesh = flow.mesh;
+  std::vector<std::string> warnings;
+  for (const auto& [key, name, diameter] :
+       {std::tuple{"inlet", settings.inlet, settings.inlet_diameter}, std::tuple{"outlet", settings.outlet, settings.outlet_diameter}}) {
+    if (!diameter) continue;
+    const double of_patch = std::sqrt(4 / std::numbers::pi * patch_area(flow, patch_of(mesh, key, name)));
+    if (std::max(*diameter / of_patch, of_patch / *diameter) > alike)
+      warnings.push_back(std::string("[pump] ") + key + "_diameter is " + number_text(1e3 * *diameter) + " mm, patch \"" + name +
+                         "\" has the area of a circle of " + number_text(std::round(1e4 * of_patch) / 10) +
+                         " mm: the velocity head is that of the given diameter; check it, or leave it out");
+  }
+  if (!flow.rotating_zone) return warnings;
+  for (const std::string& name : settings.walls) {
+    const Patch& patch = mesh.patches[static_cast<std::size_t>(patch_of(mesh, "walls", name))];
+    std::int64_t standing = 0;
+    for (int f = patch.first; f < patch.end(); ++f) standing += mesh.cell_zone[mesh.owner[f]] != flow.rotating_zone->zone();
+    if ((standing = sum(mesh.comm, standing)) > 0)
+      warnings.push_back("[pump] walls: \"" + name + "\" has " + counted(standing, "face") +
+                         " outside the rotating zone: the torque on them counts as torque of the shaft; leave out walls that stand");
+  }
+  return warnings;
+}
+
 PumpMonitor::PumpMonitor(const Flow& flow, const PumpSettings& settings)
     : inlet_(patch_of(flow.mesh, "inlet", settings.inlet)),
       outlet_(patch_of(flow.mesh, "outlet", settings.outlet)),
       inlet_area_(area_of(flow, inlet_, settings.inlet_diameter)),
       outlet_area_(area_of(flow, outlet_, settings.outlet_diameter)),
       gravity_(settings.gravity) {
+  if (inlet_ == outlet_)
+    throw Error(ExitCode::usage, "[pump]: inlet and outlet are both \"" + settings.inlet + "\", must be two patches; correct one of them");
   for (const std::string& name : settings.walls) walls_.push_back(patch_of(flow.mesh, "walls", name));
 }
 

@@ -42,9 +42,13 @@ struct PumpReading {
   static double efficiency_of(double hydraulic, double shaft) { return shaft > 0 ? hydraulic / shaft : 0; }
 };
 
+/// What of [pump] is probably not meant: walls that stand, where a zone turns, and diameters far from those of the patches. Collective, the
+/// same on every rank.
+std::vector<std::string> pump_warnings(const Flow& flow, const PumpSettings& settings);
+
 class PumpMonitor {
  public:
-  /// Throws Error(usage) for an unknown patch. Collective.
+  /// Throws Error(usage) for an unknown patch, and for one that is inlet and outlet. Collective.
   PumpMonitor(const Flow& flow, const PumpSettings& settings);
   /// Of the flow as it is. Collective, the same on every rank.
   PumpReading read(const Flow& flow, const Shaft& shaft) const;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/log.hpp"
+#include "base/words.hpp"
 #include "parallel/session.hpp"
 #include "parallel/sum.hpp"
 #include "simulation/output/outputs.hpp"
@@ -147,6 +148,10 @@ ExitCode Outputs::finish(ExitCode exit, const ReportWriter& write_report, const 
   if (const std::string results = results_in_words(s); !results.empty()) log::info(results);
   if (exit == ExitCode::ok && simulation_.water && !simulation_.frozen())
     for (const std::string& one : simulation_.water->boundary().unmet(simulation_.water->flow)) log::warning(one);
+  if (s.pump && s.pump->flow < 0)
+    log::warning("[pump]: water leaves through the inlet \"" + simulation_.pump->inlet + "\" (" + rounded(-1e3 * s.pump->flow) +
+                 " L/s): head and efficiency are those of the way from it to \"" + simulation_.pump->outlet +
+                 "\"; exchange inlet and outlet if this is not meant");
   if (!write_report) return code;
   on_all_ranks(MPI_COMM_WORLD, [&] {
     if (rank_of(MPI_COMM_WORLD) == 0) write_report(folder_);

@@ -15,6 +15,7 @@
 #include "parallel/session.hpp"
 #include "simulation/setup/forecast.hpp"
 #include "simulation/setup/gap_lines.hpp"
+#include "solver/pump_monitor.hpp"
 
 namespace snag {
 
@@ -115,6 +116,8 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   if (simulation.rags && rank_of(MPI_COMM_WORLD) == 0)
     for (const std::string& line : gap_lines(simulation.walls, simulation.rags->rags(), simulation.contacts, simulation.time()))
       log::info(line);
+  if (simulation.pump)
+    for (const std::string& warning : pump_warnings(simulation.water->flow, *simulation.pump)) log::warning(warning);
   if (simulation.coupled)
     for (const std::string& warning :
          wall_warnings(simulation.coupled->coupling(), !simulation.walls.bodies().empty(), water_has_walls(simulation)))

@@ -2,6 +2,7 @@
 # cost: 48
 """Requirement: what a user gets wrong ends on all ranks with the documented exit code and one clear message, and leaves an existing output folder as it was."""
 import re
+import subprocess
 
 import harness
 from small_cases import CHANNEL, CHANNEL_MESH, TWO_SHEETS
@@ -69,6 +70,22 @@ class Mistakes(harness.CaseTest):
     def test_prescribed_flow_that_makes_volume(self):
         flow = '[flow]\nkind = "prescribed"\ngradient_per_s = [[1, 0, 0], [0, -0.5, 0], [0, 0, 0]]\n'
         self.refused(2, ["[flow]", "gradient_per_s", "0.5 1/s", "must be zero"], self.case(TWO_SHEETS + flow))
+
+    def test_intensity_in_percent(self):
+        self.refused(2, ["turbulence_intensity", "5"], self.channel('kind = "velocity_inlet"', 'kind = "velocity_inlet"\nturbulence_intensity = 5'))
+
+    def test_file_of_a_limited_size(self):
+        """`ulimit -f`: the run ends as on a full disk."""
+        command = ["bash", "-c", 'ulimit -f 10; exec "$@"', "bash", *harness.command(["run", self.channel(), "--out", self.work / "out"])]
+        run = subprocess.run(command, env=harness.ENVIRONMENT, capture_output=True, text=True, timeout=100)
+        self.assertEqual(run.returncode, 6, run.stderr)
+        self.assertIn("File too large", run.stderr)
+
+    def test_scale_of_a_mesh(self):
+        refused = harness.snag(["mesh", "--info", self.mesh(*CHANNEL_MESH), "--scale", "-1"])
+        self.assertEqual(refused.code, 2)
+        self.assertIn("--scale", refused.stderr)
+        self.assertIn("must be positive", refused.stderr)
 
     def test_run_on_without_its_condition(self):
         self.refused(2, ["run_on", "end_when_rags_left"], self.sheets(), "--set", "time.run_on_s=0.01")

@@ -186,7 +186,30 @@ class Study(harness.CaseTest):
         text = STUDY.replace("[1, 1.25]", "[1]").replace('["100 mm", "120 mm"]', '["100 mm"]').format(zip="")
         self.study(text)
         refused = self.study(text.replace("0.008", "0.016"), code=2)
-        self.assertIn("has a run of another case or of other values", refused.stderr)
+        self.assertIn("has a run of another case, of other values", refused.stderr)
+
+    def test_file_that_changed_is_refused(self):
+        """A mesh, or a text of a geometry, that was made again: the table would mix the old runs with new ones."""
+        parameters = self.work / "box.toml"
+        parameters.write_text('[box]\nsize_mm = 50\nlower_m = [0, 0, 0]\nupper_m = [0.1, 0.1, 0.1]\ncells = "hexahedra"\n')
+        self.case('[case]\nname = "box"\n[mesh]\ngeometry = "box"\nparameters = "box.toml"\n[time]\nend_ms = 1\nstep_ms = 1\n'
+                  '[flow]\n[[boundary]]\npatches = ["x0", "x1", "y0", "y1", "z0", "z1"]\nkind = "wall"\n[output]\nreport = false\n', "box_case")
+        study = self.work / "study.toml"
+        study.write_text('[study]\nname = "boxes"\ncase = "box_case.toml"\nresults = ["mesh.cells"]\n'
+                         '[[vary]]\nkey = "flow.kinematic_viscosity_m2_s"\nname = "nu"\nvalues = [1e-6, 1e-5]\n')
+        again = ["study", study, "--out", self.work / "study"]
+        self.assertEqual(harness.snag(again).code, 0)
+        self.assertIn("run 2 of 2: nu-1e-05 has been run before", harness.snag(again).stdout)
+        parameters.write_text(parameters.read_text().replace("50", "25"))
+        refused = harness.snag(again)
+        self.assertEqual(refused.code, 2, refused.tail())
+        self.assertIn("of other files", refused.stderr)
+
+    def test_names_twice(self):
+        text = STUDY.format(zip="").replace('name = "length"', 'name = "radius_mm"')
+        refused = harness.snag(["study", self.written(text), "--out", self.work / "study"])
+        self.assertEqual(refused.code, 2, refused.tail())
+        self.assertIn('another [[vary]] has the name "radius_mm"', refused.stderr)
 
     @harness.parallel
     def test_failed_run_does_not_stop_the_others(self):

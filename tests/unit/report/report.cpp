@@ -249,9 +249,12 @@ for name in ('rotor_speed', 'pressure_walls', 'pressure_rotor_walls'):
 // measure, and it shows keys that it does not know.
 TEST_F(Report, TellsResultsInWords) {
   std::ofstream(dir / "summary.json") << summary_text;
+  std::ofstream(dir / "log.txt") << "2026-11-30 12:00:00 info: started\n2026-11-30 12:00:01 warning: large <steps>\n"
+                                    "2026-11-30 12:00:02 warning: large <steps>\n2026-11-30 12:00:03 info: done: no warning: of it\n";
   write_report(dir);
   const auto html = page();
   EXPECT_TRUE(holds(html, "<h1>sheet in a channel</h1>"));
+  EXPECT_TRUE(holds(html, "<h2>Warnings</h2>\n<ul>\n<li>large &lt;steps&gt;</li>\n</ul>"));
   EXPECT_TRUE(
       holds(html,
             "The run ended as planned. It covers 0.6 s of operation in 3\u2009000 time steps. Rag &quot;wipe&quot; hangs on the tongue. It "

@@ -65,6 +65,19 @@ TEST_F(PumpMonitorTest, TotalHeadTakesTheVelocityAtTheFaces) {
   EXPECT_EQ(now.efficiency(), 0) << "no power where the shaft stands";
 }
 
+// Requirement: inlet and outlet are two patches; a diameter far from that of its patch is remarked on.
+TEST_F(PumpMonitorTest, FlangesAreThoseOfTheMesh) {
+  settings.inlet_diameter = 1.1;  // the patch: 1 m2, as of a circle of 1.128 m
+  EXPECT_TRUE(pump_warnings(flow, settings).empty());
+  settings.inlet_diameter = 0.11;
+  ASSERT_EQ(pump_warnings(flow, settings).size(), 1u);
+  EXPECT_NE(pump_warnings(flow, settings)[0].find("inlet_diameter is 110 mm, patch \"x0\" has the area of a circle of 1128.4 mm"),
+            std::string::npos)
+      << pump_warnings(flow, settings)[0];
+  settings.outlet = "x0";
+  EXPECT_THROW(PumpMonitor(flow, settings), Error);
+}
+
 TEST_F(PumpMonitorTest, UnknownPatchIsNamed) {
   settings.walls = {"y1", "impeler"};
   try {
