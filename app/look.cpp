@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/log.hpp"
 #include "base/series.hpp"
 #include "base/vtk_reader.hpp"
 #include "observe/passage/volute_watch.hpp"
@@ -106,6 +107,10 @@ Findings look_at_pictures(const std::filesystem::path& subject, const Camera& ca
   if (camera.background.empty() && files.size() < 3)
     throw Error(ExitCode::usage, subject.string() + ": " + std::to_string(files.size()) +
                                      " pictures are too few for a background by their mean; give [cloth] background");
+  if (camera.background.empty())
+    log::warning(
+        "[cloth] background is not given: it is the mean of all pictures, so that cloth that stays near a place for much of the time "
+        "is found too large; give a picture without cloth");
   const GreyPicture background = camera.background.empty() ? mean_picture(files) : read_picture(camera.background);
   const double interval = camera.interval > 0 ? camera.interval : 1;
   Look look(folder, camera);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
 #include "base/flat.hpp"
+#include "base/log.hpp"
 #include "coupling/cells_around.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/session.hpp"
@@ -19,6 +22,7 @@ namespace {
 constexpr double relaxation = 2.0 / 3.0, least_share = 0.125;  // share of a kernel in the mesh in a corner of three walls
 constexpr double even = 0.01;                                  // what an even layer gives is so near 1
 constexpr int max_rounds = 8;
+constexpr double many_pairs = 5e8;  // of cells at boundaries and cells in their kernels
 
 void sort_out(std::vector<int>& cells) {
   std::sort(cells.begin(), cells.end());
@@ -49,10 +53,25 @@ void Kernel::weigh_cells(KnownFactors& known) {
   holder_cell_.clear(), holder_rank_.clear();
 }
 
+/// Where a kernel reaches far beyond small cells, a case would seem to hang before it says a word.
+void Kernel::warn_of_many_pairs(std::int64_t n_at_boundary) const {
+  const double n_cells = static_cast<double>(mesh_.n_cells_global);
+  const double volume = sum(mesh_.comm, std::accumulate(mesh_.cell_volume.begin(), mesh_.cell_volume.begin() + mesh_.n_cells, 0.0));
+  const double side = std::cbrt(volume / n_cells), reached = std::min(shape_.cells_reached(width_, side), n_cells);
+  if (static_cast<double>(sum(mesh_.comm, n_at_boundary)) * reached < many_pairs) return;
+  std::ostringstream message;
+  message.precision(3);
+  message << "[coupling] kernel_width is " << 1e3 * width_ << " mm and reaches some " << std::llround(reached) << " cells (mean "
+          << 1e3 * side
+          << " mm): its weights at the walls, which are found now, can take minutes; narrow the kernel, or take coarser cells";
+  log::warning(message.str());
+}
+
 /// Factors of cells near boundaries: rounds of (eq. 2) with the kernels of the cells themselves.
 std::vector<double> Kernel::find_factors() {
   std::vector<int> at_boundary(mesh_.owner.begin() + mesh_.n_interior, mesh_.owner.begin() + mesh_.n_faces), near;
   sort_out(at_boundary);
+  warn_of_many_pairs(static_cast<std::int64_t>(at_boundary.size()));
   locate_in_parts(at_boundary, [&](std::size_t, std::size_t) {
     const WeightRows& rows = weights_->rows();
     for (const int place : rows.place) near.push_back(rows.cells()[place]);

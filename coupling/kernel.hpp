@@ -90,6 +90,7 @@ class Kernel {
  private:
   void weigh_cells(KnownFactors& known);
   std::vector<double> find_factors();
+  void warn_of_many_pairs(std::int64_t n_at_boundary) const;
   void locate_in_parts(const std::vector<int>& cells, const std::function<void(std::size_t, std::size_t)>& use);
   void plan_by_boxes(std::span<const Vec3> points);
   void find_holders(std::span<const Vec3> points);

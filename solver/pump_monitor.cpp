@@ -61,6 +61,8 @@ std::vector<std::string> pump_warnings(const Flow& flow, const PumpSettings& set
                          "\" has the area of a circle of " + number_text(std::round(1e4 * of_patch) / 10) +
                          " mm: the velocity head is that of the given diameter; check it, or leave it out");
   }
+  if (settings.walls.empty())
+    warnings.emplace_back("[pump] walls is empty: torque, power and efficiency are 0; name the walls of the impeller");
   if (!flow.rotating_zone) return warnings;
   for (const std::string& name : settings.walls) {
     const Patch& patch = mesh.patches[static_cast<std::size_t>(patch_of(mesh, "walls", name))];

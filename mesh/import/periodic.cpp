@@ -81,8 +81,7 @@ std::vector<Record> sorted_records(const MeshParts& parts, const std::vector<Loc
                                   "\", faces must coincide within 1e-6 of their size after the translation " +
                                   point_text(pair.translation) +
                                   "; mesh the second patch as a copy of the first (gmsh: Periodic Surface) and check the translation; "
-                                  "patches that a rotation joins, as of a "
-                                  "sector of a machine, are not supported: mesh the whole machine");
+                                  "patches that a rotation joins are not supported: mesh the whole machine");
 }
 
 /// Partner among `second` of every record of `first`.

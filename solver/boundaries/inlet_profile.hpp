@@ -5,8 +5,8 @@
 //   laminar:    s (2 - s),  s = d/D          exact for a round pipe and between plates
 //   turbulent:  s^(1/7)                      power law of developed pipe flow, Nikuradse (1932), Re about 1e5
 //
-// A face has the mean over its area, divided by the mean over the patch. Walls are the edges of the patch's rim that it shares with a patch of walls: planes of symmetry,
-// periodic sides and other openings slow nothing.
+// A face has the mean over its area, divided by the mean over the patch. Walls are the edges of the patch's rim that it shares with a
+// patch of walls: planes of symmetry, periodic sides and other openings slow nothing.
 #include <vector>
 
 #include "mesh/mesh.hpp"

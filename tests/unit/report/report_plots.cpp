@@ -147,8 +147,8 @@ TEST(MonitorPlots, LeaveTheStartUpOutOfTheScale) {
   const auto found = monitor_plots(monitors.folder);
   ASSERT_EQ(found.plots.size(), 1u);
   EXPECT_EQ(found.plots[0].scale_from, 1.5);
-  EXPECT_EQ(found.plots[0].lines[0].label, "static head");
-  EXPECT_EQ(found.plots[0].lines[1].label, "total head");
+  EXPECT_EQ(found.plots[0].lines[0].label, "mean pressures and velocities");
+  EXPECT_EQ(found.plots[0].lines[1].label, "total pressure, weighted with the flux");
 }
 
 // A column of the balance keeps its whole name in the legend: the pressure part of a loss is not the loss.
