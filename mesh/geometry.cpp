@@ -8,29 +8,18 @@
 #include "mesh/skewness.hpp"
 
 namespace snag {
-namespace {
-
-Vec3 mean(std::span<const Vec3> points) {
-  Vec3 total;
-  for (const Vec3& point : points) total += point;
-  return total / static_cast<double>(points.size());
-}
-
-}  // namespace
 
 FaceGeometry face_geometry(std::span<const Vec3> nodes) {
-  const std::size_t n = nodes.size();
-  const Vec3 m = mean(nodes);
-  if (n == 3) return {0.5 * cross(nodes[1] - nodes[0], nodes[2] - nodes[0]), m};
+  const Vec3 middle = mean(nodes);
+  if (nodes.size() == 3) return {0.5 * cross(nodes[1] - nodes[0], nodes[2] - nodes[0]), middle};
 
-  Vec3 S;
-  std::array<Vec3, 4> part;
-  for (std::size_t i = 0; i < n; ++i) S += part[i] = 0.5 * cross(nodes[i] - m, nodes[(i + 1) % n] - m);
+  const auto part = [](const Vec3& a, const Vec3& b, const Vec3& m) { return 0.5 * cross(a - m, b - m); };
+  Vec3 S, offset;
+  for_each_triangle(nodes, [&](const Vec3& a, const Vec3& b, const Vec3& m) { S += part(a, b, m); });
   const double S_squared = norm_squared(S);
-  if (S_squared == 0) return {S, m};  // quality() reports it
-  Vec3 offset;
-  for (std::size_t i = 0; i < n; ++i) offset += dot(part[i], S) * ((nodes[i] - m) + (nodes[(i + 1) % n] - m));
-  return {S, m + offset / (3 * S_squared)};
+  if (S_squared == 0) return {S, middle};  // quality() reports it
+  for_each_triangle(nodes, [&](const Vec3& a, const Vec3& b, const Vec3& m) { offset += dot(part(a, b, m), S) * ((a - m) + (b - m)); });
+  return {S, middle + offset / (3 * S_squared)};
 }
 
 CellGeometry cell_geometry(CellShape shape, std::span<const Vec3> nodes) {

@@ -43,6 +43,19 @@ inline std::span<const Vec3> positions(const std::vector<Vec3>& node, std::span<
   return {points.data(), row.size()};
 }
 
+inline Vec3 mean(std::span<const Vec3> points) {
+  Vec3 total;
+  for (const Vec3& point : points) total += point;
+  return total / static_cast<double>(points.size());
+}
+
+/// act(a, b, m) for the triangles of a face between its edges, a to b, and the mean m of its nodes.
+template <class Act>
+void for_each_triangle(std::span<const Vec3> nodes, const Act& act) {
+  const Vec3 m = mean(nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) act(nodes[i], nodes[(i + 1) % nodes.size()], m);
+}
+
 /// Row `i` of compressed rows.
 inline std::span<const int> row(const std::vector<int>& start, const std::vector<int>& entries, int i) {
   return {entries.data() + start[i], static_cast<std::size_t>(start[i + 1] - start[i])};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -145,24 +146,48 @@ struct RunInput {
   std::string text, files;
 };
 
+/// SHA-256 of files; one that has not changed since is not read again: the mesh of a study of many runs.
+class FileHashes {
+ public:
+  /// Nothing if the file cannot be read.
+  std::optional<std::string> of(const std::filesystem::path& file) {
+    std::error_code failure;
+    const auto written = std::filesystem::last_write_time(file, failure);
+    const auto size = std::filesystem::file_size(file, failure);
+    const auto known = known_.find(file);
+    if (known != known_.end() && known->second.written == written && known->second.size == size) return known->second.hash;
+    const auto content = file_text(file);
+    if (!content) return std::nullopt;
+    return known_.insert_or_assign(file, Known{written, size, sha256(*content)}).first->second.hash;
+  }
+
+ private:
+  struct Known {
+    std::filesystem::file_time_type written;
+    std::uintmax_t size;
+    std::string hash;
+  };
+  std::map<std::filesystem::path, Known> known_;
+};
+
 /// A line for each file that stands between quotes, with what is in it. `folder`: of the case.
-std::string contents_of_files(std::string text, const std::filesystem::path& folder) {
+std::string contents_of_files(std::string text, const std::filesystem::path& folder, FileHashes& hashes) {
   std::string lines;
   std::replace(text.begin(), text.end(), '\'', '"');
   for (const std::string& part : split(text, '"')) {  // also what stands outside of quotes: a comment may have a single one
     std::error_code ignored;
     if (part.empty() || !std::filesystem::is_regular_file(folder / part, ignored)) continue;
-    if (const auto content = file_text(folder / part)) lines += "# " + part + ": sha256 " + sha256(*content) + "\n";
+    if (const auto hash = hashes.of(folder / part)) lines += "# " + part + ": sha256 " + *hash + "\n";
   }
   return lines;
 }
 
-RunInput input_of(const Study& study, const StudyRun& run) {
+RunInput input_of(const Study& study, const StudyRun& run, FileHashes& hashes) {
   const auto text = file_text(study.case_file);
   if (!text) throw Error(ExitCode::io, study.case_file.string() + ": the case of the study cannot be read; check the path");
   RunInput input{*text + "\n# The study runs this with\n", ""};
   for (const std::string& one : run.overrides) input.text += "# --set " + one + "\n";
-  input.files = contents_of_files(input.text, study.case_file.parent_path());
+  input.files = contents_of_files(input.text, study.case_file.parent_path(), hashes);
   return input;
 }
 
@@ -185,12 +210,14 @@ RunState previous_state(const std::filesystem::path& folder, const RunInput& inp
   return code == static_cast<int>(ExitCode::stopped) ? RunState::stopped : RunState::partial;
 }
 
-RunState prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run) {
+RunState prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run, FileHashes& hashes) {
   int before = 0;
   on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
-    const RunInput input = input_of(study, run);
-    before = static_cast<int>(previous_state(folder, input));
+    const RunInput input = input_of(study, run, hashes);
+    const RunState state = previous_state(folder, input);
+    before = static_cast<int>(state);
+    if (state != RunState::nothing) return;  // an earlier version did not say what was in the files: it stays unknown
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     write_atomically(folder / "input.toml", input.text + input.files);
@@ -328,6 +355,7 @@ ExitCode run_study(const StudyOptions& options) {
   });
   ExitCode worst = ExitCode::ok;
   Prepared prepared;
+  FileHashes hashes;
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     StudyRun& run = study.runs[i];
     const std::string which = "run " + std::to_string(i + 1) + " of " + std::to_string(study.runs.size()) + ": " + run.name;
@@ -335,7 +363,7 @@ ExitCode run_study(const StudyOptions& options) {
       log::info(which + "\n  " + joined(run.overrides));
       continue;
     }
-    const RunState before = prepare(folder / run.name, study, run);
+    const RunState before = prepare(folder / run.name, study, run, hashes);
     log::info(which + (before == RunState::ended ? " has been run before" : ""));
     if (before == RunState::ended) continue;
     const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report, prepared);

@@ -157,7 +157,7 @@ struct DrapeTable {
              number("area_mean", &r.area, "m2", "Area of the draped sample seen from above, mean of the samples."),
              number("wave_size_mean", &r.wave_size, "m", "Distance from the centre to the outline at its peaks, mean of the samples."),
              range_of("wave_size_range", &wave_size_range, "m"),
-             number("wave_count_mean", &r.wave_count, "1", "Number of peaks of the outline, mean of the samples."),
+             number("wave_count_mean", &r.wave_count, "1", "Number of peaks of the outline, mean of the samples.", true, 1, 100),
              noted("wet_density", &density, "kg/m3", "Density of the wet cloth."), count(&r.repetitions)}};
   }
 };
@@ -287,6 +287,18 @@ void read_published(const Table& root, TextileTests& t) {
   published.table("drape").read(drape.section().parameters);
 }
 
+/// The thickness against the weighed samples, which may be wetter or drier than the cloth of the elongation test.
+void check_thickness(const std::string& file, const TextileTests& t) {
+  constexpr double alike = 5;
+  const double of_thickness = t.thickness * t.elongation_density;
+  const double weighed = (t.bending[0].mass_per_area + t.bending[1].mass_per_area + t.drape.mass_per_area) / 3;
+  if (std::max(of_thickness / weighed, weighed / of_thickness) > alike)
+    throw Error(ExitCode::usage, file + ": [rag] thickness: is " + number_text(t.thickness) +
+                                     " m, which with [elongation] wet_density makes " + number_text(of_thickness) +
+                                     " kg/m2, but the samples of [bending] and [drape] have " + number_text(weighed) +
+                                     " kg/m2 in the mean; correct the thickness, or its unit");
+}
+
 void check_contact_radius(const std::string& file, const TextileTests& t) {
   for (int d = 0; d < 2; ++d) {
     const ContactRadiusBounds bounds = contact_radius_bounds(t.elongation[d].max_strain);
@@ -340,6 +352,7 @@ TextileTests read_textile_tests(const CaseFile& file) {
   root.table("particles").read(particles_section(tests).parameters);
   read_published(root, tests);
   file.reject_unread();
+  check_thickness(file.file().string(), tests);
   check_contact_radius(file.file().string(), tests);
   return tests;
 }

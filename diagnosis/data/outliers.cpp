@@ -45,20 +45,38 @@ struct Path {
 /// The paths of an observable at one point, and how they are predicted.
 class PointPaths {
  public:
-  explicit PointPaths(double noise_u) : noise_u_(noise_u) {}
+  /// `period`: of angles; 0: of what has none.
+  PointPaths(double noise_u, double period) : noise_u_(noise_u), period_(period) {}
 
-  void add(int replicate, double time, double value, std::size_t datum, double period) {
+  void add(int replicate, double time, double value, std::size_t datum) {
     Path& path = paths_[replicate];
-    if (period > 0 && !path.value.empty()) value = path.value.back() + wrapped(value - path.value.back(), period);
     path.time.push_back(time), path.value.push_back(value), path.datum.push_back(datum), path.left_out.push_back(false);
+  }
+
+  /// When all samples are there.
+  void end() {
+    for (auto& [replicate, path] : paths_) all_.push_back(&path);
+  }
+
+  /// Robust scatter of one sample about its predictions; 0 where there are too few.
+  double scatter() const {
+    std::vector<double> sizes;
+    for (const Path* path : all_)
+      for (std::size_t i = 0; i < path->value.size(); ++i)
+        if (const auto p = path->left_out[i] ? std::nullopt : predicted(*path, i, {}))
+          sizes.push_back(std::abs(difference(path->value[i], p->value)) / std::sqrt(1 + p->square));
+    if (sizes.size() < fewest_samples) return 0;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    constexpr double of_median = 1.4826;  // standard deviation of a normal variable over its median deviation
+    return std::max(of_median * *middle, noise_u_);
   }
 
   /// Leaves out what is far off, round by round: the largest first, for it spoils the predictions of its neighbours. First by the predictor
   /// that scatters less, then by the other one, which may see what hid behind a neighbour.
-  void judge() {
-    for (auto& [replicate, path] : paths_) all_.push_back(&path);
+  void judge(double usual_scatter) {
     by_repeats_ = false;
-    const double by_series = scatter();
+    const double by_series = scatter_of_series(usual_scatter);
     by_repeats_ = true;
     const double by_repeats = scatter();
     const bool repeats_first = by_repeats > 0 && (by_series == 0 || by_repeats <= by_series);
@@ -87,9 +105,12 @@ class PointPaths {
   }
 
  private:
+  /// a - b, of angles the nearest to zero.
+  double difference(double a, double b) const { return period_ > 0 ? wrapped(a - b, period_) : a - b; }
+
   /// From the samples around i in the same series but for the suspects: the cubic through two on each side, the parabola through three at
-  /// an end.
-  static std::optional<Prediction> from_series(const Path& path, std::size_t i, const Suspects& suspects) {
+  /// an end. An angle is taken as near as it can be to the sample before it of those that are used: a false one does not turn what follows.
+  std::optional<Prediction> from_series(const Path& path, std::size_t i, const Suspects& suspects) const {
     std::array<std::size_t, 3> before{}, after{};
     std::size_t n_before = 0, n_after = 0;
     const auto usable = [&](std::size_t j) { return !path.left_out[j] && !suspects.contains(j); };
@@ -110,11 +131,19 @@ class PointPaths {
     std::copy_n(before.begin(), n_before, chosen.begin());
     std::copy_n(after.begin(), n_after, chosen.begin() + static_cast<std::ptrdiff_t>(n_before));
     Prediction prediction;
+    std::array<double, 4> value{};
+    for (std::size_t a = 0; a < n; ++a) {
+      value[a] = path.value[chosen[a]];
+      if (a > 0) {
+        const double beside = value[a == n_before ? 0 : a - 1];
+        value[a] = beside + difference(value[a], beside);
+      }
+    }
     for (std::size_t a = 0; a < n; ++a) {
       double weight = 1;
       for (std::size_t b = 0; b < n; ++b)
         if (a != b) weight *= (path.time[i] - path.time[chosen[b]]) / (path.time[chosen[a]] - path.time[chosen[b]]);
-      prediction.value += weight * path.value[chosen[a]], prediction.square += weight * weight;
+      prediction.value += weight * value[a], prediction.square += weight * weight;
     }
     return prediction;
   }
@@ -128,7 +157,7 @@ class PointPaths {
       const auto at = std::lower_bound(other->time.begin(), other->time.end(), path.time[i]);
       if (at == other->time.end() || *at != path.time[i]) continue;
       const auto j = static_cast<std::size_t>(at - other->time.begin());
-      if (!other->left_out[j]) others.push_back(other->value[j]);
+      if (!other->left_out[j]) others.push_back(others.empty() ? other->value[j] : others[0] + difference(other->value[j], others[0]));
     }
     if (others.size() < 2) return {};
     std::sort(others.begin(), others.end());
@@ -141,38 +170,74 @@ class PointPaths {
     return by_repeats_ ? from_repeats(path, i) : from_series(path, i, suspects);
   }
 
-  /// Robust scatter of one sample about its predictions; 0 where there are too few.
-  double scatter() const {
-    std::vector<double> sizes;
-    for (const Path* path : all_)
-      for (std::size_t i = 0; i < path->value.size(); ++i)
-        if (const auto p = path->left_out[i] ? std::nullopt : predicted(*path, i, {}))
-          sizes.push_back(std::abs(path->value[i] - p->value) / std::sqrt(1 + p->square));
-    if (sizes.size() < fewest_samples) return 0;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    constexpr double of_median = 1.4826;  // standard deviation of a normal variable over its median deviation
-    return std::max(of_median * *middle, noise_u_);
+  /// Scatter without what spoils it, not below what is usual.
+  double scatter_of_series(double usual) {
+    const double of_all = scatter();
+    std::vector<std::vector<std::size_t>> spoilers;
+    for (Path* path : all_) spoilers.push_back(leave_out_spoilers(*path));
+    const double without = scatter();
+    for (std::size_t s = 0; s < all_.size(); ++s)
+      for (const std::size_t i : spoilers[s]) all_[s]->left_out[i] = false;
+    return std::max(without, std::min(of_all, usual));
+  }
+
+  /// Leaves out what spoils most as long as the path without it is better predicted by 6 nats of Cauchy noise of the stated width; nothing
+  /// if that is more than a fifth of the path.
+  std::vector<std::size_t> leave_out_spoilers(Path& path) const {
+    constexpr double worth = 6, most = 0.2;
+    std::vector<std::size_t> spoilers;
+    for (bool goes_on = noise_u_ > 0; goes_on;) {
+      std::size_t worst = 0;
+      double gain = 0;
+      for (std::size_t i = 0; i < path.value.size(); ++i)
+        if (const double of_i = path.left_out[i] ? 0 : gain_without(path, i); of_i > gain) gain = of_i, worst = i;
+      goes_on = gain > worth;
+      if (goes_on) path.left_out[worst] = true, spoilers.push_back(worst);
+      if (static_cast<double>(spoilers.size()) > most * static_cast<double>(path.value.size())) {
+        for (const std::size_t i : spoilers) path.left_out[i] = false;
+        return {};
+      }
+    }
+    return spoilers;
+  }
+
+  /// Nats by which sample i and those around it are better predicted without it.
+  double gain_without(Path& path, std::size_t i) const {
+    constexpr std::size_t reach = 6;
+    const auto nats = [&] {
+      double sum = 0;
+      for (std::size_t j = i > reach ? i - reach : 0; j < std::min(i + reach + 1, path.value.size()); ++j)
+        if (const auto p = path.left_out[j] ? std::nullopt : from_series(path, j, {}))
+          sum += std::log1p(std::pow(difference(path.value[j], p->value) / noise_u_, 2) / (1 + p->square));
+      return sum;
+    };
+    const double with = nats();
+    path.left_out[i] = true;
+    const double without = nats();
+    path.left_out[i] = false;
+    return with - without;
   }
 
   /// z of a sample; none where too few others are there.
   std::optional<double> score(const Path& path, std::size_t i, const Suspects& suspects = {}) const {
     const auto p = predicted(path, i, suspects);
     if (!p) return {};
-    return (path.value[i] - p->value) / (scale_ * std::sqrt(1 + p->square));
+    return difference(path.value[i], p->value) / (scale_ * std::sqrt(1 + p->square));
   }
 
-  /// Whether the other repeats leave the series at this time too, to the same side: then the piece did so.
-  bool is_of_all_repeats(const Path& path, std::size_t i, double z) const {
+  /// Whether most of the other repeats leave the series at this time too, to the same side: then the piece did so.
+  bool is_of_other_repeats(const Path& path, std::size_t i, double z) const {
     constexpr double shown = 3;
+    int show = 0, others = 0;
     for (const Path* other : all_) {
       if (other == &path) continue;
       const auto at = std::lower_bound(other->time.begin(), other->time.end(), path.time[i]);
       if (at == other->time.end() || *at != path.time[i]) continue;
       const auto same = score(*other, static_cast<std::size_t>(at - other->time.begin()));
-      if (same && std::abs(*same) > shown && (*same > 0) == (z > 0)) return true;
+      if (!same) continue;
+      ++others, show += std::abs(*same) > shown && (*same > 0) == (z > 0);
     }
-    return false;
+    return 2 * show > others;
   }
 
   /// The least |z| of the suspects where each of them is far off and the series beside them agrees across them; else 0.
@@ -190,7 +255,7 @@ class PointPaths {
         if (beside >= path.value.size() || path.left_out[beside] || suspects.contains(beside)) continue;
         if (const auto z = score(path, beside, suspects); z && std::abs(*z) > agrees) return 0;
       }
-      if (is_of_all_repeats(path, i, *score(path, i, suspects))) return 0;
+      if (is_of_other_repeats(path, i, *score(path, i, suspects))) return 0;
     }
     return least;
   }
@@ -256,7 +321,7 @@ class PointPaths {
            one.suspects.index[0] <= other.suspects.index[other.suspects.n - 1] + reach;
   }
 
-  double noise_u_;
+  double noise_u_, period_;
   std::map<int, Path> paths_;  // by replicate
   std::vector<Path*> all_;
   mutable std::vector<double> others_;  // room for the repeats of one time
@@ -292,13 +357,20 @@ OutliersFound outliers_of(const Experiment& experiment, int o, bool withheld) {
   for (std::size_t i = 0; i < experiment.data.size(); ++i) {
     const Datum& d = experiment.data[i];
     if (d.observable != o || std::isnan(d.time) || experiment.points[static_cast<std::size_t>(d.point)].withheld != withheld) continue;
-    points.try_emplace(d.point, observable.noise_u)
-        .first->second.add(d.replicate, d.time, logarithm ? std::log(d.value) : d.value, i, period);
+    points.try_emplace(d.point, observable.noise_u, period)
+        .first->second.add(d.replicate, d.time, logarithm ? std::log(d.value) : d.value, i);
     ++n;
   }
   OutliersFound found;
   std::vector<double> scores;
-  for (auto& [point, paths] : points) paths.judge(), paths.collect(scores, found.samples);
+  std::vector<double> scatters;
+  for (auto& [point, paths] : points) {
+    paths.end();
+    if (const double scatter = paths.scatter(); scatter > 0) scatters.push_back(scatter);
+  }
+  std::sort(scatters.begin(), scatters.end());
+  const double usual = scatters.empty() ? 0 : scatters[scatters.size() / 2];
+  for (auto& [point, paths] : points) paths.judge(usual), paths.collect(scores, found.samples);
   if (found.samples.empty()) return {};
   found.nats = nats_for_outliers(scores), found.share = static_cast<double>(found.samples.size()) / static_cast<double>(n);
   // More than a fifth is no blunder here and there: the paths are rougher than a cubic, or the noise is another one.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "mesh/geometry.hpp"
 #include "parallel/rows.hpp"
 #include "parallel/sum.hpp"
 
@@ -74,14 +75,13 @@ double distance(const Vec3& point, const std::vector<Edge>& edges) {
 
 using Triangle = std::array<Vec3, 3>;
 
-/// Of a face: between its edges and the mean of its nodes (mesh/geometry.hpp).
 std::vector<Triangle> triangles_of(const Mesh& mesh, int f) {
-  const int begin = mesh.face_node_start[f], end = mesh.face_node_start[f + 1];
-  Vec3 middle;
-  for (int i = begin; i < end; ++i) middle += mesh.node[mesh.face_node[i]] / (end - begin);
+  std::array<Vec3, 8> points;
   std::vector<Triangle> triangles;
-  for (int i = begin; i < end; ++i)
-    triangles.push_back({mesh.node[mesh.face_node[i]], mesh.node[mesh.face_node[i + 1 < end ? i + 1 : begin]], middle});
+  for_each_triangle(positions(mesh.node, row(mesh.face_node_start, mesh.face_node, f), points),
+                    [&](const Vec3& a, const Vec3& b, const Vec3& m) {
+                      triangles.push_back({a, b, m});
+                    });
   return triangles;
 }
 

@@ -45,6 +45,12 @@ class Calibrate(harness.CaseTest):
     def test_negative_force(self):
         self.refused(["max_force_mean_N", "-172"], "max_force_mean_N = 172.0", "max_force_mean_N = -172.0")
 
+    def test_thickness_in_the_wrong_unit(self):
+        self.refused(["[rag] thickness", "0.77 m", "743.82", "unit"], "thickness_m = 0.77e-3", "thickness_m = 0.77")
+
+    def test_wave_count_that_no_cloth_has(self):
+        self.refused(["wave_count_mean", "640", "100"], "wave_count_mean = 6.40", "wave_count_mean = 640")
+
     def test_strain_beyond_the_contact_radius(self):
         self.refused(["max_strain", "contact radius", "2.2"], "max_strain = 0.358\nmax_elongation_m = 0.0179", "max_strain = 0.70\nmax_elongation_m = 0.0350")
 

@@ -93,6 +93,7 @@ def largest_heap(rag_pairs, n_rags):
 
 class PileTest(harness.CaseTest):
     side, layers = 3, 9  # columns in a row, sheets above each other
+    deepest = 0.3  # overlap over radius: the more layers land on each other, the deeper
 
     @classmethod
     def setUpClass(cls):
@@ -116,7 +117,7 @@ class Pile(PileTest):
         for rag in summary["rags"]:
             self.assertEqual((rag["particles"], rag["bonds"], rag["broken_bonds"], rag["outcome"]), (N_IN_SHEET, N_BONDS, 0, "in_domain"))
             self.assertLess(rag["max_wall_overlap_over_radius"], 0.2)
-            self.assertLess(rag["max_overlap_over_radius"], 0.3)
+            self.assertLess(rag["max_overlap_over_radius"], self.deepest)
         for name in ("particles_lost", "bonds_lost", "particles_beyond_walls"):
             self.assertEqual(summary["conservation"][name], 0, name)
         files = sorted((self.done.folder / "rags").glob("particles_*.vtp"))

@@ -4,9 +4,11 @@
 // effect is named for them. Data without outliers have none found: understated noise, correlated noise and real motion are no outliers.
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
 #include "diagnosis/data/outliers.hpp"
+#include "diagnosis/data/summary.hpp"
 #include "tests/verification/diagnosis/formula.hpp"
 
 using namespace snag;
@@ -78,6 +80,55 @@ TEST(Outliers, AreNotFoundWhereThereAreNone) {
     found += n_found(lasting);
   }
   EXPECT_EQ(found, 0);
+}
+
+namespace {
+
+/// Paths of 20 samples at four points, sin(t) of an observable with this noise.
+Experiment swinging(const Observable& observable, int n_replicates, std::uint64_t seed) {
+  Experiment experiment;
+  experiment.observables = {observable};
+  NormalNumbers random(seed);
+  for (int point = 0; point < 4; ++point) {
+    experiment.points.push_back({.id = std::string(1, static_cast<char>('A' + point)), .case_file = {}});
+    for (int replicate = 0; replicate < n_replicates; ++replicate)
+      for (int i = 0; i < 20; ++i)
+        experiment.data.push_back(
+            {.point = point, .replicate = replicate, .time = 0.1 * i, .value = std::sin(0.1 * i) + observable.noise_u * random()});
+  }
+  return experiment;
+}
+
+/// Adds to samples of the first path, and asks for just these.
+void expect_found(Experiment experiment, const std::vector<std::pair<std::size_t, double>>& false_by) {
+  std::vector<std::size_t> expected;
+  for (const auto& [sample, by] : false_by) experiment.data[sample].value += by, expected.push_back(sample);
+  EXPECT_EQ(find_outliers(experiment).front().samples, expected);
+}
+
+}  // namespace
+
+// Each spoils the predictions of the four samples beside it: the scatter of the whole path would hide all of them.
+TEST(Outliers, ThreeInAShortPathAreFound) {
+  const Observable x{.id = "x", .unit = "m", .noise_u = 0.01, .calibration_group = ""};
+  expect_found(swinging(x, 1, 8400), {{7, -1.2}, {10, 0.7}, {19, -1}});
+}
+
+// A false angle a quarter of a turn off is no turn of the axis: the samples after it are as good as those before it.
+TEST(Outliers, AFalseAngleIsOne) {
+  const Observable angle{.id = "orientation", .unit = "rad", .kind = Observable::Kind::angle, .noise_u = 0.01, .calibration_group = ""};
+  expect_found(swinging(angle, 1, 8410), {{5, 1.53}});
+  Experiment turned = swinging(angle, 1, 8411);
+  for (Datum& d : turned.data) d.value = wrapped(d.value + 1.2, std::numbers::pi);  // through the end of the range
+  expect_found(turned, {});
+  expect_found(turned, {{6, 1.5}});
+}
+
+// What most repeats show the piece did; two false samples at one time are two mistakes.
+TEST(Outliers, TwoOfThreeRepeatsAtOneTime) {
+  const Observable x{.id = "x", .unit = "m", .noise_u = 0.01, .calibration_group = ""};
+  expect_found(swinging(x, 3, 8420), {{9, 0.3}, {29, 0.4}});
+  expect_found(swinging(x, 3, 8421), {});
 }
 
 // A piece that bounces from a wall changes its velocity from one sample to the next: a kink is no outlier.
