@@ -62,7 +62,7 @@ std::array<Range, 2> ranges_of(const HoldSettings& hold, const Rag& rag, const s
 }
 
 bool is_in_box(const HoldSettings& hold, const Vec3& x) {
-  for (int c = 0; c < 3; ++c)
+  for (std::size_t c = 0; c < 3; ++c)
     if (x[c] < hold.box_lower[c] || x[c] > hold.box_upper[c]) return false;
   return true;
 }
@@ -86,26 +86,33 @@ std::vector<int> chosen_places(const HoldSettings& hold, const RagPiece& piece, 
   const auto [columns, rows] = ranges_of(hold, rag, where);
   for (int row = rows.first; row <= rows.last; ++row)
     for (int column = columns.first; column <= columns.last; ++column)
-      if (!hold.has_box || (piece.exists(column, row) && is_in_box(hold, piece.pose(column, row).position)))
+      if (hold.box_lower.empty() || (piece.exists(column, row) && is_in_box(hold, piece.pose(column, row).position)))
         places.push_back(row * rag.n_columns + column);
   return places;
 }
 
 /// Keys without effect are refused.
-void check(const HoldSettings& hold, const Table& table, const std::string& where) {
+void check(const HoldSettings& hold, const std::string& where) {
   const auto refuse = [&](const std::string& what) { throw Error(ExitCode::usage, where + what); };
-  const int n_choices = (hold.edge == HoldSettings::Edge::none ? 0 : 1) + (hold.columns.empty() && hold.rows.empty() ? 0 : 1) +
-                        (hold.particles.empty() ? 0 : 1) + (hold.has_box ? 1 : 0);
-  if (n_choices == 0)
+  std::vector<std::string> given;
+  const auto note = [&](const char* key, bool is_given) {
+    if (is_given) given.emplace_back(key);
+  };
+  note("edge", hold.edge != HoldSettings::Edge::none), note("columns", !hold.columns.empty()), note("rows", !hold.rows.empty());
+  note("particles", !hold.particles.empty()), note("box_lower", !hold.box_lower.empty()), note("box_upper", !hold.box_upper.empty());
+  if (given.empty())
     refuse(" selects no particles: must have one of edge, columns, rows, particles, box_lower with box_upper; give one of them");
-  if (n_choices > 1) {
-    std::string given;
-    for (const char* key : {"edge", "columns", "rows", "particles", "box_lower"})
-      if (table.has(key)) given += (given.empty() ? "" : ", ") + std::string(key);
-    refuse(" has " + given + ": must have one kind of choice; remove the others");
-  }
-  if (table.has("box_lower") != table.has("box_upper")) refuse(": box_lower and box_upper need each other; give both");
-  for (int c = 0; c < 3 && hold.has_box; ++c)
+  const auto are_one_choice = [&](const char* one, const char* other) {
+    return std::all_of(given.begin(), given.end(), [&](const std::string& key) { return key == one || key == other; });
+  };
+  if (given.size() > 1 && !are_one_choice("columns", "rows") && !are_one_choice("box_lower", "box_upper"))
+    refuse(" has " + joined(given) + ": must have one kind of choice; remove the others");
+  if (hold.box_lower.empty() != hold.box_upper.empty()) refuse(": box_lower and box_upper need each other; give both");
+  for (const auto& [key, corner] : {std::pair{"box_lower", &hold.box_lower}, std::pair{"box_upper", &hold.box_upper}})
+    if (!corner->empty() && corner->size() != 3)
+      refuse(std::string(" ") + key + ": has " + counted(static_cast<std::int64_t>(corner->size()), "number") +
+             ", must have three, x, y, z");
+  for (std::size_t c = 0; c < hold.box_lower.size(); ++c)
     if (hold.box_lower[c] > hold.box_upper[c])
       refuse(": box_lower (" + number_text(hold.box_lower[c]) + " m) is above box_upper (" + number_text(hold.box_upper[c]) +
              " m) along axis " + std::to_string(c) + "; exchange or correct them");
@@ -161,8 +168,11 @@ Section HoldSettings::section() {
         .target = &particles,
         .minimum = 0,
         .meaning = "List of the particles that are held, each as row * number of columns + column."},
-       vector("box_lower", &box_lower, "m", "Held are the particles that start between this corner and `box_upper`."),
-       vector("box_upper", &box_upper, "m", "Highest corner of that box."),
+       {.key = "box_lower",
+        .target = &box_lower,
+        .unit = "m",
+        .meaning = "Lowest corner x, y, z of a box: the particles that start between it and `box_upper` are held."},
+       {.key = "box_upper", .target = &box_upper, .unit = "m", .meaning = "Highest corner of that box."},
        setting("kind", &kind,
                "clamp: position and rotation follow the hold. pin: the position alone. hinge: a particle turns freely about `hinge_axis`."),
        vector("hinge_axis", &hinge_axis, "1", "hinge: direction of the axis, a vector of any length; it turns with the hold."),
@@ -194,8 +204,7 @@ Holds::Holds(const Table& root, const RagSystem& rags, const Vec3& gravity) : ra
     HoldSettings& hold = settings_.emplace_back();
     const std::string where = all_where.emplace_back(table.where());
     table.read(hold.section().parameters);
-    hold.has_box = table.has("box_lower") || table.has("box_upper");
-    check(hold, table, where);
+    check(hold, where);
     if (place_of_.empty()) {
       const Rag& last = rags.rags().back();
       place_of_.assign(static_cast<std::size_t>(last.first_particle) + static_cast<std::size_t>(last.n_columns) * last.n_rows, -1);

@@ -36,9 +36,8 @@ struct HoldSettings {
   enum class Edge { none, first_column, last_column, first_row, last_row };
   Choice<Edge> edge{Edge::none, {"", "first_column", "last_column", "first_row", "last_row"}};  // none: by the other keys
   std::vector<double> columns, rows;                                                            // first and last place; empty: all
-  std::vector<double> particles;  // row * n_columns + column; empty: by the other keys
-  Vec3 box_lower, box_upper;      // m
-  bool has_box = false;
+  std::vector<double> particles;             // row * n_columns + column; empty: by the other keys
+  std::vector<double> box_lower, box_upper;  // m; empty: by the other keys
   enum class Kind { clamp, pin, hinge };
   Choice<Kind> kind{Kind::clamp, {"clamp", "pin", "hinge"}};
   Vec3 hinge_axis;

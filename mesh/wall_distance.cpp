@@ -5,8 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "mesh/geometry.hpp"
 #include "mesh/triangle.hpp"
 #include "mesh/wall_surface.hpp"
+#include "parallel/rows.hpp"
 
 namespace snag {
 
@@ -79,11 +81,37 @@ WallPoint WallTree::nearest(const Vec3& place) const {
   return {std::sqrt(best2), unit(place - best)};
 }
 
+namespace {
+
+/// Ways from a place to its images across the periods of the mesh, one period or several at a time.
+std::vector<Vec3> ways_to_images(const Mesh& mesh) {
+  std::vector<Vec3> own, periods;
+  const auto add = [](std::vector<Vec3>& to, const Vec3& way) {
+    constexpr double alike = 1e-6;
+    const auto is_known = [&](const Vec3& one) { return std::min(norm(way - one), norm(way + one)) < alike * norm(way); };
+    if (norm_squared(way) > 0 && std::none_of(to.begin(), to.end(), is_known)) to.push_back(way);
+  };
+  for (int f = 0; f < mesh.first_facet; ++f) add(own, period(mesh, f));
+  for (const Vec3& way : gathered(mesh.comm, own)) add(periods, way);
+  std::vector<Vec3> ways{{}};
+  for (const Vec3& way : periods)
+    for (std::size_t i = 0, n = ways.size(); i < n; ++i) ways.push_back(ways[i] + way), ways.push_back(ways[i] - way);
+  ways.erase(ways.begin());  // from the place to itself
+  return ways;
+}
+
+}  // namespace
+
 std::vector<WallPoint> wall_distances(const Mesh& mesh, const std::vector<std::string>& walls) {
   const WallSurface surface = wall_surface(mesh, walls);
   const WallTree tree(surface.triangles);
+  const std::vector<Vec3> ways = ways_to_images(mesh);
   std::vector<WallPoint> of_cells(static_cast<std::size_t>(mesh.n_all_cells()));
-  for (std::size_t c = 0; c < of_cells.size(); ++c) of_cells[c] = tree.nearest(mesh.cell_centre[c]);
+  for (std::size_t c = 0; c < of_cells.size(); ++c) {
+    of_cells[c] = tree.nearest(mesh.cell_centre[c]);
+    for (const Vec3& way : ways)
+      if (const WallPoint seen = tree.nearest(mesh.cell_centre[c] + way); seen.distance < of_cells[c].distance) of_cells[c] = seen;
+  }
   return of_cells;
 }
 

@@ -18,7 +18,8 @@ namespace snag {
 
 namespace {
 
-// Of the fluxes through a cell's faces: no solve can be asked for less than their rounding.
+// Of the fluxes through a cell's faces, and of what goes along a wall that turns, whose part through the wall is rounding: no solve can be
+// asked for less.
 constexpr double rounding = 1e-15;
 
 /// In several sums: one would wait for itself at each number.
@@ -231,10 +232,12 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
 }
 
 void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose) {
+  squares_along_boundary_ = 0;
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const FaceFlux source = boundary.flux(static_cast<int>(p));
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
+      squares_along_boundary_ += norm_squared(boundary.values().velocity[b]) * norm_squared(mesh_.face_vector[f]);
       double psi = 0;
       if (source == FaceFlux::given) {
         flow.flux[f] = boundary.values().flux[b];
@@ -314,7 +317,8 @@ Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& fl
     imbalance_[mesh_.neighbour[f]] -= flux[f];
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) imbalance_[mesh_.owner[f]] += flux[f];
-  squares[0] = sum_of_squares(imbalance_.data(), mesh_.n_cells), squares[1] = sum_of_squares(flux.data(), mesh_.n_faces);
+  squares[0] = sum_of_squares(imbalance_.data(), mesh_.n_cells),
+  squares[1] = sum_of_squares(flux.data(), mesh_.n_faces) + squares_along_boundary_;
   MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
   return {.norm = std::sqrt(squares[0]), .rounding = rounding * std::sqrt(squares[1])};
 }

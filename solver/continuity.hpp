@@ -144,6 +144,7 @@ class Continuity {
   std::vector<double> coefficient_;  // c, [n_faces]; 0 where the boundary gives no pressure
   // f, N/m3, [n_all_cells], and [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty without a reaction
   std::vector<Vec3> reaction_;
+  double squares_along_boundary_ = 0;  // sum of (|u| |S|)^2 over the boundary faces of this rank, m6/s2
   std::vector<double> reaction_excess_;
   double preconditioner_angle_ = 0;                            // rad
   std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]

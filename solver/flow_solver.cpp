@@ -101,7 +101,7 @@ void FlowSolver::initialise(double boundary_time) {
   flow.mesh.halo.exchange(flow.velocity);
   update_gradient();
   continuity_.start_pressure(flow, boundary_);
-  if (norm(flow.body_force) > 0) balance_body_force();
+  find_rest_pressure();
   continuity_.project(flow, boundary_, flow.velocity_gradient);
   update_gradient();
   turbulence_->start(flow, boundary_);
@@ -109,10 +109,14 @@ void FlowSolver::initialise(double boundary_time) {
   started_ = true;
 }
 
-/// Where no pressure was given: that which holds the body force as far as the boundary allows, so that water at rest stays at rest.
-void FlowSolver::balance_body_force() {
-  const auto given = std::any_of(flow.pressure.begin(), flow.pressure.end(), [](double p) { return p != 0; });
-  if (sum(flow.mesh.comm, std::int64_t{given}) > 0) return;
+/// Where no pressure was given: that which the boundary and the body force give to water at rest, which so stays at rest as far as the
+/// boundary allows. Whatever level an outlet has, the water starts from it.
+void FlowSolver::find_rest_pressure() {
+  const auto is_anywhere = [&](const std::vector<double>& pressure) {
+    const bool here = std::any_of(pressure.begin(), pressure.end(), [](double p) { return p != 0; });
+    return sum(flow.mesh.comm, std::int64_t{here}) > 0;
+  };
+  if (is_anywhere(flow.pressure) || (norm(flow.body_force) == 0 && !is_anywhere(boundary_.values().pressure))) return;
   const TimeScheme unit_step{.dt = flow.density};  // mobility 1: the velocity below is an acceleration times the density
   const std::vector<Mat3> no_gradient(flow.velocity.size());
   const auto velocity = flow.velocity;

@@ -77,7 +77,7 @@ class FlowSolver {
   const DivergenceWatch& watch() const { return watch_; }
 
  private:
-  void balance_body_force();
+  void find_rest_pressure();
   void begin_step(const TimeScheme& time, StepReport& report);
   void turn_mesh(double time);
   void fields_follow_facets();

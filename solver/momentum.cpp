@@ -1,4 +1,5 @@
-// Assembly and solution of the momentum equation, one row a cell, common to the three components but for the diagonal at symmetry planes.
+// Assembly and solution of the momentum equation, one row a cell, common to the three components but for its 3 x 3 block at symmetry
+// planes.
 //
 //   convection   F u_f = F u_C + F (u_f^high - u_C)        C: upwind cell; first part implicit, second explicit from the guess, by a scheme
 //                                                          (solver/convection/schemes/)
@@ -24,6 +25,7 @@
 #include "solver/momentum.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "mesh/geometry.hpp"
 #include "mesh/skewness.hpp"
@@ -188,7 +190,8 @@ SweepReport Momentum::predict(Flow& flow, const BoundarySet& boundary, const Tim
   start_rows(flow, time);
   scheme_->add_interior(inputs(flow, flow.velocity), {matrix_, diagonal_, right_side_});
   add_boundary(flow, boundary);
-  const auto report = solve_rows<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps);
+  const auto report =
+      solve_rows<Vec3>(mesh_, matrix_, diagonal_, right_side_, flow.velocity, settings_.tolerance, settings_.max_sweeps, false, coupled_);
   record_boundary(flow, boundary);
   return report;
 }
@@ -246,9 +249,11 @@ void Momentum::start_rows(const Flow& flow, const TimeScheme& time) {
 }
 
 /// Coefficients of boundary face f with its cell P:
-///   friction on the fluid = friction_source - friction_slope * u_P,   convection out = convection_slope u_P + convection_source
+///   friction on the fluid = friction_source - friction_slope * u_P - coupling u_P,   convection out = convection_slope u_P +
+///   convection_source
 struct Momentum::BoundaryFace {
   Vec3 friction_slope, friction_source;  // kg/s, N
+  Vec3 coupling;                         // of the components by friction: yz, xz, xy, kg/s
   double convection_slope = 0;           // kg/s
   Vec3 convection_source;                // N
 
@@ -283,24 +288,32 @@ struct Momentum::BoundaryFace {
           convection_source = F * (equation.flux_[f] + flow.mesh_flux[f]) / area * n;
         break;
       }
-      case Side::mirror: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), diagonal
-                            // part implicit;
-                            // mu grad u^T adds the same again
+      case Side::mirror: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), all of it implicit: in large
+                            // steps an explicit part grows. mu grad u^T adds the same again
         const double area = norm(S);
         const Vec3 n = S / area;
         const double c = (flow.variable_viscosity ? 2 : 1) * mu * area / dot(d, n);
         friction_slope = c * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
-        const Vec3& u = flow.velocity[P];
-        friction_source = scaled(friction_slope, u) - c * dot(u, n) * n;
+        coupling = c * Vec3{n.y * n.z, n.x * n.z, n.x * n.y};
         break;
       }
       case Side::none:
         break;
     }
   }
+
+  bool is_coupled() const {
+    constexpr double round_off = 1e-24;  // of a plane along two axes
+    return norm_squared(coupling) > round_off * norm_squared(friction_slope);
+  }
+  /// What couples the components, of the velocity u.
+  Vec3 coupled(const Vec3& u) const {
+    return {coupling.z * u.y + coupling.y * u.z, coupling.z * u.x + coupling.x * u.z, coupling.y * u.x + coupling.x * u.y};
+  }
 };
 
 void Momentum::add_boundary(Flow& flow, const BoundarySet& boundary) {
+  std::map<int, Vec3> coupling;  // by cell
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const BoundaryFace face(*this, flow, boundary, static_cast<int>(p), f);
@@ -308,11 +321,14 @@ void Momentum::add_boundary(Flow& flow, const BoundarySet& boundary) {
       const double C = face.convection_slope;
       diagonal_[P] += face.friction_slope + Vec3{C, C, C};
       right_side_[P] += face.friction_source - face.convection_source;
+      if (face.is_coupled()) coupling[P] += face.coupling;
       // The explicit parts are kept: after the solve the guess they came from is gone.
       flow.boundary_friction[b] = -face.friction_source;
       flow.boundary_convection[b] = face.convection_source;
     }
   }
+  coupled_.clear();
+  for (const auto& [cell, off] : coupling) coupled_.push_back({cell, off});
 }
 
 /// Completes what the boundary faces did with the implicit parts at u*.
@@ -322,6 +338,7 @@ void Momentum::record_boundary(Flow& flow, const BoundarySet& boundary) const {
       const BoundaryFace face(*this, flow, boundary, static_cast<int>(p), f);
       const Vec3& u = flow.velocity[mesh_.owner[f]];
       flow.boundary_friction[f - mesh_.n_interior] += scaled(face.friction_slope, u);
+      if (face.is_coupled()) flow.boundary_friction[f - mesh_.n_interior] += face.coupled(u);
       flow.boundary_convection[f - mesh_.n_interior] += face.convection_slope * u;
       if (!flow.variable_viscosity && boundary.is_wall(static_cast<int>(p)))
         flow.turning_friction[f - mesh_.n_interior] =

@@ -85,6 +85,7 @@ class Momentum {
   CellMatrix& matrix_;
   std::vector<Vec3>&diagonal_, &right_side_;  // [n_all_cells], the ghosts' parts are not used
   std::vector<Vec3>& psi_;                    // limiter
+  std::vector<CoupledRow> coupled_;           // of cells at symmetry planes that lie aslant
   MeanGradient mean_gradient_;                // for a guess of the flux
   TetrahedronReconstruction reconstruction_;
   const std::vector<Mat3>* convected_ = nullptr;  // of the last prediction

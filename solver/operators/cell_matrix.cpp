@@ -1,4 +1,5 @@
-// Gauss-Seidel:   x_i <- (b_i - sum_{j /= i} a_ij x_j) / a_ii,   row residual  r_i = a_ii (x_i^new - x_i^old)
+// Gauss-Seidel:   x_i <- a_ii^-1 (b_i - sum_{j /= i} a_ij x_j),   row residual  r_i = a_ii (x_i^new - x_i^old)
+// a_ii of a coupled row is a 3 x 3 block.
 // The convection-diffusion matrix of upwind fluxes and a time derivative is diagonally dominant: sweeps, forward and backward in turn,
 // converge, fast for Courant and diffusion numbers to about 10. In layers of thin cells at walls the diffusion number of a step reaches
 // some hundreds, and a change crosses one cell a sweep.
@@ -93,9 +94,7 @@ bool CellMatrix::place_facets(const Mesh& mesh) {
 
 namespace {
 
-inline double ratio(double a, double b) { return a / b; }
 inline Vec3 ratio(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
-inline double times(double a, double b) { return a * b; }
 inline Vec3 times(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline double square(double a) { return a * a; }
 inline double square(const Vec3& a) { return norm_squared(a); }
@@ -103,15 +102,64 @@ inline double square(const Vec3& a) { return norm_squared(a); }
 inline void exchange(const Mesh& mesh, std::vector<double>& x) { mesh.halo.exchange(x); }
 inline void exchange(const Mesh& mesh, std::vector<Vec3>& x) { mesh.halo.exchange(flat(x), 3); }
 
+/// a_ii of a coupled row.
+struct Block {
+  int cell;
+  Mat3 matrix, inverse;
+};
+
+std::vector<Block> blocks_of(std::span<const Vec3> diagonal, std::span<const CoupledRow> coupled) {
+  std::vector<Block> blocks;
+  for (const auto& [cell, off] : coupled) {
+    const Vec3& d = diagonal[static_cast<std::size_t>(cell)];
+    const Mat3 A{Vec3{d.x, off.z, off.y}, Vec3{off.z, d.y, off.x}, Vec3{off.y, off.x, d.z}};
+    const Vec3 yz = cross(A[1], A[2]), zx = cross(A[2], A[0]), xy = cross(A[0], A[1]);
+    const double determinant = dot(A[0], yz);
+    blocks.push_back({cell, A, {yz / determinant, zx / determinant, xy / determinant}});  // the inverse of a symmetric matrix is symmetric
+  }
+  return blocks;
+}
+std::vector<Block> blocks_of(std::span<const double>, std::span<const CoupledRow>) { return {}; }
+
+/// The blocks in the order of a sweep.
+template <bool forward>
+class BlockCursor {
+ public:
+  explicit BlockCursor(std::span<const Block> blocks)
+      : next_(forward ? blocks.data() : blocks.data() + blocks.size() - 1), left_(blocks.size()), cell_(left_ > 0 ? next_->cell : -1) {}
+  /// That of row i, which is behind all rows that were asked for; null if it is not coupled.
+  const Block* of(int i) {
+    if (i != cell_) return nullptr;
+    const Block* const found = next_;
+    next_ += forward ? 1 : -1;
+    cell_ = --left_ > 0 ? next_->cell : -1;
+    return found;
+  }
+
+ private:
+  const Block* next_;
+  std::size_t left_;
+  int cell_;
+};
+
+inline double product(const Block*, double diagonal, double x) { return diagonal * x; }
+inline Vec3 product(const Block* block, const Vec3& diagonal, const Vec3& x) { return block ? block->matrix * x : times(diagonal, x); }
+inline double solution(const Block*, double diagonal, double rest) { return rest / diagonal; }
+inline Vec3 solution(const Block* block, const Vec3& diagonal, const Vec3& rest) {
+  return block ? block->inverse * rest : ratio(rest, diagonal);
+}
+
 /// One sweep, forward or backward; returns the sum of the squares of the row residuals.
 template <bool forward, class Value>
-double sweep(int n_cells, const CellMatrix& matrix, const Value* diagonal, const Value* b, Value* x) {
+double sweep(int n_cells, const CellMatrix& matrix, const Value* diagonal, std::span<const Block> blocks, const Value* b, Value* x) {
   double squares = 0;
+  BlockCursor<forward> block(blocks);
   for (int row = 0; row < n_cells; ++row) {
     const int i = forward ? row : n_cells - 1 - row;
     const Value rest = b[i] - matrix.product(i, x);
-    squares += square(rest - times(diagonal[i], x[i]));
-    x[i] = ratio(rest, diagonal[i]);
+    const Block* const coupled = block.of(i);
+    squares += square(rest - product(coupled, diagonal[i], x[i]));
+    x[i] = solution(coupled, diagonal[i], rest);
   }
   return squares;
 }
@@ -128,8 +176,8 @@ constexpr int sweeps_of_iteration = 6;
 template <class Value>
 class BiCgStab {
  public:
-  BiCgStab(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal)
-      : mesh_(mesh), matrix_(matrix), diagonal_(diagonal), n_(static_cast<std::size_t>(mesh.n_cells)) {
+  BiCgStab(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal, std::span<const Block> blocks)
+      : mesh_(mesh), matrix_(matrix), diagonal_(diagonal), blocks_(blocks), n_(static_cast<std::size_t>(mesh.n_cells)) {
     for (auto* vector : {&r_, &shadow_, &p_, &v_, &t_}) vector->resize(n_);
     for (auto* vector : {&p_hat_, &s_hat_}) vector->resize(static_cast<std::size_t>(mesh.n_all_cells()));
   }
@@ -169,14 +217,17 @@ class BiCgStab {
  private:
   void multiply(std::vector<Value>& x, std::vector<Value>& y) const {
     exchange(mesh_, x);
-    for (int i = 0; i < mesh_.n_cells; ++i) y[i] = times(diagonal_[i], x[i]) + matrix_.product(i, x.data());
+    BlockCursor<true> block(blocks_);
+    for (int i = 0; i < mesh_.n_cells; ++i) y[i] = snag::product(block.of(i), diagonal_[i], x[i]) + matrix_.product(i, x.data());
   }
   /// z of (D + L) D^-1 (D + U) z = r among the cells of this rank.
   void precondition(const std::vector<Value>& r, std::vector<Value>& z) const {
     std::fill(z.begin(), z.end(), Value{});
-    const auto relax = [&](int i) { z[i] = ratio(r[i] - matrix_.product(i, z.data()), diagonal_[i]); };
-    for (int i = 0; i < mesh_.n_cells; ++i) relax(i);
-    for (int i = mesh_.n_cells - 1; i >= 0; --i) relax(i);
+    const auto relax = [&](int i, auto& block) { z[i] = solution(block.of(i), diagonal_[i], r[i] - matrix_.product(i, z.data())); };
+    BlockCursor<true> next(blocks_);
+    for (int i = 0; i < mesh_.n_cells; ++i) relax(i, next);
+    BlockCursor<false> back(blocks_);
+    for (int i = mesh_.n_cells - 1; i >= 0; --i) relax(i, back);
   }
   double product(const std::vector<Value>& a, const std::vector<Value>& b) const {
     double sum = 0;
@@ -187,6 +238,7 @@ class BiCgStab {
   const Mesh& mesh_;
   const CellMatrix& matrix_;
   std::span<const Value> diagonal_;
+  std::span<const Block> blocks_;
   std::size_t n_;
   std::vector<Value> r_, shadow_, p_, v_, t_;  // [n_cells]
   std::vector<Value> p_hat_, s_hat_;           // [n_all_cells]
@@ -202,16 +254,17 @@ bool stalls(double first, double last, double wanted) {
 
 template <class Value>
 SweepReport solve_rows(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal, std::span<const Value> b,
-                       std::vector<Value>& x, double tolerance, int max_sweeps, bool positive) {
+                       std::vector<Value>& x, double tolerance, int max_sweeps, bool positive, std::span<const CoupledRow> coupled) {
   SweepReport report;
+  const std::vector<Block> blocks = blocks_of(diagonal, coupled);
   double scale = 0, before = 0, share_of_tolerance = 1;  // before: the residual two sweeps ago
   int since_look = 0;
   for (int c = 0; c < mesh.n_cells; ++c) scale += square(b[c]);
   bool forward = true;
   while (report.sweeps < max_sweeps) {
     exchange(mesh, x);
-    const double squares = forward ? sweep<true>(mesh.n_cells, matrix, diagonal.data(), b.data(), x.data())
-                                   : sweep<false>(mesh.n_cells, matrix, diagonal.data(), b.data(), x.data());
+    const double squares = forward ? sweep<true>(mesh.n_cells, matrix, diagonal.data(), blocks, b.data(), x.data())
+                                   : sweep<false>(mesh.n_cells, matrix, diagonal.data(), blocks, b.data(), x.data());
     std::array<double, 2> all{squares, scale};
     MPI_Allreduce(MPI_IN_PLACE, all.data(), 2, MPI_DOUBLE, MPI_SUM, mesh.comm);
     const double reference = all[1] > 0 ? std::sqrt(all[1]) : 1;
@@ -228,7 +281,7 @@ SweepReport solve_rows(const Mesh& mesh, const CellMatrix& matrix, std::span<con
     // Along a row of thin cells what a sweep meets is the sum of the residuals that lie behind it.
     share_of_tolerance *= 0.1;
     report.sweeps +=
-        sweeps_of_iteration * BiCgStab<Value>(mesh, matrix, diagonal).solve(b, x, share_of_tolerance * tolerance * reference, most);
+        sweeps_of_iteration * BiCgStab<Value>(mesh, matrix, diagonal, blocks).solve(b, x, share_of_tolerance * tolerance * reference, most);
     if (positive)
       for (std::size_t c = 0; c < x.size(); ++c)
         if (!is_positive(x[c])) x[c] = swept[c];
@@ -240,8 +293,8 @@ SweepReport solve_rows(const Mesh& mesh, const CellMatrix& matrix, std::span<con
 }
 
 template SweepReport solve_rows(const Mesh&, const CellMatrix&, std::span<const double>, std::span<const double>, std::vector<double>&,
-                                double, int, bool);
+                                double, int, bool, std::span<const CoupledRow>);
 template SweepReport solve_rows(const Mesh&, const CellMatrix&, std::span<const Vec3>, std::span<const Vec3>, std::vector<Vec3>&, double,
-                                int, bool);
+                                int, bool, std::span<const CoupledRow>);
 
 }  // namespace snag

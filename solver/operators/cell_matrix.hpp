@@ -40,6 +40,12 @@ class CellMatrix {
   std::vector<FacetRow> facet_rows_;
 };
 
+/// A row whose components depend on each other: what its 3 x 3 block has off the diagonal.
+struct CoupledRow {
+  int cell = 0;
+  Vec3 off;  // yz, xz, xy
+};
+
 struct SweepReport {
   double initial = 0, final = 0;  // residuals over the norm of the right-hand side
   int sweeps = 0;
@@ -49,9 +55,11 @@ struct SweepReport {
 /// Solve (diagonal + matrix) x = b, x [n_all_cells] holding the first guess: Gauss-Seidel, forward and backward in turn, ghosts exchanged
 /// before each sweep, residual tested in each sweep; where sweeps stall, as they do in thin layers at large steps, BiCGStab between
 /// sweeps. The residual is that of each row when it is visited. `tolerance` is relative to |b|. `positive`: the solution is, and no value
-/// becomes zero or negative. `sweeps` of the report counts an iteration of BiCGStab as six. Value: double or Vec3. Collective.
+/// becomes zero or negative. `coupled`: by rising cell; only of Vec3. `sweeps` of the report counts an iteration of BiCGStab as six. Value:
+/// double or Vec3. Collective.
 template <class Value>
 SweepReport solve_rows(const Mesh& mesh, const CellMatrix& matrix, std::span<const Value> diagonal, std::span<const Value> b,
-                       std::vector<Value>& x, double tolerance, int max_sweeps, bool positive = false);
+                       std::vector<Value>& x, double tolerance, int max_sweeps, bool positive = false,
+                       std::span<const CoupledRow> coupled = {});
 
 }  // namespace snag

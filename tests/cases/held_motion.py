@@ -158,10 +158,19 @@ class HeldInMotion(harness.CaseTest):
         self.assertEqual(lines[0], lines[1])
         self.assertEqual(lines[0], lines[2])
 
+    def test_resolved_case_holds_the_same(self):
+        """case.resolved.toml has every key: those that are not in use choose nothing."""
+        for name, choice in (("rows", "rows = [0, 1]"), ("box", "box_lower_mm = [-12, -5, -1]\nbox_upper_mm = [-10, 5, 1]")):
+            run = self.run_case(self.case(STRIP.format(end=0.002, more=f'[[hold]]\n{choice}\nkind = "pin"\n'), name), out=name)
+            again = self.run_case(run.folder / "case.resolved.toml", out=name + "_again")
+            self.assertEqual((again.folder / "monitors" / "holds.csv").read_text(), (run.folder / "monitors" / "holds.csv").read_text())
+            self.assertEqual(again.summary["case_sha256"], run.summary["case_sha256"])
+
     def test_wrong_holds_are_refused(self):
         for more, message in (("particles = [36]", "particles: 36 is not a particle of rag 1, must be a whole number from 0 to 35"),
                               ("particles = [3]\nrows = [0, 1]", "has rows, particles: must have one kind of choice"),
                               ("box_lower_m = [0, 0, 0]", "box_lower and box_upper need each other"),
+                              ("box_lower_m = [0, 0]\nbox_upper_m = [1, 1, 1]", "box_lower: has 2 numbers, must have three"),
                               ("box_lower_m = [0, 0, 1]\nbox_upper_m = [1, 1, 0]", "is above box_upper (0 m) along axis 2"),
                               ("box_lower_m = [1, 1, 1]\nbox_upper_m = [2, 2, 2]", "selects no particle of rag 1"),
                               ('edge = "last_row"\nkind = "hinge"', "without hinge_axis"),

@@ -21,6 +21,23 @@ TEST(WallDistance, box) {
   }
 }
 
+// A ridge of the wall just before the end of a period is near to the cells behind it: as in three periods without one. Along z as well.
+TEST(WallDistance, across_periods) {
+  const auto with_ridge = [](Mesh mesh) {
+    for (Vec3& node : mesh.node) {
+      const double along = node.x - std::floor(node.x), across = node.z - std::floor(node.z);
+      if (node.y < 1e-9) node.y = 0.8 * std::max(0.0, 1 - std::abs(along - 0.9) / 0.1) * std::max(0.0, 1 - std::abs(across - 0.1) / 0.1);
+    }
+    return mesh;
+  };
+  const Mesh one = with_ridge(structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {10, 3, 10}, {true, false, true}));
+  const Mesh three = with_ridge(structured_box(MPI_COMM_SELF, {-1, 0, -1}, {2, 1, 2}, {30, 3, 30}));
+  const WallSurface surface = wall_surface(three, {"y0"});
+  const WallTree tree(surface.triangles);
+  const auto found = wall_distances(one, {"y0"});
+  for (int c = 0; c < one.n_cells; ++c) EXPECT_NEAR(found[c].distance, tree.nearest(one.cell_centre[c]).distance, 1e-12);
+}
+
 // Of a triangle the nearest point lies on its face, an edge or a corner; of many triangles, slender ones too, the nearest is found.
 TEST(WallDistance, triangles) {
   const WallTriangle one{.node = {Vec3{0, 0, 0}, Vec3{2, 0, 0}, Vec3{0, 1, 0}}, .normal = {0, 0, 1}};

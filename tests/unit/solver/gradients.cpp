@@ -128,4 +128,18 @@ TEST(CellMatrix, thin_layers) {
   }
   EXPECT_TRUE(solve_rows<Vec3>(mesh, matrix, diagonal3, b3, x3, 1e-11, 1000).converged);
   for (int c = 0; c < mesh.n_all_cells(); ++c) EXPECT_LT(norm(x3[c] - exact[c] * Vec3{1, -1, 2}), 1e-6);
+
+  // Rows whose components depend on each other as those at a plane of symmetry: c n n^T, with its diagonal in that of the row.
+  std::vector<CoupledRow> coupled;
+  const Vec3 n = unit(Vec3{1, 2, -2});
+  for (int c = 0; c < mesh.n_cells; c += 7) {
+    const double k = 50 * diagonal[c];
+    diagonal3[c] += k * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
+    coupled.push_back({c, k * Vec3{n.y * n.z, n.x * n.z, n.x * n.y}});
+    b3[c] += k * exact[c] * dot(n, Vec3{1, -1, 2}) * n;
+  }
+  std::fill(x3.begin(), x3.end(), Vec3{});
+  const auto of_coupled = solve_rows<Vec3>(mesh, matrix, diagonal3, b3, x3, 1e-11, 1000, false, coupled);
+  EXPECT_TRUE(of_coupled.converged);
+  for (int c = 0; c < mesh.n_all_cells(); ++c) EXPECT_LT(norm(x3[c] - exact[c] * Vec3{1, -1, 2}), 1e-6);
 }

@@ -1,0 +1,138 @@
+# timeout: 200
+# cost: 10
+"""Requirement: the flow does not depend on how the case lies, with planes of symmetry aslant to the coordinates, nor on the level of the pressure;
+a closed case whose water is at rest starts whatever its round-off."""
+import math
+
+import graded_box
+import harness
+import numpy
+from turning_zone import RingMesh
+
+# Of oil: nu dt/h2 = 6.
+CHANNEL = """
+[mesh]
+file = "{mesh}"
+[time]
+end_s = 3
+step_s = 0.02
+[flow]
+kinematic_viscosity_m2_s = 5.4e-3
+initial_velocity_m_s = [0.4, 0, 0]
+momentum_tolerance = 1e-8
+pressure_tolerance = 1e-6
+limiter = "none"
+[turbulence]
+model = "laminar"
+[[boundary]]
+patch = "x0"
+kind = "velocity_inlet"
+velocity_m_s = [0.4, 0, 0]
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+[[boundary]]
+patch = "y0"
+kind = "wall"
+[[boundary]]
+patches = ["y1", "z0", "z1"]
+kind = "symmetry"
+[output]
+report = false
+"""
+
+LEVEL = """
+[mesh]
+geometry = "box"
+set = ["lower_m=[0,0,0]", "upper_m=[0.2,0.1,0.1]", "size_m=0.012", "cells=\\"tetrahedra\\""]
+[time]
+end_s = 0.02
+step_s = 0.002
+[flow]
+initial_velocity_m_s = [0.4, 0, 0]
+pressure_tolerance = 1e-8
+[[boundary]]
+patch = "x0"
+kind = "{inlet}"
+[[boundary]]
+patch = "x1"
+kind = "pressure_outlet"
+pressure_Pa = {level}
+[[boundary]]
+patches = ["y0", "y1", "z0", "z1"]
+kind = "wall"
+[output]
+fields_interval_s = 0.02
+single_precision = false
+report = false
+"""
+
+REST = """
+[mesh]
+file = "{mesh}"
+[rotating_zone]
+zone = "rotor"
+rotation_speed_rad_s = 10
+[time]
+end_s = 0.03
+step_s = 0.01
+[turbulence]
+model = "laminar"
+[[boundary]]
+patches = ["impeller_walls", "walls"]
+kind = "wall"
+[[boundary]]
+patch = "outlet"
+kind = "symmetry"
+[output]
+report = false
+"""
+
+
+def turned(file, angle):
+    """The mesh of a gmsh 2.2 file, turned about x; the file is changed."""
+    lines = file.read_text().split("\n")
+    first = lines.index("$Nodes") + 2
+    c, s = math.cos(angle), math.sin(angle)
+    for i in range(first, lines.index("$EndNodes")):
+        number, *place = lines[i].split()
+        x, y, z = map(float, place)
+        lines[i] = f"{number} {x!r} {c * y - s * z!r} {s * y + c * z!r}"
+    file.write_text("\n".join(lines))
+
+
+class Invariances(harness.CaseTest):
+    def test_planes_of_symmetry_aslant(self):
+        found = {}
+        for name, angle in (("straight", 0), ("turned", math.pi / 4), ("odd", 0.4)):
+            mesh = self.work / f"{name}.msh"
+            graded_box.write(mesh, [numpy.linspace(0, 0.14, 21), numpy.linspace(0, 0.028, 9), numpy.linspace(0, 0.014, 4)])
+            turned(mesh, angle)
+            run = self.run_case(self.case(CHANNEL.format(mesh=mesh), name), 2 if name == "odd" else 1, out=name)
+            found[name] = run.monitor("patches").column("x0_pressure")
+        for name in ("turned", "odd"):
+            self.assertLess(numpy.abs(found[name] / found["straight"] - 1).max(), 1e-6, name)
+
+    def test_level_of_the_pressure(self):
+        for name, inlet, level in (("flow", 'velocity_inlet"\nvelocity_m_s = [0.4, 0, 0]\n#"', 101325), ("pressure", 'pressure_inlet"\npressure_Pa = {p}\n#"', 1e5)):
+            runs = []
+            for p in (0, level):
+                text = LEVEL.format(inlet=inlet.format(p=p + 200), level=p)
+                run = self.run_case(self.case(text, f"{name}-{p}"), 2 if name == "pressure" else 1, out=f"{name}-{p}")
+                grid = harness.read_vtk(max((run.folder / "fields").glob("water*.pvtu")))
+                order = numpy.lexsort(numpy.round(harness.cell_centres(grid), 9).T)
+                runs.append((run.monitor("patches").column("x0_pressure"), harness.arrays(grid.GetCellData())["velocity [m/s]"][order]))
+            self.assertLess(numpy.abs(runs[1][0] - level - runs[0][0]).max(), 1e-5, name)
+            self.assertLess(numpy.abs(runs[1][1] - runs[0][1]).max(), 1e-9, name)
+
+    def test_closed_case_at_rest(self):
+        """What goes through its walls is the round-off of what goes along them."""
+        mesh, n = RingMesh(), 192
+        mesh.add(1, (0.03, 0.05, 0, 0.004, 0), (n, 6, 1), dict(r0="impeller_walls", r1="interface_rotor", z0="outlet", z1="outlet"))
+        mesh.add(2, (0.05, 0.08, 0, 0.004, 0), (n, 8, 1), dict(r0="interface_stator", r1="walls", z0="outlet", z1="outlet"))
+        mesh.write(self.work / "ring.msh")
+        self.run_case(self.case(REST.format(mesh=self.work / "ring.msh")), 1)
+
+
+if __name__ == "__main__":
+    harness.main()
