@@ -22,7 +22,7 @@ Section PrescribedFlow::section() {
           "A flow given as a formula, without a mesh: u_i(x, t) = velocity_i + sum_j gradient_ij x_j + amplitude_i sin(angular_frequency_i "
           "t + phase_i).",
           {setting("kind", &kind, "Kind of the flow.", {"prescribed"}),
-           {"density", &density, "kg/m3", 1e-3, 1e5, Basis::literature, "Density of the fluid; water at 20 degrees Celsius."},
+           {"density", &density, "kg/m3", 1e-6, 1e6, Basis::literature, "Density of the fluid; water at 20 degrees Celsius."},
            {"dynamic_viscosity", &dynamic_viscosity, "Pa s", 1e-9, 1e4, Basis::literature,
             "Dynamic viscosity; by default that of water at 20 degrees Celsius."},
            {"kinematic_viscosity", &kinematic_viscosity, "m2/s", 1e-12, 10, Basis::literature,

@@ -111,7 +111,7 @@ void check(const HoldSettings& hold, const std::string& where) {
   for (const auto& [key, corner] : {std::pair{"box_lower", &hold.box_lower}, std::pair{"box_upper", &hold.box_upper}})
     if (!corner->empty() && corner->size() != 3)
       refuse(std::string(" ") + key + ": has " + counted(static_cast<std::int64_t>(corner->size()), "number") +
-             ", must have three, x, y, z");
+             ", must have three; give x, y and z");
   for (std::size_t c = 0; c < hold.box_lower.size(); ++c)
     if (hold.box_lower[c] > hold.box_upper[c])
       refuse(": box_lower (" + number_text(hold.box_lower[c]) + " m) is above box_upper (" + number_text(hold.box_upper[c]) +

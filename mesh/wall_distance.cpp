@@ -83,8 +83,8 @@ WallPoint WallTree::nearest(const Vec3& place) const {
 
 namespace {
 
-/// Ways from a place to its images across the periods of the mesh, one period or several at a time.
-std::vector<Vec3> ways_to_images(const Mesh& mesh) {
+/// Translations from a place to its images across the periods of the mesh, one of each on either side.
+std::vector<Vec3> translations_to_images(const Mesh& mesh) {
   std::vector<Vec3> own, periods;
   const auto add = [](std::vector<Vec3>& to, const Vec3& way) {
     constexpr double alike = 1e-6;
@@ -105,11 +105,11 @@ std::vector<Vec3> ways_to_images(const Mesh& mesh) {
 std::vector<WallPoint> wall_distances(const Mesh& mesh, const std::vector<std::string>& walls) {
   const WallSurface surface = wall_surface(mesh, walls);
   const WallTree tree(surface.triangles);
-  const std::vector<Vec3> ways = ways_to_images(mesh);
+  const std::vector<Vec3> translations = translations_to_images(mesh);
   std::vector<WallPoint> of_cells(static_cast<std::size_t>(mesh.n_all_cells()));
   for (std::size_t c = 0; c < of_cells.size(); ++c) {
     of_cells[c] = tree.nearest(mesh.cell_centre[c]);
-    for (const Vec3& way : ways)
+    for (const Vec3& way : translations)
       if (const WallPoint seen = tree.nearest(mesh.cell_centre[c] + way); seen.distance < of_cells[c].distance) of_cells[c] = seen;
   }
   return of_cells;

@@ -33,8 +33,8 @@ class WallTree {
   std::vector<Box> boxes_;
 };
 
-/// Of all cell centres from the named patches as the mesh stands, [n_all_cells]. Walls are seen across periods. Every rank holds the
-/// triangles of all walls meanwhile. Collective.
+/// Of all cell centres from the named patches as the mesh stands, [n_all_cells]. Walls are seen across periods, one of each on either side.
+/// Every rank holds the triangles of all walls meanwhile. Collective.
 std::vector<WallPoint> wall_distances(const Mesh& mesh, const std::vector<std::string>& walls);
 
 }  // namespace snag

@@ -146,7 +146,7 @@ struct RunInput {
   std::string text, files;
 };
 
-/// SHA-256 of files; one that has not changed since is not read again: the mesh of a study of many runs.
+/// SHA-256 of files. A file that has not changed since is not read again: all runs of a study may have one mesh.
 class FileHashes {
  public:
   /// Nothing if the file cannot be read.

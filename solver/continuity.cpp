@@ -18,8 +18,8 @@ namespace snag {
 
 namespace {
 
-// Of the fluxes through a cell's faces, and of what goes along a wall that turns, whose part through the wall is rounding: no solve can be
-// asked for less.
+// Of the fluxes through a cell's faces, and of what goes along boundary faces, whose part through a wall is rounding. No solve can be asked
+// for less.
 constexpr double rounding = 1e-15;
 
 /// In several sums: one would wait for itself at each number.
@@ -107,7 +107,7 @@ void Continuity::project(Flow& flow, const BoundarySet& boundary, const std::vec
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
       given_[f - mesh_.n_interior] = (dot(flow.velocity[mesh_.owner[f]], mesh_.face_vector[f]) - flow.flux[f]) / norm(mesh_.face_vector[f]);
   }
-  solve(flow, std::max(settings_.n_non_orthogonal_correctors, n_non_orthogonal_correctors));
+  solve(flow, boundary.values(), std::max(settings_.n_non_orthogonal_correctors, n_non_orthogonal_correctors));
   correct_cells(flow, false);
   carry_history();
 }
@@ -117,7 +117,7 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   mobility_ = time.dt / (time.now * flow.density);
   predict_flux(flow, boundary, gradient, is_last ? Purpose::last_correction : Purpose::correction);
   set_boundary_of_correction(flow, boundary);
-  const ContinuityReport report = solve(flow, settings_.n_non_orthogonal_correctors);
+  const ContinuityReport report = solve(flow, boundary.values(), settings_.n_non_orthogonal_correctors);
   correct_cells(flow, true);
   if (is_last) carry_history();
   return report;
@@ -232,12 +232,10 @@ void Continuity::predict_flux(Flow& flow, const BoundarySet& boundary, const std
 }
 
 void Continuity::boundary_flux(Flow& flow, const BoundarySet& boundary, const std::vector<Mat3>& gradient, Purpose purpose) {
-  squares_along_boundary_ = 0;
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     const FaceFlux source = boundary.flux(static_cast<int>(p));
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
-      squares_along_boundary_ += norm_squared(boundary.values().velocity[b]) * norm_squared(mesh_.face_vector[f]);
       double psi = 0;
       if (source == FaceFlux::given) {
         flow.flux[f] = boundary.values().flux[b];
@@ -308,7 +306,7 @@ void Continuity::set_coefficients(const BoundarySet& boundary, int first) {
 }
 
 /// Fills imbalance_; p' begins at zero.
-Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& flux) {
+Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& flux, const BoundaryValues& values) {
   std::fill(correction_.begin(), correction_.end(), 0.0);
   std::fill(imbalance_.begin(), imbalance_.end(), 0.0);
   double squares[2];
@@ -317,14 +315,15 @@ Continuity::Imbalance Continuity::begin_correction(const std::vector<double>& fl
     imbalance_[mesh_.neighbour[f]] -= flux[f];
   }
   for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f) imbalance_[mesh_.owner[f]] += flux[f];
-  squares[0] = sum_of_squares(imbalance_.data(), mesh_.n_cells),
-  squares[1] = sum_of_squares(flux.data(), mesh_.n_faces) + squares_along_boundary_;
+  squares[0] = sum_of_squares(imbalance_.data(), mesh_.n_cells), squares[1] = sum_of_squares(flux.data(), mesh_.n_faces);
+  for (int f = mesh_.n_interior; f < mesh_.n_faces; ++f)
+    squares[1] += norm_squared(values.velocity[f - mesh_.n_interior]) * norm_squared(mesh_.face_vector[f]);
   MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, mesh_.comm);
   return {.norm = std::sqrt(squares[0]), .rounding = rounding * std::sqrt(squares[1])};
 }
 
-ContinuityReport Continuity::solve(Flow& flow, int n_non_orthogonal_correctors) {
-  const Imbalance imbalance = begin_correction(flow.flux);
+ContinuityReport Continuity::solve(Flow& flow, const BoundaryValues& values, int n_non_orthogonal_correctors) {
+  const Imbalance imbalance = begin_correction(flow.flux, values);
   ContinuityReport report{.initial = imbalance.norm};
   for (int k = 0; k <= n_non_orthogonal_correctors; ++k) {
     set_right_side();
@@ -351,9 +350,9 @@ void Continuity::note_preconditioner(const Flow& flow) {
   if (flow.rotating_zone) preconditioner_angle_ = flow.rotating_zone->mesh().angle();
 }
 
-void Continuity::close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time) {
+void Continuity::close(std::vector<double>& flux, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time) {
   mobility_ = time.dt / (time.now * flow.density);
-  const Imbalance imbalance = begin_correction(flux);
+  const Imbalance imbalance = begin_correction(flux, boundary.values());
   std::fill(given_.begin(), given_.end(), 0.0);
   set_right_side();
   const PoissonReport report =

@@ -87,7 +87,7 @@ class Continuity {
                            bool is_last);
 
   /// Take the divergence out of a guessed flux, [n_faces], relative to the mesh, to the intermediate tolerance. Collective.
-  void close(std::vector<double>& flux, const Flow& flow, const TimeScheme& time);
+  void close(std::vector<double>& flux, const Flow& flow, const BoundarySet& boundary, const TimeScheme& time);
 
   /// Gradient of the last p', Gauss, [n_all_cells], Pa/m: until another one works with the vectors of the workspace.
   const std::vector<Vec3>& correction_gradient() const { return gradient_; }
@@ -123,8 +123,8 @@ class Continuity {
   struct Imbalance {
     double norm, rounding;  // of the cells' sums of fluxes; what round-off alone makes of it, m3/s
   };
-  Imbalance begin_correction(const std::vector<double>& flux);
-  ContinuityReport solve(Flow& flow, int n_non_orthogonal_correctors);
+  Imbalance begin_correction(const std::vector<double>& flux, const BoundaryValues& values);
+  ContinuityReport solve(Flow& flow, const BoundaryValues& values, int n_non_orthogonal_correctors);
   void note_preconditioner(const Flow& flow);
   void set_right_side();
   void add_cross_flux();
@@ -144,7 +144,6 @@ class Continuity {
   std::vector<double> coefficient_;  // c, [n_faces]; 0 where the boundary gives no pressure
   // f, N/m3, [n_all_cells], and [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty without a reaction
   std::vector<Vec3> reaction_;
-  double squares_along_boundary_ = 0;  // sum of (|u| |S|)^2 over the boundary faces of this rank, m6/s2
   std::vector<double> reaction_excess_;
   double preconditioner_angle_ = 0;                            // rad
   std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]

@@ -19,9 +19,10 @@ namespace snag {
 
 namespace {
 
-constexpr int first_step_correctors = 3;  // the first step starts from a pressure that is only a guess
-constexpr int static_correctors = 20;     // each leaves about a tenth of the error by non-orthogonal faces
-constexpr double exploded = 1e6;          // momentum residual over its right-hand side
+constexpr int first_step_correctors = 3;    // the first step starts from a pressure that is only a guess
+constexpr double static_tolerance = 1e-13;  // of the first imbalance
+constexpr int static_correctors = 20;       // each leaves about a tenth of the error by non-orthogonal faces
+constexpr double exploded = 1e6;            // momentum residual over its right-hand side
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -122,9 +123,12 @@ void FlowSolver::find_rest_pressure() {
   const auto velocity = flow.velocity;
   const auto reaction = std::exchange(flow.reaction, {});
   const auto values = boundary_.exchange_for_rest_state();
+  double first = 0;
   for (int k = 0; k < static_correctors; ++k) {
     for (std::size_t c = 0; c < velocity.size(); ++c) flow.velocity[c] = flow.body_force - flow.pressure_gradient[c];
-    continuity_.correct(flow, boundary_, unit_step, no_gradient, false);
+    const double imbalance = continuity_.correct(flow, boundary_, unit_step, no_gradient, false).initial;
+    if (k == 0) first = imbalance;
+    if (imbalance <= static_tolerance * first) break;
   }
   boundary_.restore(values);
   flow.velocity = velocity, flow.reaction = reaction;
@@ -173,7 +177,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   // doubled from step to step.
   if (share == 0 && rotating_zone_ && rotating_zone_->slides()) {
     const double guessed = seconds();
-    continuity_.close(momentum_.guessed_flux(), flow, time);
+    continuity_.close(momentum_.guessed_flux(), flow, boundary_, time);
     report.seconds_pressure += seconds() - guessed;
   }
   continuity_.history.begin_step(momentum_.convection_rate(), momentum_.diffusion_rate(), flow.mesh_flux, time);

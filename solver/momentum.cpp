@@ -25,7 +25,6 @@
 #include "solver/momentum.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "mesh/geometry.hpp"
 #include "mesh/skewness.hpp"
@@ -303,7 +302,7 @@ struct Momentum::BoundaryFace {
   }
 
   bool is_coupled() const {
-    constexpr double round_off = 1e-24;  // of a plane along two axes
+    constexpr double round_off = 1e-24;  // of a plane normal to an axis
     return norm_squared(coupling) > round_off * norm_squared(friction_slope);
   }
   /// What couples the components, of the velocity u.
@@ -313,7 +312,7 @@ struct Momentum::BoundaryFace {
 };
 
 void Momentum::add_boundary(Flow& flow, const BoundarySet& boundary) {
-  std::map<int, Vec3> coupling;  // by cell
+  coupled_.clear();
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const BoundaryFace face(*this, flow, boundary, static_cast<int>(p), f);
@@ -321,14 +320,22 @@ void Momentum::add_boundary(Flow& flow, const BoundarySet& boundary) {
       const double C = face.convection_slope;
       diagonal_[P] += face.friction_slope + Vec3{C, C, C};
       right_side_[P] += face.friction_source - face.convection_source;
-      if (face.is_coupled()) coupling[P] += face.coupling;
+      if (face.is_coupled()) coupled_.push_back({P, face.coupling});
       // The explicit parts are kept: after the solve the guess they came from is gone.
       flow.boundary_friction[b] = -face.friction_source;
       flow.boundary_convection[b] = face.convection_source;
     }
   }
-  coupled_.clear();
-  for (const auto& [cell, off] : coupling) coupled_.push_back({cell, off});
+  // One row a cell, ascending.
+  std::stable_sort(coupled_.begin(), coupled_.end(), [](const CoupledRow& a, const CoupledRow& b) { return a.cell < b.cell; });
+  std::size_t n = 0;
+  for (const CoupledRow& row : coupled_) {
+    if (n > 0 && coupled_[n - 1].cell == row.cell)
+      coupled_[n - 1].off += row.off;
+    else
+      coupled_[n++] = row;
+  }
+  coupled_.resize(n);
 }
 
 /// Completes what the boundary faces did with the implicit parts at u*.

@@ -296,7 +296,7 @@ void check_thickness(const std::string& file, const TextileTests& t) {
     throw Error(ExitCode::usage, file + ": [rag] thickness: is " + number_text(t.thickness) +
                                      " m, which with [elongation] wet_density makes " + number_text(of_thickness) +
                                      " kg/m2, but the samples of [bending] and [drape] have " + number_text(weighed) +
-                                     " kg/m2 in the mean; correct the thickness, or its unit");
+                                     " kg/m2 on average; correct the thickness, or its unit");
 }
 
 void check_contact_radius(const std::string& file, const TextileTests& t) {

@@ -58,7 +58,9 @@ struct ObservableTable {
           .meaning =
               "Standard uncertainty of the simulated value by grid and step, from your own study. Where all observables have it, no run "
               "is repeated with another step."},
-         setting("calibration_group", &observable.calibration_group, "Name of the group of observables that share one bias.")},
+         setting("calibration_group", &observable.calibration_group,
+                 "Name of the group of observables that share one bias: the same number for each. Axes whose errors differ need groups of "
+                 "their own.")},
         true};
   }
 };

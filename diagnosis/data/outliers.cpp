@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "diagnosis/data/summary.hpp"
@@ -33,6 +34,7 @@ struct Suspects {
     return std::find(index.begin(), index.begin() + static_cast<std::ptrdiff_t>(n), i) != index.begin() + static_cast<std::ptrdiff_t>(n);
   }
   void add(std::size_t i) { index[n++] = i; }
+  std::span<const std::size_t> indices() const { return std::span(index).first(n); }
 };
 
 /// One repeat at one point.
@@ -135,7 +137,9 @@ class PointPaths {
     for (std::size_t a = 0; a < n; ++a) {
       value[a] = path.value[chosen[a]];
       if (a > 0) {
-        const double beside = value[a == n_before ? 0 : a - 1];
+        double beside = value[a == n_before ? 0 : a - 1];
+        if (a == n_before && n_before > 1)  // across sample i, and at the rate of the two before it
+          beside += (value[0] - value[1]) / (path.time[chosen[0]] - path.time[chosen[1]]) * (path.time[chosen[a]] - path.time[chosen[0]]);
         value[a] = beside + difference(value[a], beside);
       }
     }
@@ -185,36 +189,43 @@ class PointPaths {
   /// if that is more than a fifth of the path.
   std::vector<std::size_t> leave_out_spoilers(Path& path) const {
     constexpr double worth = 6, most = 0.2;
+    const std::size_t n = path.value.size();
     std::vector<std::size_t> spoilers;
-    for (bool goes_on = noise_u_ > 0; goes_on;) {
-      std::size_t worst = 0;
-      double gain = 0;
-      for (std::size_t i = 0; i < path.value.size(); ++i)
-        if (const double of_i = path.left_out[i] ? 0 : gain_without(path, i); of_i > gain) gain = of_i, worst = i;
-      goes_on = gain > worth;
-      if (goes_on) path.left_out[worst] = true, spoilers.push_back(worst);
-      if (static_cast<double>(spoilers.size()) > most * static_cast<double>(path.value.size())) {
+    if (noise_u_ == 0) return spoilers;
+    std::vector<double> gain(n);
+    const auto set = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) gain[i] = path.left_out[i] ? 0 : gain_without(path, {&i, 1}, noise_u_);
+    };
+    for (set(0, n);;) {
+      const auto worst = static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin());
+      if (!(gain[worst] > worth)) return spoilers;
+      path.left_out[worst] = true, spoilers.push_back(worst);
+      if (static_cast<double>(spoilers.size()) > most * static_cast<double>(n)) {
         for (const std::size_t i : spoilers) path.left_out[i] = false;
         return {};
       }
+      constexpr std::size_t felt = 2 * predicts;  // by samples that few others lie between
+      set(worst > felt ? worst - felt : 0, std::min(worst + felt + 1, n));
     }
-    return spoilers;
   }
 
-  /// Nats by which sample i and those around it are better predicted without it.
-  double gain_without(Path& path, std::size_t i) const {
-    constexpr std::size_t reach = 6;
+  static constexpr std::size_t predicts = 6;  // samples, to either side, whose predictions a sample may be in
+
+  /// Nats of Cauchy noise of this width by which the series is better predicted without some samples.
+  double gain_without(Path& path, std::span<const std::size_t> samples, double width) const {
+    const std::size_t begin = samples.front() > predicts ? samples.front() - predicts : 0;
+    const std::size_t end = std::min(samples.back() + predicts + 1, path.value.size());
     const auto nats = [&] {
       double sum = 0;
-      for (std::size_t j = i > reach ? i - reach : 0; j < std::min(i + reach + 1, path.value.size()); ++j)
+      for (std::size_t j = begin; j < end; ++j)
         if (const auto p = path.left_out[j] ? std::nullopt : from_series(path, j, {}))
-          sum += std::log1p(std::pow(difference(path.value[j], p->value) / noise_u_, 2) / (1 + p->square));
+          sum += std::log1p(std::pow(difference(path.value[j], p->value) / width, 2) / (1 + p->square)) + 0.5 * std::log1p(p->square);
       return sum;
     };
     const double with = nats();
-    path.left_out[i] = true;
+    for (const std::size_t i : samples) path.left_out[i] = true;
     const double without = nats();
-    path.left_out[i] = false;
+    for (const std::size_t i : samples) path.left_out[i] = false;
     return with - without;
   }
 
@@ -282,7 +293,7 @@ class PointPaths {
   struct Candidate {
     std::size_t path = 0;
     Suspects suspects{};
-    double z = 0;
+    double z = 0, gain = 0;  // gain: what leaving it out improves, which z of its neighbours may surpass
   };
 
   bool leave_out_largest() {
@@ -294,10 +305,12 @@ class PointPaths {
         const auto alone = score(*all_[s], i);
         if (!alone || std::abs(*alone) < worth_a_look) continue;
         double z = 0;
-        if (const auto suspects = suspects_at(*all_[s], i, z)) candidates.push_back({s, *suspects, z});
+        if (const auto suspects = suspects_at(*all_[s], i, z))
+          candidates.push_back({s, *suspects, z, by_repeats_ ? z : gain_without(*all_[s], suspects->indices(), scale_)});
       }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-      return std::tuple(a.suspects.n, -a.z, a.path, a.suspects.index[0]) < std::tuple(b.suspects.n, -b.z, b.path, b.suspects.index[0]);
+      return std::tuple(a.suspects.n, -a.gain, a.path, a.suspects.index[0]) <
+             std::tuple(b.suspects.n, -b.gain, b.path, b.suspects.index[0]);
     });
     std::vector<const Candidate*> taken;
     for (const Candidate& candidate : candidates)
@@ -348,6 +361,17 @@ double nats_for_outliers(const std::vector<double>& scores) {
   return log_sum_exp(terms) - std::log(static_cast<double>(terms.size()));
 }
 
+/// Median of the scatters of the other points; infinity where there is none.
+double usual_elsewhere(const std::map<int, double>& scatters, int point) {
+  std::vector<double> others;
+  for (const auto& [other, scatter] : scatters)
+    if (other != point) others.push_back(scatter);
+  if (others.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = others.begin() + static_cast<std::ptrdiff_t>((others.size() - 1) / 2);
+  std::nth_element(others.begin(), middle, others.end());
+  return *middle;
+}
+
 OutliersFound outliers_of(const Experiment& experiment, int o, bool withheld) {
   const Observable& observable = experiment.observables[static_cast<std::size_t>(o)];
   const bool logarithm = observable.kind == Observable::Kind::lognormal;
@@ -363,14 +387,12 @@ OutliersFound outliers_of(const Experiment& experiment, int o, bool withheld) {
   }
   OutliersFound found;
   std::vector<double> scores;
-  std::vector<double> scatters;
+  std::map<int, double> scatters;
   for (auto& [point, paths] : points) {
     paths.end();
-    if (const double scatter = paths.scatter(); scatter > 0) scatters.push_back(scatter);
+    if (const double scatter = paths.scatter(); scatter > 0) scatters.emplace(point, scatter);
   }
-  std::sort(scatters.begin(), scatters.end());
-  const double usual = scatters.empty() ? 0 : scatters[scatters.size() / 2];
-  for (auto& [point, paths] : points) paths.judge(usual), paths.collect(scores, found.samples);
+  for (auto& [point, paths] : points) paths.judge(usual_elsewhere(scatters, point)), paths.collect(scores, found.samples);
   if (found.samples.empty()) return {};
   found.nats = nats_for_outliers(scores), found.share = static_cast<double>(found.samples.size()) / static_cast<double>(n);
   // More than a fifth is no blunder here and there: the paths are rougher than a cubic, or the noise is another one.

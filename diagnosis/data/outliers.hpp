@@ -6,13 +6,14 @@
 //
 // p comes from the two samples before and the two after in the same series (the cubic through them), or from the median of the other
 // repeats at the same time where there are two of them: whichever has the smaller s at this point. A sample is an outlier where |z| > 5 and
-// the samples before it predict those behind it. A kink of the path is therefore no outlier, nor is a deviation that most repeats have. Up
+// the samples before it predict those behind it. A kink of the path is therefore no outlier, nor is a deviation that most of the other
+// repeats have. Up
 // to three outliers in a row are found. They are left out where the mixture leads by 6 nats over all samples of an observable; otherwise
 // no sample is left out. Scalars of a replicate are not examined: their scatter is evidence of its own.
 //
-// s of a short path: an outlier is far from its prediction, and so are the four samples that it predicts, so that three of them are in most
-// predictions of a path of 20 samples. So s is that of the samples without what spoils it, but not below what is usual, the median of s
-// over the points: noise that is merely larger than stated spoils nothing.
+// s of a short path: an outlier is far from its prediction, and so are the four samples that it predicts. In a path of 20 samples three
+// outliers thus spoil most of the predictions. So s is found without the samples that spoil it. It is not taken below what is usual, the
+// median of s at the other points, because noise that is merely larger than stated spoils nothing. With a single point s is that of all.
 #include <vector>
 
 #include "diagnosis/data/experiment.hpp"

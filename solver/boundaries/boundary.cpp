@@ -200,6 +200,7 @@ void BoundarySet::update(const Flow& flow, double time) {
 BoundaryValues BoundarySet::exchange_for_rest_state() {
   BoundaryValues before = values_;
   std::fill(values_.flux.begin(), values_.flux.end(), 0.0);
+  std::fill(values_.velocity.begin(), values_.velocity.end(), Vec3{});
   std::fill(values_.acceleration.begin(), values_.acceleration.end(), Vec3{});
   return before;
 }

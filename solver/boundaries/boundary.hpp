@@ -108,7 +108,7 @@ class BoundarySet {
   void update(const Flow& flow, double time);
 
   const BoundaryValues& values() const { return values_; }
-  /// Set all fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
+  /// Set all velocities, fluxes and wall accelerations to zero and return the values before, for restore(): water at rest.
   BoundaryValues exchange_for_rest_state();
   void restore(const BoundaryValues& values) { values_ = values; }
   Side velocity_side(int patch) const { return velocity_sides_[patch]; }

@@ -110,6 +110,7 @@ struct Block {
 
 std::vector<Block> blocks_of(std::span<const Vec3> diagonal, std::span<const CoupledRow> coupled) {
   std::vector<Block> blocks;
+  blocks.reserve(coupled.size());
   for (const auto& [cell, off] : coupled) {
     const Vec3& d = diagonal[static_cast<std::size_t>(cell)];
     const Mat3 A{Vec3{d.x, off.z, off.y}, Vec3{off.z, d.y, off.x}, Vec3{off.y, off.x, d.z}};
@@ -125,21 +126,23 @@ std::vector<Block> blocks_of(std::span<const double>, std::span<const CoupledRow
 template <bool forward>
 class BlockCursor {
  public:
-  explicit BlockCursor(std::span<const Block> blocks)
-      : next_(forward ? blocks.data() : blocks.data() + blocks.size() - 1), left_(blocks.size()), cell_(left_ > 0 ? next_->cell : -1) {}
+  explicit BlockCursor(std::span<const Block> blocks) : blocks_(blocks), left_(blocks.size()) { find_next(); }
   /// That of row i, which is behind all rows that were asked for; null if it is not coupled.
   const Block* of(int i) {
     if (i != cell_) return nullptr;
-    const Block* const found = next_;
-    next_ += forward ? 1 : -1;
-    cell_ = --left_ > 0 ? next_->cell : -1;
+    const Block* const found = &blocks_[next_];
+    --left_, find_next();
     return found;
   }
 
  private:
-  const Block* next_;
-  std::size_t left_;
-  int cell_;
+  void find_next() {
+    next_ = forward ? blocks_.size() - left_ : left_ - 1;
+    cell_ = left_ > 0 ? blocks_[next_].cell : -1;
+  }
+  std::span<const Block> blocks_;
+  std::size_t left_, next_ = 0;
+  int cell_ = -1;
 };
 
 inline double product(const Block*, double diagonal, double x) { return diagonal * x; }

@@ -170,7 +170,7 @@ class HeldInMotion(harness.CaseTest):
         for more, message in (("particles = [36]", "particles: 36 is not a particle of rag 1, must be a whole number from 0 to 35"),
                               ("particles = [3]\nrows = [0, 1]", "has rows, particles: must have one kind of choice"),
                               ("box_lower_m = [0, 0, 0]", "box_lower and box_upper need each other"),
-                              ("box_lower_m = [0, 0]\nbox_upper_m = [1, 1, 1]", "box_lower: has 2 numbers, must have three"),
+                              ("box_lower_m = [0, 0]\nbox_upper_m = [1, 1, 1]", "box_lower: has 2 numbers, must have three; give x, y and z"),
                               ("box_lower_m = [0, 0, 1]\nbox_upper_m = [1, 1, 0]", "is above box_upper (0 m) along axis 2"),
                               ("box_lower_m = [1, 1, 1]\nbox_upper_m = [2, 2, 2]", "selects no particle of rag 1"),
                               ('edge = "last_row"\nkind = "hinge"', "without hinge_axis"),

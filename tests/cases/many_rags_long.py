@@ -1,7 +1,7 @@
 # labels: long
 # timeout: 1200
 # processors: 3
-"""Requirement: many_rags.py with a pile of 240 rags, 15 layers deep: 0.27, 0.32 and 0.35 of a radius are the deepest overlaps of 9, 12 and 15 layers, at 1 one would be through the other."""
+"""Requirement: many_rags.py with a pile of 240 rags, 15 layers deep: 0.27, 0.32 and 0.35 of a radius are the deepest overlaps of 9, 12 and 15 layers, from 1 on a layer lies inside the other."""
 import harness
 import many_rags
 

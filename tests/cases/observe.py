@@ -231,6 +231,18 @@ class Observe(harness.CaseTest):
         self.assertEqual(json.loads((run.folder / "part" / "statistics.json").read_text())["whole_blobs"], 6)
         self.assertEqual(json.loads((run.folder / "statistics.json").read_text())["whole_blobs"], 12)
 
+    def test_background_that_is_not_given(self):
+        pictures = self.work / "pictures"
+        pictures.mkdir()
+        for k in range(3):
+            write_picture(pictures / f"{k}.pgm", (100 + 40 * k, 150, 20, 30))
+        text = PUMP[: PUMP.index("[pump_in_picture]")]
+        run = self.snag_observe([pictures, "--camera", self.camera(text.replace('background = "{background}"\n', ""), "none")], "none")
+        self.assertIn("warning: [cloth] background is not given", run.stdout)
+        write_picture(pictures / "empty.pgm")
+        run = self.snag_observe([pictures, "--camera", self.camera(text.format(background=pictures / "empty.pgm"), "given")], "given")
+        self.assertNotIn("background is not given", run.stdout)
+
     def test_mistakes_of_groups(self):
         table = self.work / "repeats.csv"
         for rows, message in (("a,1\na,2", "two"), ("a,1\na,2\nb,3", "1 sample"), ("a,1\na,1\nb,1\nb,1", "does not vary"), ("a,1\na,nan\nb,1\nb,2", "nan")):

@@ -128,6 +128,15 @@ class TurningZone(harness.CaseTest):
     def test_resume_in_a_frame(self):
         self.crash_and_resume(1, "frame")
 
+    def test_pump_that_cannot_be_meant(self):
+        """Walls that stand count as walls of the shaft, and water that leaves through the inlet gives a head of the wrong sign: both are remarked on."""
+        case = self.rings()
+        check = harness.snag(["check", case, "--set", 'pump.walls=["impeller_walls", "walls"]'])
+        self.assertRegex(check.stdout, r'warning: \[pump\] walls: "walls" has \d+ faces outside the rotating zone')
+        self.assertNotIn("outside the rotating zone", harness.snag(["check", case]).stdout)
+        exchanged = self.run_case(case, 1, "--set", "time.end_s=0.002", "--set", "pump.inlet=outlet", "--set", "pump.outlet=inlet", out="exchanged")
+        self.assertIn('warning: [pump]: water leaves through the inlet "outlet"', exchanged.stdout)
+
 
 if __name__ == "__main__":
     harness.main()
