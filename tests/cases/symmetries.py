@@ -101,7 +101,7 @@ def turned(file, angle):
     file.write_text("\n".join(lines))
 
 
-class Invariances(harness.CaseTest):
+class Symmetries(harness.CaseTest):
     def test_planes_of_symmetry_aslant(self):
         found = {}
         for name, angle in (("straight", 0), ("turned", math.pi / 4), ("odd", 0.4)):
