@@ -111,7 +111,7 @@ class PointPaths {
   double difference(double a, double b) const { return period_ > 0 ? wrapped(a - b, period_) : a - b; }
 
   /// From the samples around i in the same series but for the suspects: the cubic through two on each side, the parabola through three at
-  /// an end. An angle is taken as near as it can be to the sample before it of those that are used: a false one does not turn what follows.
+  /// an end. Of an angle the turn is taken that is nearest to the other samples used: a false angle does not turn what follows it.
   std::optional<Prediction> from_series(const Path& path, std::size_t i, const Suspects& suspects) const {
     std::array<std::size_t, 3> before{}, after{};
     std::size_t n_before = 0, n_after = 0;
@@ -138,7 +138,7 @@ class PointPaths {
       value[a] = path.value[chosen[a]];
       if (a > 0) {
         double beside = value[a == n_before ? 0 : a - 1];
-        if (a == n_before && n_before > 1)  // across sample i, and at the rate of the two before it
+        if (a == n_before && n_before > 1)  // beyond sample i: at the rate of the two before it
           beside += (value[0] - value[1]) / (path.time[chosen[0]] - path.time[chosen[1]]) * (path.time[chosen[a]] - path.time[chosen[0]]);
         value[a] = beside + difference(value[a], beside);
       }
@@ -204,7 +204,7 @@ class PointPaths {
         for (const std::size_t i : spoilers) path.left_out[i] = false;
         return {};
       }
-      constexpr std::size_t felt = 2 * predicts;  // by samples that few others lie between
+      constexpr std::size_t felt = 2 * predicts;  // how far a sample that is left out is felt
       set(worst > felt ? worst - felt : 0, std::min(worst + felt + 1, n));
     }
   }
@@ -293,7 +293,7 @@ class PointPaths {
   struct Candidate {
     std::size_t path = 0;
     Suspects suspects{};
-    double z = 0, gain = 0;  // gain: what leaving it out improves, which z of its neighbours may surpass
+    double z = 0, gain = 0;  // gain: nats by which the series is better without it
   };
 
   bool leave_out_largest() {

@@ -7,9 +7,8 @@
 // p comes from the two samples before and the two after in the same series (the cubic through them), or from the median of the other
 // repeats at the same time where there are two of them: whichever has the smaller s at this point. A sample is an outlier where |z| > 5 and
 // the samples before it predict those behind it. A kink of the path is therefore no outlier, nor is a deviation that most of the other
-// repeats have. Up
-// to three outliers in a row are found. They are left out where the mixture leads by 6 nats over all samples of an observable; otherwise
-// no sample is left out. Scalars of a replicate are not examined: their scatter is evidence of its own.
+// repeats have. Up to three outliers in a row are found. They are left out where the mixture leads by 6 nats over all samples of an
+// observable; otherwise no sample is left out. Scalars of a replicate are not examined: their scatter is evidence of its own.
 //
 // s of a short path: an outlier is far from its prediction, and so are the four samples that it predicts. In a path of 20 samples three
 // outliers thus spoil most of the predictions. So s is found without the samples that spoil it. It is not taken below what is usual, the
