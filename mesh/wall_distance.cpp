@@ -57,9 +57,10 @@ int WallTree::build(int first, int end) {
   return place;
 }
 
-WallPoint WallTree::nearest(const Vec3& place) const {
+WallPoint WallTree::nearest(const Vec3& place, double within) const {
   if (boxes_.empty()) return {far_away, {}};
-  double best2 = far_away;
+  const double limit2 = within * within;
+  double best2 = limit2;
   Vec3 best;
   std::vector<std::pair<double, int>> open{{0.0, 0}};  // boxes to look into, with the squares of their distances
   while (!open.empty()) {
@@ -78,7 +79,7 @@ WallPoint WallTree::nearest(const Vec3& place) const {
         right{distance_squared(boxes_[box.right].lower, boxes_[box.right].upper, place), box.right};
     open.push_back(std::max(left, right)), open.push_back(std::min(left, right));
   }
-  return {std::sqrt(best2), unit(place - best)};
+  return best2 < limit2 ? WallPoint{std::sqrt(best2), unit(place - best)} : WallPoint{far_away, {}};
 }
 
 namespace {
@@ -86,18 +87,21 @@ namespace {
 /// Translations from a place to its images across the periods of the mesh, one of each on either side.
 std::vector<Vec3> translations_to_images(const Mesh& mesh) {
   std::vector<Vec3> own, periods;
-  const auto add = [](std::vector<Vec3>& to, const Vec3& way) {
+  const auto add = [](std::vector<Vec3>& to, const Vec3& translation) {
     constexpr double alike = 1e-6;
-    const auto is_known = [&](const Vec3& one) { return std::min(norm(way - one), norm(way + one)) < alike * norm(way); };
-    if (norm_squared(way) > 0 && std::none_of(to.begin(), to.end(), is_known)) to.push_back(way);
+    const auto is_known = [&](const Vec3& one) {
+      return std::min(norm(translation - one), norm(translation + one)) < alike * norm(translation);
+    };
+    if (norm_squared(translation) > 0 && std::none_of(to.begin(), to.end(), is_known)) to.push_back(translation);
   };
   for (int f = 0; f < mesh.first_facet; ++f) add(own, period(mesh, f));
-  for (const Vec3& way : gathered(mesh.comm, own)) add(periods, way);
-  std::vector<Vec3> ways{{}};
-  for (const Vec3& way : periods)
-    for (std::size_t i = 0, n = ways.size(); i < n; ++i) ways.push_back(ways[i] + way), ways.push_back(ways[i] - way);
-  ways.erase(ways.begin());  // from the place to itself
-  return ways;
+  for (const Vec3& period : gathered(mesh.comm, own)) add(periods, period);
+  std::vector<Vec3> translations{{}};
+  for (const Vec3& period : periods)
+    for (std::size_t i = 0, n = translations.size(); i < n; ++i)
+      translations.push_back(translations[i] + period), translations.push_back(translations[i] - period);
+  translations.erase(translations.begin());  // from the place to itself
+  return translations;
 }
 
 }  // namespace
@@ -109,8 +113,10 @@ std::vector<WallPoint> wall_distances(const Mesh& mesh, const std::vector<std::s
   std::vector<WallPoint> of_cells(static_cast<std::size_t>(mesh.n_all_cells()));
   for (std::size_t c = 0; c < of_cells.size(); ++c) {
     of_cells[c] = tree.nearest(mesh.cell_centre[c]);
-    for (const Vec3& way : translations)
-      if (const WallPoint seen = tree.nearest(mesh.cell_centre[c] + way); seen.distance < of_cells[c].distance) of_cells[c] = seen;
+    for (const Vec3& translation : translations) {
+      const WallPoint seen = tree.nearest(mesh.cell_centre[c] + translation, of_cells[c].distance);
+      if (seen.distance < of_cells[c].distance) of_cells[c] = seen;
+    }
   }
   return of_cells;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Distance of points from the nearest triangle of a surface, exact: a tree of boxes around the triangles, searched from the nearer box on.
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -11,15 +12,16 @@ struct WallTriangle;
 
 /// Where the nearest point of a surface is, seen from a place.
 struct WallPoint {
-  double distance = 0;  // m; infinity without a surface
-  Vec3 away;            // unit, from the nearest point to the place; zero on the surface and without one
+  double distance = 0;  // m; infinity where no point counts
+  Vec3 away;            // unit, from the nearest point to the place; zero on the surface and where no point counts
 };
 
 class WallTree {
  public:
   /// The triangles must outlive the tree.
   explicit WallTree(const std::vector<WallTriangle>& triangles);
-  WallPoint nearest(const Vec3& place) const;
+  /// The nearest point; none counts that is not nearer than `within`, m.
+  WallPoint nearest(const Vec3& place, double within = std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Box {

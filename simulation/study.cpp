@@ -151,11 +151,12 @@ class FileHashes {
  public:
   /// Nothing if the file cannot be read.
   std::optional<std::string> of(const std::filesystem::path& file) {
-    std::error_code failure;
-    const auto written = std::filesystem::last_write_time(file, failure);
-    const auto size = std::filesystem::file_size(file, failure);
+    std::error_code no_time, no_size;
+    const auto written = std::filesystem::last_write_time(file, no_time);
+    const auto size = std::filesystem::file_size(file, no_size);
     const auto known = known_.find(file);
-    if (known != known_.end() && known->second.written == written && known->second.size == size) return known->second.hash;
+    if (!no_time && !no_size && known != known_.end() && known->second.written == written && known->second.size == size)
+      return known->second.hash;
     const auto content = file_text(file);
     if (!content) return std::nullopt;
     return known_.insert_or_assign(file, Known{written, size, sha256(*content)}).first->second.hash;

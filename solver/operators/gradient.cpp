@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -145,15 +146,31 @@ void LeastSquares::update() {
   boundary_inverse_ = moments_.boundary_moments();
   for (std::size_t p = 0; p < sides_.size(); ++p)
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
-      if (sides_[p] != Side::value && is_aslant(mesh_, f)) aslant_faces_.push_back(f);
+      if (sides_[p] != Side::value && is_aslant(mesh_, f)) aslant_faces_.push_back({f, 1});
       if (sides_[p] == Side::none) continue;
       const Vec3& way = sides_[p] == Side::value ? mesh_.delta[f] : mesh_.face_vector[f];
       add_square(boundary_inverse_[moments_.place_of_boundary_face()[f - mesh_.n_interior]], way, 1 / norm_squared(way));
     }
+  share_among_aslant_faces();
   open_ = moments_.open();
   for (std::size_t i = 0; i < boundary_inverse_.size(); ++i)
     boundary_inverse_[i] = CellMoments::inverse(boundary_inverse_[i], moments_.boundary_cells()[i], open_);
   open_anywhere_ = sum(mesh_.comm, static_cast<std::int64_t>(open_.size())) > 0;
+}
+
+void LeastSquares::share_among_aslant_faces() {
+  const auto cell = [this](const AslantFace& aslant) { return mesh_.owner[aslant.face]; };
+  std::ranges::stable_sort(aslant_faces_, {}, cell);
+  for (auto first = aslant_faces_.begin(); first != aslant_faces_.end();) {
+    const auto end = std::find_if(first, aslant_faces_.end(), [&](const AslantFace& other) { return cell(other) != cell(*first); });
+    for (auto one = first; one != end; ++one) {
+      double sum = 0;
+      for (auto other = first; other != end; ++other)
+        sum += std::abs(dot(unit(mesh_.face_vector[one->face]), unit(mesh_.face_vector[other->face])));
+      one->share = 1 / sum;
+    }
+    first = end;
+  }
 }
 
 /// act(face, share of it in the owner, in the neighbour).
@@ -289,14 +306,18 @@ void close_skew_faces(const Mesh& mesh, const LeastSquares& squares, std::span<c
   }
 }
 
-/// Values at boundary faces whose cell lies aslant over them, one after the other, changed in g and `boundary`.
+/// Values at boundary faces whose cell lies aslant over them, changed in g and `boundary`: all from the sums before, so that their order
+/// does not matter.
 void close_aslant_faces(const Mesh& mesh, const LeastSquares& squares, std::span<const Vec3> slope, std::span<double> boundary,
                         std::vector<Vec3>& g) {
-  for (const int f : squares.aslant_faces()) {
-    const int P = mesh.owner[f];
-    const double change = lacking(mesh, P, mesh.face_vector[f], slope, g);
-    boundary[f - mesh.n_interior] += change;
-    g[P] += change * mesh.face_vector[f];
+  std::vector<double> change;
+  change.reserve(squares.aslant_faces().size());
+  for (const auto& [f, share] : squares.aslant_faces())
+    change.push_back(share * lacking(mesh, mesh.owner[f], mesh.face_vector[f], slope, g));
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    const int f = squares.aslant_faces()[i].face;
+    boundary[f - mesh.n_interior] += change[i];
+    g[mesh.owner[f]] += change[i] * mesh.face_vector[f];
   }
 }
 
@@ -353,7 +374,7 @@ void gauss_gradient_of_changes(const Mesh& mesh, const LeastSquares& squares, st
 
 std::vector<int> closed_cells(const Mesh& mesh, const LeastSquares& squares) {
   std::vector<int> cells = skew_cells(mesh);
-  for (const int f : squares.aslant_faces()) cells.push_back(mesh.owner[f]);
+  for (const auto& aslant : squares.aslant_faces()) cells.push_back(mesh.owner[aslant.face]);
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return cells;

@@ -7,7 +7,8 @@
 //   Gauss:           V g = sum_f phi_f S,   phi_f with skewness correction by least squares: sums of V g telescope to the boundary
 //   across a skew face and at a wall that the cell lies aslant over (mesh/skewness.hpp), phi_f is instead what brings V g.S, with the sums
 //   over the other faces, to that of the least-squares gradients g':
-//                    interior: phi_f += 1/2 ((V g' - V g)_P - (V g' - V g)_N).S/|S|^2,   boundary: phi_f += (V g' - V g)_P.S/|S|^2
+//                    interior: phi_f += 1/2 ((V g' - V g)_P - (V g' - V g)_N).S/|S|^2,   boundary: phi_f += a (V g' - V g)_P.S/|S|^2
+//                    a is 1 over the sum of |n.n_k| over all such faces k of the cell, this one among them: 1 if it has no other
 //                    it stays one value a face, so the sums telescope, and exact for linear fields
 //
 // A cell with few neighbours (a tetrahedron with two faces on walls where the value is unknown) leaves directions open: eigenvalues of M
@@ -86,8 +87,13 @@ class LeastSquares {
   /// Skew faces (mesh/skewness.hpp), ascending, and whether any rank has some.
   const std::vector<int>& skew_faces() const { return skew_faces_; }
   bool skew_anywhere() const { return skew_anywhere_; }
-  /// Boundary faces without a given value that their cell lies aslant over, ascending.
-  const std::vector<int>& aslant_faces() const { return aslant_faces_; }
+  /// A boundary face without a given value that its cell lies aslant over, and the share of what its cell lacks along it that it takes.
+  struct AslantFace {
+    int face;
+    double share;
+  };
+  /// By ascending cell.
+  const std::vector<AslantFace>& aslant_faces() const { return aslant_faces_; }
 
  private:
   template <class Act>
@@ -98,13 +104,15 @@ class LeastSquares {
   void finish(const OfCell& phi, std::span<const Value> boundary, std::vector<Gradient>& g) const;
   template <class Gradient>
   void fill_open(std::vector<Gradient>& g) const;
+  void share_among_aslant_faces();
 
   const Mesh& mesh_;
   std::vector<Side> sides_;
   const CellMoments& moments_;
   std::vector<SymmetricTensor> boundary_inverse_;  // M^-1 of the boundary cells, pseudo-inverse for open cells
   std::vector<CellMoments::OpenCell> open_;
-  std::vector<int> skew_faces_, aslant_faces_;
+  std::vector<int> skew_faces_;
+  std::vector<AslantFace> aslant_faces_;
   bool open_anywhere_ = false, skew_anywhere_ = false;
 };
 

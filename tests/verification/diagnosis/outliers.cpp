@@ -108,7 +108,8 @@ void expect_found(Experiment experiment, const std::vector<std::pair<std::size_t
 
 }  // namespace
 
-// Each spoils the predictions of the four samples beside it: the scatter of the whole path would hide all of them.
+// Each outlier makes the predictions of the four samples around it wrong. The scatter of the path is then so large that none of the three
+// is found by it.
 TEST(Outliers, ThreeInAShortPathAreFound) {
   const Observable x{.id = "x", .unit = "m", .noise_u = 0.01, .calibration_group = ""};
   expect_found(swinging(x, 1, 8400), {{7, -1.2}, {10, 0.7}, {19, -1}});
