@@ -215,8 +215,9 @@ void Balances::add_boundary(const Step& step) {
       const double kinetic = is_open && F != 0 ? 0.5 * norm_squared(carried) / F : 0;
       const Vec3 n = S / norm(S);
       const bool given = step.boundary.velocity_side(patch) == Side::value;
-      // The velocity at the face: as given, as it is carried, or that of the cell along the plane.
-      const Vec3 u_b = given ? step.boundary.values().velocity[b] : is_open ? (F != 0 ? carried / F : u) : u - dot(u, n) * n;
+      // The velocity at the face: as given, as it is carried, or that of the cell along the plane with the normal part of the plane.
+      const Vec3& u_w = step.boundary.values().velocity[b];
+      const Vec3 u_b = given ? u_w : is_open ? (F != 0 ? carried / F : u) : u - dot(u - u_w, n) * n;
       const double done = dot(u_b, rubbed + omitted), dissipated = dot(u - u_b, rubbed + omitted);
       const double push_power = is_wall ? dot(u_b, push) : flow.boundary_pressure[b] * flow.flux[f];
       energy_.numerical_convection += dot(u, carried) - kinetic;

@@ -123,13 +123,13 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   return report;
 }
 
-/// Of the water at a wall: that of the wall where it does not slip. With a wall function it slips, and is carried round a turning wall with
-/// its own velocity u along that of the wall, v: (u.v/v.v)^2 of the wall's acceleration, exact where the wall is a surface of revolution.
-/// At most all of it: water that runs ahead of a rotor at its start would ask for a multiple of the wall's acceleration, and runs away.
-/// None where the water runs against the wall. What the curvature of a standing wall asks for is not known here and taken as zero: first
-/// order.
-Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b) {
-  if (flow.wall_function.empty() || !flow.wall_function[b]) return values.acceleration[b];
+/// Of the water at a wall: that of the wall where it does not slip. Where it `slips`, as with a wall function, it is carried round a
+/// turning wall with its own velocity u along that of the wall, v: (u.v/v.v)^2 of the wall's acceleration, exact where the wall is a
+/// surface of revolution. At most all of it: water that runs ahead of a rotor at its start would ask for a multiple of the wall's
+/// acceleration, and runs away. None where the water runs against the wall. What the curvature of a standing wall asks for is not known
+/// here and taken as zero: first order.
+Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b, bool slips) {
+  if (!slips && (flow.wall_function.empty() || !flow.wall_function[b])) return values.acceleration[b];
   const Vec3& v = values.velocity[b];
   if (norm_squared(v) == 0) return {};
   const double carried = std::clamp(dot(flow.velocity[cell], v) / norm_squared(v), 0.0, 1.0);
@@ -139,14 +139,15 @@ Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& va
 /// p' at the boundary: the change of the fixed pressure, or of the normal slope.
 void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary) {
   for (std::size_t p = 0; p < mesh_.patches.size(); ++p) {
-    const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value;
+    const bool fixed = boundary.pressure_side(static_cast<int>(p)) == Side::value,
+               slips = boundary.velocity_side(static_cast<int>(p)) == Side::mirror;
     for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
       const int P = mesh_.owner[f], b = f - mesh_.n_interior;
       if (fixed) {
         given_[b] = boundary.values().pressure[b] - flow.boundary_pressure[b];
         continue;
       }
-      const Vec3 acceleration = acceleration_at_wall(flow, boundary.values(), P, b);
+      const Vec3 acceleration = acceleration_at_wall(flow, boundary.values(), P, b, slips);
       const Vec3 given = reaction_.empty() ? Vec3{} : reaction_[P];
       const Vec3 force = flow.body_force + given - flow.density * acceleration;
       const double slope = dot(force, unit(mesh_.face_vector[f]));

@@ -109,7 +109,7 @@ class Continuity {
 
  private:
   void find_held_by_pressure();
-  static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b);
+  static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b, bool slips);
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
   void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);

@@ -99,7 +99,7 @@ void DivergenceWatch::foresee(const Flow& flow, BoundarySet& boundary, double en
   std::sort(times.begin(), times.end());
   for (const double time : times) {
     boundary.update(flow, time);
-    see_conditions(flow, boundary);
+    see_conditions(flow, boundary, time);
   }
   boundary.restore_state(state);
   boundary.update(flow, flow.time);
@@ -113,16 +113,17 @@ std::vector<double> DivergenceWatch::courant_of(double dt) const {
   return courant;
 }
 
-/// What patches give as they are.
-void DivergenceWatch::see_conditions(const Flow& flow, const BoundarySet& boundary) {
+/// What patches give at a time. Of a pressure without the dynamic head that entering water takes from it: that would grow with the speed of
+/// a flow that diverges.
+void DivergenceWatch::see_conditions(const Flow& flow, const BoundarySet& boundary, double time) {
   std::array<double, 3> largest{0, -infinite, -infinite};  // speed, p, -p
   for (int p = 0; p < static_cast<int>(mesh_.patches.size()); ++p) {
-    const bool fixes_pressure = boundary.pressure_side(p) == Side::value;
-    for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f) {
-      const int b = f - mesh_.n_interior;
-      const double given = boundary.values().pressure[b];
-      if (boundary.velocity_is_given(p)) largest[0] = std::max(largest[0], norm(boundary.values().velocity[b]));
-      if (fixes_pressure) largest[1] = std::max(largest[1], given), largest[2] = std::max(largest[2], -given);
+    if (boundary.velocity_is_given(p))
+      for (int f = mesh_.patches[p].first; f < mesh_.patches[p].end(); ++f)
+        largest[0] = std::max(largest[0], norm(boundary.values().velocity[f - mesh_.n_interior]));
+    if (boundary.pressure_side(p) == Side::value) {
+      const double given = boundary.given_pressure(p, time);
+      largest[1] = std::max(largest[1], given), largest[2] = std::max(largest[2], -given);
     }
     if (const auto& entering = boundary.turbulence(p).k) largest[0] = std::max(largest[0], std::sqrt(*entering));
   }
@@ -182,7 +183,7 @@ DivergenceWatch::Finding DivergenceWatch::worst(const Flow& flow, double dt, con
 }
 
 void DivergenceWatch::check(const Flow& flow, const BoundarySet& boundary, const CellFluxes& fluxes, const StepReport& report) {
-  see_conditions(flow, boundary);
+  see_conditions(flow, boundary, flow.time);
   see_forces(flow);
   const Finding found = worst(flow, flow.time_step_size, &fluxes);
   if (found.bound != lost_volume && found.bound != pressure)

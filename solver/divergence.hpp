@@ -73,7 +73,7 @@ class DivergenceWatch {
 
  private:
   struct Finding;
-  void see_conditions(const Flow& flow, const BoundarySet& boundary);
+  void see_conditions(const Flow& flow, const BoundarySet& boundary, double time);
   void see_forces(const Flow& flow);
   Finding worst(const Flow& flow, double dt, const CellFluxes* fluxes) const;
   void count_unsolved(const Flow& flow, const BoundarySet& boundary, const StepReport& report);

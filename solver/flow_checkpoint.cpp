@@ -8,6 +8,7 @@
 #include "mesh/geometry.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/sum.hpp"
+#include "solver/fields/face.hpp"
 #include "solver/flow_solver.hpp"
 
 namespace snag {
@@ -106,6 +107,7 @@ void FlowSolver::save(CheckpointWriter& checkpoint) const {
   const Poisson& poisson = continuity_.poisson();
   checkpoint.shared("flow/scalars", std::vector<double>{flow.time, flow.time_step_size, static_cast<double>(flow.time_step),
                                                         started_ ? 1.0 : 0.0, poisson.fresh_cost(), poisson.rebuild_is_due() ? 1.0 : 0.0});
+  checkpoint.shared("flow/slides", std::vector<double>{slides() ? 1.0 : 0.0});
   if (const std::vector<double> state = boundary_.state(); !state.empty())
     checkpoint.shared("flow/boundary", std::span<const double>(state));
   write_cells(checkpoint, "flow/velocity", mesh, flat(flow.velocity).data(), 3);
@@ -162,11 +164,28 @@ bool FlowSolver::go_on_from(CheckpointReader& checkpoint) {
   if (scalars.at(1) <= 0 || std::any_of(stored.begin(), stored.end(), lacks)) return false;
   load_water(checkpoint);
   flow.time_step_size = scalars.at(1);
+  if (rotating_zone_ && checkpoint.has("flow/slides")) {
+    const bool slid = checkpoint.shared("flow/slides").at(0) != 0;
+    if (slid != slides()) turn_history((slid ? 1 : -1) * rotating_zone_->speed(0) * flow.time_step_size);
+  }
   boundary_.update(flow, 0);
   turbulence_->restore(flow, boundary_);
   watch_.begin(flow);
   started_ = true;
   return true;
+}
+
+/// In the frame of a zone that stands the velocity of a cell does not change as it turns with the rotor; in a zone that slides it does.
+/// Turns that of the step before from the one to the other.
+void FlowSolver::turn_history(double angle) {
+  const Mat3 R = rotation(rotating_zone_->axis(), angle);
+  for (int c = 0; c < flow.mesh.n_all_cells(); ++c) {
+    if (flow.mesh.cell_zone[c] != rotating_zone_->zone()) continue;
+    flow.velocity_old[c] = R * flow.velocity_old[c];
+    Mat3 G_R = flow.velocity_gradient_old[c];  // G R^T
+    for (Vec3& row : G_R) row = R * row;
+    for (int i = 0; i < 3; ++i) flow.velocity_gradient_old[c][i] = transposed_product(G_R, R[i]);
+  }
 }
 
 /// Velocity, pressure and turbulence with their history, on the mesh as it stands.
@@ -191,7 +210,7 @@ void FlowSolver::load_water(CheckpointReader& checkpoint) {
 /// On the mesh as it was when the preconditioner was set up.
 void FlowSolver::load_preconditioner(CheckpointReader& checkpoint, double fresh_cost, bool rebuild_due) {
   const double angle = checkpoint.shared("flow/preconditioner_angle").at(0);
-  if (rotating_zone_ && rotating_zone_->slides()) rotating_zone_->mesh().turn(angle);
+  if (slides()) rotating_zone_->mesh().turn(angle);
   continuity_.restore(angle, boundary_, fresh_cost, rebuild_due);
 }
 

@@ -161,7 +161,7 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   std::swap(flow.velocity_old, flow.velocity);
   std::swap(flow.flux_old, flow.flux);
   boundary_.update(flow, flow.time + time.dt);
-  if (rotating_zone_ && rotating_zone_->slides()) {
+  if (slides()) {
     const double turned = seconds();
     continuity_.mesh_turned(flow, boundary_);
     turbulence_->mesh_turned(flow, boundary_);
@@ -169,13 +169,13 @@ void FlowSolver::begin_step(const TimeScheme& time, StepReport& report) {
   }
   continuity_.balance_reaction(flow);
   // Where the mesh slides its turn has found them.
-  if (balances_ && !(rotating_zone_ && rotating_zone_->slides())) continuity_.find_facet_pressure(flow, boundary_);
+  if (balances_ && !slides()) continuity_.find_facet_pressure(flow, boundary_);
   turbulence_->begin_step(flow, time);
   const double share = momentum_.guess_from_history(flow, continuity_.history, time);
   momentum_.take_given_flux(flow, boundary_);
   // At small steps the divergence of the guess is small against 1/dt, and with extrapolated fluxes a closed guess feeds noise back: it
   // doubled from step to step.
-  if (share == 0 && rotating_zone_ && rotating_zone_->slides()) {
+  if (share == 0 && slides()) {
     const double guessed = seconds();
     continuity_.close(momentum_.guessed_flux(), flow, boundary_, time);
     report.seconds_pressure += seconds() - guessed;

@@ -77,9 +77,11 @@ class FlowSolver {
   const DivergenceWatch& watch() const { return watch_; }
 
  private:
+  bool slides() const { return rotating_zone_ && rotating_zone_->slides(); }
   void find_rest_pressure();
   void begin_step(const TimeScheme& time, StepReport& report);
   void turn_mesh(double time);
+  void turn_history(double angle);
   void fields_follow_facets();
   void correct_once(int outer, bool is_last, const TimeScheme& time, StepReport& report);
   void update_gradient();

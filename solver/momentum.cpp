@@ -267,7 +267,12 @@ struct Momentum::BoundaryFace {
         const Vec3& u = boundary.values().velocity[b];
         const double c = conductance(S, d);
         friction_slope = {mu * c, mu * c, mu * c};
-        convection_source = F * u;
+        // What leaves is the water of the cell. With the velocity that is given there, nothing would carry off what the water has across
+        // it. A convective outlet takes its velocity from the cell, with success in hexahedra.
+        if (F > 0 && boundary.is_open(patch) && !(boundary.is_outlet(patch) && mesh.cell_shape[P] == CellShape::hexahedron))
+          convection_slope = F, convection_source = F * (G * along_face(d, unit(S)));
+        else
+          convection_source = F * u;
         if (!flow.wall_function.empty() && flow.wall_function[b]) {
           // The shear of a wall function is all there is: mu is not that of a linear profile whose gradient could correct it.
           friction_source = mu * c * u;
@@ -287,13 +292,14 @@ struct Momentum::BoundaryFace {
           convection_source = F * (equation.flux_[f] + flow.mesh_flux[f]) / area * n;
         break;
       }
-      case Side::mirror: {  // only the normal part of u has a gradient along n: - mu |S| (u.n) n / (d.n), all of it implicit: in large
-                            // steps an explicit part grows. mu grad u^T adds the same again
+      case Side::mirror: {  // only the normal part of u has a gradient along n: - mu |S| ((u - u_w).n) n / (d.n), all of it implicit: in
+                            // large steps an explicit part grows. mu grad u^T adds the same again
         const double area = norm(S);
         const Vec3 n = S / area;
         const double c = (flow.variable_viscosity ? 2 : 1) * mu * area / dot(d, n);
         friction_slope = c * Vec3{n.x * n.x, n.y * n.y, n.z * n.z};
         coupling = c * Vec3{n.y * n.z, n.x * n.z, n.x * n.y};
+        friction_source = c * dot(boundary.values().velocity[b], n) * n;
         break;
       }
       case Side::none:

@@ -96,7 +96,7 @@ void foresee_walls(const Simulation& simulation, Forecast& result) {
     const double median = of_faces(0.5);
     result.text += "y+ on " + mesh.patches[p].name + ": about " + rounded(of_faces(0)) + " to " + rounded(of_faces(1)) + ", median " +
                    rounded(median) + "\n";
-    if (median < viscous_layer)
+    if (simulation.water->turbulence().wall_treatment() == WallTreatment::wall_functions && median < viscous_layer)
       result.text += "  a cell below " + rounded(viscous_layer) + " counts as one at " + rounded(viscous_layer) +
                      ": cells at the wall may be thicker, y+ 30 to 300, with the same friction and longer steps\n";
   }

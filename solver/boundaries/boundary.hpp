@@ -17,7 +17,7 @@ namespace snag {
 /// What a condition prescribes on its patch. The answers that the operators need follow from it, unless the condition gives its own.
 ///   velocity:         u and the flux are given, p is extrapolated from inside (walls, inlets)
 ///   pressure:         p is given, du/dn = 0; fluid that enters comes along the normal (outlets)
-///   normal_velocity:  u.n = 0, no friction, dp/dn = 0 (planes of symmetry)
+///   normal_velocity:  u.n is given, no friction, p is extrapolated from inside (planes of symmetry)
 enum class PrescribedQuantity { velocity, pressure, normal_velocity };
 
 /// Where the flux through the faces of a patch comes from.
@@ -29,10 +29,10 @@ enum class FaceFlux {
 
 /// Values at the boundary faces, face f at f - n_interior.
 struct BoundaryValues {
-  std::vector<Vec3> velocity;      // where velocity is fixed, m/s
+  std::vector<Vec3> velocity;      // where velocity or its normal part is fixed, m/s
   std::vector<double> flux;        // where velocity is fixed, out of the domain, m3/s
   std::vector<double> pressure;    // where pressure is fixed, Pa
-  std::vector<Vec3> acceleration;  // of the fluid at a wall where it is known, for the pressure there, m/s2
+  std::vector<Vec3> acceleration;  // of the fluid where it is known, for the pressure there, m/s2
   std::vector<Vec3> spin;          // of a wall that turns, rad/s
 };
 
@@ -47,7 +47,7 @@ class Boundary {
   virtual PrescribedQuantity fixes() const = 0;
   /// How the velocity of a cell ends at a face, for its gradients, friction and convection: value (friction by the difference to
   /// BoundaryValues::velocity, which fluid carries through the face), slope (no friction; fluid that enters comes along the normal) or
-  /// mirror (friction of the normal part alone, nothing carried).
+  /// mirror (friction of the normal part alone, by the difference to BoundaryValues::velocity, nothing carried).
   virtual Side velocity_side() const;
   /// How the pressure ends: value (BoundaryValues::pressure) or slope.
   virtual Side pressure_side() const { return fixes() == PrescribedQuantity::pressure ? Side::value : Side::slope; }
@@ -60,6 +60,9 @@ class Boundary {
   bool is_open() const { return !is_wall() && flux() != FaceFlux::tight; }
   /// True where the pressure is as given, false where its level follows from the flow.
   virtual bool pressure_is_prescribed() const { return pressure_side() == Side::value; }
+  /// Where pressure_side() is value: the pressure that the case gives at a time, or with a target of the flow the level that the controller
+  /// has found, Pa; without what the flow itself takes from it.
+  virtual double given_pressure(double /*time*/) const { return 0; }
   /// True where what the water carries has left for good once it is beyond the patch.
   virtual bool is_outlet() const { return pressure_side() == Side::value; }
   /// True where what is beyond the patch has left: an outlet, and an inlet whose given velocity draws water out.
@@ -123,6 +126,7 @@ class BoundarySet {
   bool leads_out(int patch) const { return conditions_[patch].boundary->leads_out(); }
   std::string advice(int patch) const { return conditions_[patch].boundary->advice(); }
   bool velocity_is_given(int patch) const { return conditions_[patch].boundary->velocity_is_given(); }
+  double given_pressure(int patch, double time) const { return conditions_[patch].boundary->given_pressure(time); }
   const InletTurbulence& turbulence(int patch) const { return conditions_[patch].turbulence; }
   const std::string& where(int patch) const { return conditions_[patch].where; }
   /// Of all conditions, s.

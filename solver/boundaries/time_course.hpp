@@ -22,6 +22,8 @@ struct TimeCourse {
   std::vector<double> knots() const { return ramp > 0 ? std::vector<double>{ramp} : times; }
   /// Factor at a time, 1 without any key.
   double at(double time) const;
+  /// Mean rate of the factor between two times, 1/s; 0 between one time and itself.
+  double rate(double begin, double end) const { return end > begin ? (at(end) - at(begin)) / (end - begin) : 0; }
 };
 
 }  // namespace snag

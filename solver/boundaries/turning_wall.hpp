@@ -2,6 +2,7 @@
 // Velocity and acceleration of a wall that turns:   u = omega x (x - x_0),   a = domega/dt x (x - x_0) + omega x u
 // Nothing passes through it: the flux is the volume that the mesh face sweeps, whatever the rounding of the wall into flat faces.
 #include "solver/boundaries/boundary.hpp"
+#include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
 
@@ -37,6 +38,17 @@ inline void set_turning_wall(const Turning& turning, const Vec3& slide, const Fl
   values.flux[b] = flow.mesh_flux[f];
   values.acceleration[b] = turning.acceleration(flow.mesh.face_centre[f]);
   values.spin[b] = turning.speed;
+}
+
+/// Values of all faces of a wall at a time: those of cells of the turning zone turn with it, unless the wall is `stationary`.
+inline void set_wall_of_zone(bool stationary, const Flow& flow, const Patch& patch, double time, BoundaryValues& values) {
+  const RotatingZone* zone = stationary ? nullptr : flow.rotating_zone;
+  const Turning still,
+      turning = zone ? Turning::over_step(flow, time, zone->origin(), zone->rotation_speed(time), zone->rotation_speed(flow.time)) : still;
+  for (int f = patch.first; f < patch.end(); ++f) {
+    const bool turns = zone && flow.mesh.cell_zone[flow.mesh.owner[f]] == zone->zone();
+    set_turning_wall(turns ? turning : still, {}, flow, f, values);
+  }
 }
 
 }  // namespace snag

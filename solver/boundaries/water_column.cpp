@@ -17,7 +17,7 @@ double column_conductance(const Mesh& mesh, const std::vector<PatchBoundary>& co
   std::vector<double> right_side(phi.size());
   for (int f = 0; f < mesh.n_interior; ++f) coefficient[f] = conductance(mesh.face_vector[f], mesh.delta[f]);
   for (std::size_t p = 0; p < conditions.size(); ++p) {
-    if (!conditions[p].boundary->pressure_is_prescribed() && mesh.patches[p].first != patch.first) continue;
+    if (!conditions[p].boundary->pressure_is_prescribed() && mesh.patches[p].name != patch.name) continue;
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) coefficient[f] = conductance(mesh.face_vector[f], mesh.delta[f]);
   }
   double square = 0;

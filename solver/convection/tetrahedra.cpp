@@ -25,14 +25,7 @@ TetrahedronReconstruction::TetrahedronReconstruction(const Mesh& mesh)
 const std::vector<Mat3>& TetrahedronReconstruction::gradient(const std::vector<Mat3>& G) {
   if (!anywhere_) return G;
   for (int c = 0; c < mesh_.n_cells; ++c) {
-    Mat3 mean = G[c];
-    if (is_tetrahedron_[c] != 0) {
-      const double weight = for_each_neighbour(mesh_, c, [&](int other, double share) {
-        for (std::size_t i = 0; i < 3; ++i) mean[i] += share * G[static_cast<std::size_t>(other)][i];
-      });
-      for (Vec3& row : mean) row *= 1 / (1 + weight);
-    }
-    gradient_[c] = mean;
+    gradient_[c] = is_tetrahedron_[c] != 0 ? mean_with_neighbours(mesh_, c, G) : G[c];
   }
   mesh_.halo.exchange(flat(gradient_), 9);
   return gradient_;

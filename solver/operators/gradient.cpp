@@ -34,11 +34,11 @@ inline void add_product(Mat3& g, const Vec3& a, const Vec3& e) {
   g[2].z += a.z * e.z;
 }
 
-// Normal derivative times distance at a mirror: u.n goes to zero at the face.
-inline double mirrored(double, const Vec3&) { return 0; }
+// Normal derivative times distance at a mirror: (u - u_w).n goes to zero at the face.
+inline double mirrored(double, double, const Vec3&) { return 0; }
 inline double normal_slope(double given) { return given; }
 inline Vec3 normal_slope(const Vec3&) { return {}; }
-inline Vec3 mirrored(const Vec3& u, const Vec3& n) { return -dot(u, n) * n; }
+inline Vec3 mirrored(const Vec3& u, const Vec3& of_wall, const Vec3& n) { return dot(of_wall - u, n) * n; }
 
 template <class Gradient>
 void exchange(const Mesh& mesh, std::vector<Gradient>& g) {
@@ -209,7 +209,7 @@ void LeastSquares::finish(const OfCell& phi, std::span<const Value> boundary, st
         if (sides_[p] == Side::slope)
           add_product(g[P], normal_slope(boundary[f - mesh_.n_interior]), n);
         else
-          add_product(g[P], mirrored(phi(P), n), n / dot(d, n));
+          add_product(g[P], mirrored(phi(P), boundary[f - mesh_.n_interior], n), n / dot(d, n));
       }
     }
   }
@@ -384,6 +384,12 @@ Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g) 
   Vec3 sum;
   const double weight = for_each_neighbour(mesh, cell, [&](int other, double share) { sum += share * g[other]; });
   return weight > 0 ? sum / weight : g[cell];
+}
+
+Mat3 mean_with_neighbours(const Mesh& mesh, int cell, const std::vector<Mat3>& G) {
+  Mat3 sum = G[cell];
+  const double weight = for_each_neighbour(mesh, cell, [&](int other, double share) { add(sum, scaled(share, G[other])); });
+  return scaled(1 / (1 + weight), sum);
 }
 
 }  // namespace snag

@@ -25,7 +25,7 @@ namespace snag {
 enum class Side {
   value,   // phi at the face centre
   slope,   // of a scalar: d phi/dn is given; of a vector: it is zero
-  mirror,  // of a vector u: u.n = 0 and the tangential part has d/dn = 0; not for scalars
+  mirror,  // of a vector u: u.n is that of the given value and the tangential part has d/dn = 0; not for scalars
   none     // nothing: the face does not enter
 };
 
@@ -137,5 +137,9 @@ std::vector<int> closed_cells(const Mesh& mesh, const LeastSquares& squares);
 /// Mean of g over the neighbours of an owned cell, a facet counts with its share; g of the cell itself where it has none. `g`
 /// [n_all_cells], ghosts filled. Exact for linear fields. Local.
 Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g);
+
+/// Mean of G over an owned cell and its neighbours; the same. Of a velocity whose error alternates from cell to cell it has a part of what
+/// G has in tetrahedra.
+Mat3 mean_with_neighbours(const Mesh& mesh, int cell, const std::vector<Mat3>& G);
 
 }  // namespace snag

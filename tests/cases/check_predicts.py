@@ -161,6 +161,8 @@ class CheckPredicts(harness.CaseTest):
         run = self.check(self.water('[turbulence]\nmodel = "k_epsilon"\n[flow]\nkinematic_viscosity_m2_s = 1e-4\n'))
         self.assertIn("a cell below 11 counts as one at 11", run.stdout)
         self.assertNotIn("warning", run.stdout)
+        run = self.check(self.water('[turbulence]\nmodel = "k_omega_sst"\n[flow]\nkinematic_viscosity_m2_s = 1e-4\n'))
+        self.assertNotIn("counts as one", run.stdout)
 
     def test_walls_that_face_away(self):
         (self.work / "housing.stl").write_text(stl())

@@ -1,7 +1,7 @@
 # timeout: 200
 # cost: 10
 """Requirement: the flow does not depend on how the case lies, with planes of symmetry aslant to the coordinates, nor on the level of the pressure,
-nor on the numbers of nodes and the order of patches; a closed case whose water is at rest starts whatever its round-off."""
+nor on the numbers of nodes and the order of patches; a closed case whose water is at rest starts whatever its round-off; a body turns in it with and without friction, in its frame and sliding."""
 import math
 import pathlib
 import re
@@ -122,6 +122,32 @@ report = false
 """
 
 
+ELLIPSE = """
+[mesh]
+file = "{mesh}"
+[rotating_zone]
+zone = "rotor"
+motion = "{motion}"
+rotation_speed_rad_s = 10
+[time]
+end_s = 0.5
+step_s = 0.01
+[flow]
+kinematic_viscosity_m2_s = {viscosity}
+[turbulence]
+model = "laminar"
+[[boundary]]
+patches = ["impeller_walls", "walls"]
+kind = "{kind}"
+[[boundary]]
+patch = "outlet"
+kind = "symmetry"
+[output]
+report = false
+{start}
+"""
+
+
 def mapped(file, matrix):
     """The mesh of a gmsh 2.2 file, its nodes mapped by a 3 x 3 matrix; the file is changed."""
     lines = file.read_text().split("\n")
@@ -202,6 +228,35 @@ class Symmetries(harness.CaseTest):
         mesh.add(2, (0.05, 0.08, 0, 0.004, 0), (n, 8, 1), dict(r0="interface_stator", r1="walls", z0="outlet", z1="outlet"))
         mesh.write(self.work / "ring.msh")
         self.run_case(self.case(REST.format(mesh=self.work / "ring.msh")), 1)
+
+
+    def ellipse(self, kind, viscosity, motion, start=""):
+        """Balance of the water round an ellipse that turns in a closed ring."""
+        mesh, n = RingMesh(), 96
+        mesh.add(1, (0.03, 0.05, 0, 0.004, 0), (n, 6, 1), dict(r0="impeller_walls", r1="interface_rotor", z0="outlet", z1="outlet"))
+        mesh.add(2, (0.05, 0.08, 0, 0.004, 0), (n, 8, 1), dict(r0="interface_stator", r1="walls", z0="outlet", z1="outlet"))
+        for i, (x, y, z) in enumerate(mesh.nodes):
+            r = math.hypot(x, y)
+            longer = 1 + 0.2 * math.cos(2 * math.atan2(y, x)) * max(0, (0.05 - r) / 0.02)
+            mesh.nodes[i] = (longer * x, longer * y, z)
+        mesh.write(self.work / "ellipse.msh")
+        name = f"{kind}-{motion}"
+        start = f'[initial_flow]\nfrom = "{start}"' if start else ""
+        case = self.case(ELLIPSE.format(mesh=self.work / "ellipse.msh", kind=kind, viscosity=viscosity, motion=motion, start=start), name)
+        return self.run_case(case, 1, out=name).monitor("balance")
+
+    def test_turning_body_that_slips(self):
+        """The power of the water that an ellipse pushes aside is that of its torque."""
+        for motion in ("frame", "sliding"):
+            balance = self.ellipse("symmetry", 1e-6, motion)
+            power = balance.column("shaft_power")
+            self.assertLess(numpy.abs(balance.column("shaft_torque") * 10 - power).max(), 1e-3 * numpy.abs(power).max(), motion)
+
+    def test_sliding_from_the_frame(self):
+        """The water of the frame turns with the rotor from the first step of the sliding run on: no kick."""
+        self.ellipse("wall", 1e-3, "frame")
+        torque = self.ellipse("wall", 1e-3, "sliding", "wall-frame").column("shaft_torque")
+        self.assertLess(abs(torque[0] / torque[1] - 1), 0.05)
 
 
 if __name__ == "__main__":

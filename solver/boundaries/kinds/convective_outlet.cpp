@@ -1,8 +1,19 @@
 // Outlet through which the flow leaves as a pattern that moves on:
 //
 //   du/dt + U du/dn = 0        U: mean speed out through the patch, m/s
-//   u(x, t + dt) = u_P + grad u_P . (x - s n - x_P)      along its characteristic from the fluid at t; second order in cells and steps
 //   s = U dt up to 2 l, then 4 l - U dt, at least l      l = (x - x_P).n: within the cell; larger steps lag
+//
+// in hexahedra, along the characteristic of x from the fluid at t, second order in cells and steps:
+//
+//   u(x, t + dt) = u_P + grad u_P . (x - s n - x_P)
+//
+// In other cells a step that is short against l would take nearly all of the way from x_P with a gradient in which the last u at the face
+// is, and the flow across n grows without bound. There, first order:
+//
+//   u.n(x, t + dt) = u.n(x - s n, t)                     linear from the face, where the flux at t gives it, to x - l n; with grad u_P
+//   beyond u(x - l n) = u_P + grad u_P . (x - l n - x_P) u - (u.n) n = that of u(x - l n)                     what leaves is the water of
+//   the cell (solver/momentum.cpp) grad u_P: the mean over the cell and its neighbours
+//
 //   Du/Dt = grad u_P . (u - U n)                         for the slope of the pressure, grad u_P extrapolated to t + dt; first order in
 //   cells
 //
@@ -58,10 +69,19 @@ struct ConvectiveOutlet final : Boundary {
     for (int f = patch.first; f < patch.end(); ++f) {
       const int P = mesh.owner[f], b = f - mesh.n_interior;
       const Vec3 n = unit(mesh.face_vector[f]);
-      const Mat3 &G = flow.velocity_gradient[P], &G_old = flow.velocity_gradient_old[P];
+      const bool is_hexahedron = mesh.cell_shape[P] == CellShape::hexahedron;
+      const auto gradient = [&](const std::vector<Mat3>& of_cells) {
+        return is_hexahedron ? of_cells[P] : mean_with_neighbours(mesh, P, of_cells);
+      };
+      const Mat3 G = gradient(flow.velocity_gradient), G_old = gradient(flow.velocity_gradient_old);
       const Vec3 d = mesh.face_centre[f] - mesh.cell_centre[P];
       const double l = dot(d, n), way = speed * dt, s = way <= 2 * l ? way : std::max(l, 4 * l - way);
       values.velocity[b] = u[P] + G * (d - s * n);
+      if (!is_hexahedron && s < l) {
+        const Vec3 inside = u[P] + G * (d - l * n);
+        const double leaving = dt > 0 ? flow.flux_old[f] / norm(mesh.face_vector[f]) : dot(u[P] + G * d, n);
+        values.velocity[b] = inside + (1 - s / l) * (leaving - dot(inside, n)) * n;
+      }
       values.flux[b] = dot(values.velocity[b], mesh.face_vector[f]);
       const Vec3 passing = values.velocity[b] - speed * n;
       values.acceleration[b] = G * passing + ratio * (G * passing - G_old * passing);

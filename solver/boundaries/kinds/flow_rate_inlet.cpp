@@ -1,6 +1,8 @@
 // Inlet with a given volume flow Q over the patch, uniform along its mean normal:
 //
 //   u = - (Q / |sum S|) sum S / |sum S|,   sum of u.S = - Q exactly;      Q may rise in time (solver/boundaries/time_course.hpp)
+//
+// du/dt is the acceleration for the pressure at the inlet.
 #include "base/error.hpp"
 #include "parallel/sum.hpp"
 #include "solver/boundaries/boundary.hpp"
@@ -41,11 +43,13 @@ struct FlowRateInlet final : Boundary {
                   "[[boundary]] \"" + patch.name + "\": a closed or empty surface has no mean normal; give the inlet a patch of its own");
   }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
-    const Vec3 velocity = -course.at(time) * flow_rate / norm_squared(area) * area;
+    const Vec3 whole = -flow_rate / norm_squared(area) * area;
+    const Vec3 velocity = course.at(time) * whole, acceleration = course.rate(flow.time, time) * whole;
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;
       values.velocity[b] = velocity;
       values.flux[b] = dot(velocity, flow.mesh.face_vector[f]);
+      values.acceleration[b] = acceleration;
     }
   }
 };

@@ -38,12 +38,13 @@ struct PressureInlet final : Boundary {
   void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
   }
+  double given_pressure(double time) const override { return pressure * course.at(time); }
   void respond(const Flow& flow, const Patch& patch, double time) override {
-    if (total) head_.begin_step(flow, patch, time, pressure * course.at(flow.time));
+    if (total) head_.begin_step(flow, patch, time, given_pressure(flow.time));
   }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
     for (int f = patch.first; f < patch.end(); ++f)
-      values.pressure[f - flow.mesh.n_interior] = pressure * course.at(time) - (total ? head_.at(flow, f) : 0);
+      values.pressure[f - flow.mesh.n_interior] = given_pressure(time) - (total ? head_.at(flow, f) : 0);
   }
 
  private:

@@ -54,6 +54,8 @@ struct PressureOutlet final : Boundary {
   std::vector<double> knots() const override { return course.knots(); }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::pressure; }
   bool pressure_is_prescribed() const override { return !target_flow_rate; }
+  /// p_out at a time; with a target that of the controller's last step.
+  double given_pressure(double time) const override { return control ? control->level() : pressure * course.at(time); }
 
   void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>& all) override {
     const std::string where = "[[boundary]] \"" + patch.name + "\"";
@@ -69,7 +71,7 @@ struct PressureOutlet final : Boundary {
   }
 
   void respond(const Flow& flow, const Patch& patch, double time) override {
-    head.begin_step(flow, patch, time, level(flow.time));
+    head.begin_step(flow, patch, time, given_pressure(flow.time));
     if (!control) return;
     const double dt = time - flow.time;
     if (!(dt > 0)) {
@@ -88,7 +90,7 @@ struct PressureOutlet final : Boundary {
   }
 
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
-    for (int f = patch.first; f < patch.end(); ++f) values.pressure[f - flow.mesh.n_interior] = level(time) - head.at(flow, f);
+    for (int f = patch.first; f < patch.end(); ++f) values.pressure[f - flow.mesh.n_interior] = given_pressure(time) - head.at(flow, f);
   }
 
   std::string unmet(const Flow& flow, const Patch& patch) const override {
@@ -107,9 +109,6 @@ struct PressureOutlet final : Boundary {
   }
 
  private:
-  /// p_out at a time; with a target that of the controller's last step.
-  double level(double time) const { return control ? control->level() : pressure * course.at(time); }
-
   static double through(const Flow& flow, const Patch& patch, const std::vector<double>& flux) {
     return sum(flow.mesh.comm, std::span(flux).subspan(static_cast<std::size_t>(patch.first), static_cast<std::size_t>(patch.count)));
   }

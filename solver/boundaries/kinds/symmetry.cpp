@@ -1,5 +1,6 @@
-// Plane of symmetry, or a wall that the fluid slips along:   u.n = 0,   no friction,   dp/dn = 0
-#include "solver/boundaries/boundary.hpp"
+// Plane of symmetry, or a wall that the fluid slips along:   (u - u_w).n = 0,   no friction,   dp/dn = - rho a.n
+// u_w: of a face that turns with the turning zone, else 0; a: the share of its acceleration that the water has (solver/continuity.cpp)
+#include "solver/boundaries/turning_wall.hpp"
 
 namespace snag {
 namespace {
@@ -9,7 +10,9 @@ struct Symmetry final : Boundary {
 
   Section section() override { return {.name = name, .meaning = "Plane of symmetry or slip wall.", .parameters = {}}; }
   PrescribedQuantity fixes() const override { return PrescribedQuantity::normal_velocity; }
-  void update(const Flow&, const Patch&, double, BoundaryValues&) const override {}
+  void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
+    set_wall_of_zone(false, flow, patch, time, values);
+  }
 };
 const bool registered = boundaries().add<Symmetry>();
 

@@ -1,5 +1,6 @@
 // Inlet with a given velocity:   u = s U,  or  u = - s U_n n  with n the normal out of the domain;   flux = u.S
 // s: profile over the patch with mean 1 (solver/boundaries/inlet_profile.hpp), times a factor of time (solver/boundaries/time_course.hpp)
+// du/dt is the acceleration for the pressure at the inlet.
 #include <optional>
 
 #include "base/choice.hpp"
@@ -49,12 +50,14 @@ struct VelocityInlet final : Boundary {
     draws_out = normal_speed ? *normal_speed < 0 : dot(velocity, sum(mesh.comm, std::span<const Vec3>(S))) > 0;
   }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
-    const double factor = course.at(time);
+    const double factor = course.at(time), rate = course.rate(flow.time, time);
     for (int f = patch.first; f < patch.end(); ++f) {
       const int b = f - flow.mesh.n_interior;
       const Vec3& S = flow.mesh.face_vector[f];
-      values.velocity[b] = factor * shape[f - patch.first] * (normal_speed ? -*normal_speed * unit(S) : velocity);
+      const Vec3 whole = shape[f - patch.first] * (normal_speed ? -*normal_speed * unit(S) : velocity);
+      values.velocity[b] = factor * whole;
       values.flux[b] = dot(values.velocity[b], S);
+      values.acceleration[b] = rate * whole;
     }
   }
 };

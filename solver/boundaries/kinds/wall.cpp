@@ -3,7 +3,6 @@
 // A face of a cell that turns (solver/fields/rotating_zone.hpp) turns with it, unless the case keeps the wall at rest: a casing wall that
 // is a surface of revolution about the axis. In either case the flux is the volume that the mesh face sweeps.
 #include "solver/boundaries/turning_wall.hpp"
-#include "solver/fields/rotating_zone.hpp"
 
 namespace snag {
 namespace {
@@ -26,14 +25,7 @@ struct Wall final : Boundary {
   bool is_wall() const override { return true; }
   double roughness() const override { return roughness_height; }
   void update(const Flow& flow, const Patch& patch, double time, BoundaryValues& values) const override {
-    const RotatingZone* zone = stationary ? nullptr : flow.rotating_zone;
-    const Turning still,
-        turning =
-            zone ? Turning::over_step(flow, time, zone->origin(), zone->rotation_speed(time), zone->rotation_speed(flow.time)) : still;
-    for (int f = patch.first; f < patch.end(); ++f) {
-      const bool turns = zone && flow.mesh.cell_zone[flow.mesh.owner[f]] == zone->zone();
-      set_turning_wall(turns ? turning : still, {}, flow, f, values);
-    }
+    set_wall_of_zone(stationary, flow, patch, time, values);
   }
 };
 const bool registered = boundaries().add<Wall>();

@@ -63,7 +63,7 @@ class KOmegaSst final : public TwoEquationModel {
     if (flow.model_fields.empty()) flow.model_fields.push_back({"specific_dissipation_rate", "1/s", 1, {}});
     return flow.model_fields.front().values;
   }
-  double phi_of(const TurbulenceValues& values) const override { return values.epsilon / (C_mu_ * values.k); }
+  double phi_of(const TurbulenceValues& values) const override { return values.k > 0 ? values.epsilon / (C_mu_ * values.k) : 0; }
   double turnover_rate(double, double omega) const override { return C_mu_ * omega; }
   double entering_viscosity(double k, double omega) const override { return k / omega; }
   void set_eddy_viscosity(Flow& flow, const std::vector<double>& k, const std::vector<double>& omega) override;

@@ -22,6 +22,21 @@ TEST(TargetFlowRanks, water_column) {
   EXPECT_NEAR(conductance_of(tetrahedra()), 0.5, 0.1);
 }
 
+// The conductance does not depend on which ranks hold faces of the patch: here the first one alone does, and the next patch begins where
+// the patch, without faces, does on the last rank.
+TEST(TargetFlowRanks, water_column_of_a_patch_on_one_rank) {
+  const auto conductance_of = [](MPI_Comm comm) {
+    const Mesh mesh = structured_box(comm, {}, {2, 1, 1}, {10, 3, 6});
+    std::vector<PatchBoundary> all(mesh.patches.size());
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      const std::string& name = mesh.patches[p].name;
+      all[p] = {name, "", boundaries().make(name == "x1" || name == "z0" ? "pressure_outlet" : "wall", "test")};
+    }
+    return column_conductance(mesh, all, mesh.patches[mesh.patch_index("z0")]);
+  };
+  EXPECT_NEAR(conductance_of(MPI_COMM_WORLD) / conductance_of(MPI_COMM_SELF), 1, 1e-9);
+}
+
 // From rest the flow comes to its target within 1e-4, and not more than 3 % over it.
 TEST(TargetFlowRanks, from_rest) {
   const Mesh mesh = tetrahedra();
