@@ -84,17 +84,15 @@ Command::Command(int place, Action (*add)(CLI::App& app)) {
 }
 
 int run_command_line(int argc, char** argv, const Session& session) {
-  ExitCode code = ExitCode::io;
   try {
     return parse_and_act(argc, argv, session);
   } catch (const std::exception& failure) {
     const Error error = explained(failure);
-    code = error.code;
     log::error(error.what());
+    log::flush();
+    leave_together(error);
+    return static_cast<int>(error.code);
   }
-  log::flush();
-  leave_together(code);
-  return static_cast<int>(code);
 }
 
 }  // namespace snag

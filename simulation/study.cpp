@@ -262,7 +262,7 @@ ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem:
   } catch (const std::exception& failure) {
     const Error error = explained(failure);
     if (is_of_one_run(error.code)) log::error(run.name + ": " + error.what());
-    leave_together(error.code);
+    leave_together(error);
     if (!is_of_one_run(error.code)) throw error;
     return error.code;
   }
