@@ -81,6 +81,17 @@ class Mistakes(harness.CaseTest):
         self.assertEqual(run.returncode, 6, run.stderr)
         self.assertIn("File too large", run.stderr)
 
+    def test_output_that_cannot_be_written(self):
+        """What a command prints is its result: an output on a full disk is an error. A run has its result in files, and goes on."""
+        mesh, case = self.mesh(*CHANNEL_MESH), self.case(SMALL_SHEETS)
+        for words in (["manual"], ["completion"], ["--version"], ["--build-info"], ["--help"], ["run", "--help"], ["mesh", "--info", mesh], ["mesh", "--manual"],
+                      ["run", case, "--out", self.work / "out"]):
+            with open("/dev/full", "w") as full:
+                run = subprocess.run(harness.command(words), env=harness.ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+            self.assertEqual(run.returncode, 0 if "--out" in words else 6, f"{words}: {run.stderr}")
+            if "--out" not in words:
+                self.assertIn("standard output: cannot be written (No space left on device)", run.stderr, words)
+
     @harness.parallel
     def test_rank_that_fails_alone(self):
         """The memory of the second rank is limited, the first one waits for it: the error names the rank."""
