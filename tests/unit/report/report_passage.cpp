@@ -184,7 +184,8 @@ TEST_F(PassageReport, ShowsThePassageOnce) {
   EXPECT_TRUE(holds(html, "<td>Revolutions that the mean is over</td><td>3</td><td>6</td><td>3</td>"));
   EXPECT_TRUE(holds(html, "<td>Head</td><td>5 m</td><td>4.6 m</td><td>5 m</td><td>-8 %</td>")) << html.substr(html.find("<td>Head"), 200);
   EXPECT_TRUE(holds(html, "(x, y, z) = (0.01, 0.02, 0.03) m")) << "place of the largest tension";
-  EXPECT_TRUE(holds(html, "<b>b</b> wholly in the casing, 0.45 s; <b>c</b> exited, 0.7 s.</p>"));
+  EXPECT_TRUE(
+      holds(html, "<p>Letters in the plots: <b>a</b> entered, 0.4 s; <b>b</b> wholly in the casing, 0.45 s; <b>c</b> exited, 0.7 s.</p>"));
   const auto over_time = html.substr(html.find("<h2>Over time"));
   for (const char* other : {"passage: ", "rag forces: ", "Largest tension of a bond", "Particles that have left"})
     EXPECT_FALSE(holds(over_time, other)) << other;
