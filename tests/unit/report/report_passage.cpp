@@ -202,6 +202,18 @@ TEST_F(PassageReport, GoesWithoutAMonitorItCannotRead) {
   EXPECT_TRUE(holds(page(), "Rag 0 has left the domain") || holds(page(), "Rag has left the domain")) << "the outcome is told all the same";
 }
 
+// So does an event that no run writes: here its name is a number.
+TEST_F(PassageReport, GoesWithoutEventsItCannotRead) {
+  write_pump();
+  write_way();
+  auto content = summary();
+  content["rags"][0]["events"][1]["what"] = 5;
+  write_summary(content);
+  write_report(dir);
+  EXPECT_TRUE(holds(page(), "The passage of the rags cannot be shown: summary.json has other values than a run writes"));
+  EXPECT_TRUE(holds(page(), "<h2>Rags</h2>"));
+}
+
 /// A vane along +x at time 0, a square casing around it, and a small sheet beside the shaft, five times.
 void write_scene(const std::filesystem::path& dir) {
   for (const char* folder : {"rags", "walls"}) std::filesystem::create_directories(dir / folder);
