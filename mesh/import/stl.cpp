@@ -11,6 +11,7 @@
 #include "base/words.hpp"
 #include "mesh/point_tree.hpp"
 #include "mesh/wall_surface.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -105,7 +106,7 @@ WallSurface read_stl(const std::filesystem::path& file, const std::string& part,
   auto n = static_cast<std::int64_t>(corners.size());
   MPI_Bcast(&n, 1, MPI_INT64_T, 0, comm);
   corners.resize(static_cast<std::size_t>(n));
-  MPI_Bcast(corners.data(), static_cast<int>(3 * n), MPI_DOUBLE, 0, comm);
+  broadcast<Vec3>(comm, corners);
   for (Vec3& x : corners) x *= scale;
 
   const std::vector<int> node = joined(corners);
