@@ -2,9 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
 #include "base/atomic_file.hpp"
+#include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/units.hpp"
 #include "base/words.hpp"
@@ -86,20 +88,24 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
   on_all_ranks(MPI_COMM_WORLD, [&] { tests = read_textile_tests(options.tests_file), radii = radii_of(options); });
   const std::filesystem::path tests_file(options.tests_file);
   const std::filesystem::path out = options.out.empty() ? "results/calibrate-" + tests_file.stem().string() : options.out;
+  std::optional<FolderLock> lock;
+  on_all_ranks(MPI_COMM_WORLD, [&] {
+    if (rank_of(MPI_COMM_WORLD) == 0) lock.emplace(out);
+  });
   std::vector<Calibration> calibrations;
+  const auto write = [&](const std::optional<IndependencePart>& part) {
+    on_all_ranks(MPI_COMM_WORLD, [&] {
+      if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, part, options.tests_file);
+    });
+  };
   for (const double radius : radii) {
     log::info("calibration of " + tests.name + " at a particle radius of " + number_text(1e3 * radius) + " mm");
     CalibrationSettings settings{.radius = radius, .as_published = options.as_published, .n_seeds = options.n_seeds};
     settings.report_progress = [](const std::string& line) { log::info(line); };
     calibrations.push_back(calibrate(MPI_COMM_WORLD, tests, settings));
     tell_result(tests, calibrations.back());
+    write({});  // what there is stays if the next radius fails
   }
-  const auto write = [&](const std::optional<IndependencePart>& part) {
-    on_all_ranks(MPI_COMM_WORLD, [&] {
-      if (rank_of(MPI_COMM_WORLD) == 0) write_results(out, tests, calibrations, part, options.tests_file);
-    });
-  };
-  write({});
   if (options.independence) {
     const Calibration& calibration = calibrations[calibrations.size() / 2];
     log::info("independence of particle radius, step, dashpots and friction about " + number_text(1e3 * calibration.settings.radius) +

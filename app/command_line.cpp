@@ -14,6 +14,7 @@
 #include "base/version.hpp"
 #include "base/words.hpp"
 #include "parallel/session.hpp"
+#include "parallel/standard_output.hpp"
 
 namespace snag {
 
@@ -63,17 +64,18 @@ int parse_and_act(int argc, char** argv, const Session& session) {
   } catch (const CLI::ParseError& parse) {
     std::ostringstream out, err;
     const int code = app.exit(parse, out, err);
-    if (session.rank() == 0) std::cout << out.str(), std::cerr << err.str();
+    print(out.str());
+    if (session.rank() == 0) std::cerr << err.str();
     return code == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
   if (build_info) {
-    if (session.rank() == 0) std::cout << snag::build_info() << "\n";
+    print(snag::build_info() + "\n");
     return 0;
   }
   for (const auto& [name, action] : actions) {
     if (app.got_subcommand(name)) return static_cast<int>(action());
   }
-  if (session.rank() == 0) std::cout << app.help();
+  print(app.help());
   return static_cast<int>(ExitCode::usage);
 }
 
@@ -84,17 +86,15 @@ Command::Command(int place, Action (*add)(CLI::App& app)) {
 }
 
 int run_command_line(int argc, char** argv, const Session& session) {
-  ExitCode code = ExitCode::io;
   try {
     return parse_and_act(argc, argv, session);
   } catch (const std::exception& failure) {
     const Error error = explained(failure);
-    code = error.code;
     log::error(error.what());
+    log::flush();
+    leave_together(error);
+    return static_cast<int>(error.code);
   }
-  log::flush();
-  leave_together(code);
-  return static_cast<int>(code);
 }
 
 }  // namespace snag

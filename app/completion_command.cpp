@@ -1,11 +1,9 @@
 // snag completion: commands and options for bash, from the command line that reads them.
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 
 #include "app/command.hpp"
-#include "base/atomic_file.hpp"
-#include "parallel/session.hpp"
+#include "parallel/standard_output.hpp"
 
 namespace snag {
 
@@ -49,12 +47,7 @@ Action add_completion(CLI::App& app) {
   CLI::App* command = app.add_subcommand("completion", "Print the completion of commands and options for bash: source <(snag completion)");
   command->add_option("--out", *out, "File to write instead of printing");
   return [&app, out] {
-    if (rank_of(MPI_COMM_WORLD) != 0) return ExitCode::ok;
-    if (out->empty()) {
-      std::cout << completion_script(app);
-      return ExitCode::ok;
-    }
-    write_atomically(*out, completion_script(app));
+    write_or_print(*out, [&app] { return completion_script(app); });
     return ExitCode::ok;
   };
 }

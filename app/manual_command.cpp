@@ -1,12 +1,10 @@
 // snag manual: the manual of the case file, from the same records that read it.
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 
 #include "app/command.hpp"
 #include "app/manual.hpp"
-#include "base/atomic_file.hpp"
-#include "parallel/session.hpp"
+#include "parallel/standard_output.hpp"
 
 namespace snag {
 
@@ -19,12 +17,7 @@ Action add_manual(CLI::App& app) {
       "Print every table and key of the case file and of the other input files: unit, range, default, where it comes from, meaning");
   command->add_option("--out", *out, "File to write instead of printing");
   return [out] {
-    if (rank_of(MPI_COMM_WORLD) != 0) return ExitCode::ok;
-    if (out->empty()) {
-      std::cout << case_file_manual();
-      return ExitCode::ok;
-    }
-    write_atomically(*out, case_file_manual());
+    write_or_print(*out, case_file_manual);
     return ExitCode::ok;
   };
 }

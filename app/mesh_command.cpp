@@ -1,7 +1,6 @@
 // snag mesh: parametric geometry by the program snag-mesh beside this one, and a judgement of any mesh.
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 
 #include "app/command.hpp"
@@ -10,7 +9,7 @@
 #include "mesh/import/import.hpp"
 #include "mesh/import/mesh_reader.hpp"
 #include "mesh/quality.hpp"
-#include "parallel/session.hpp"
+#include "parallel/standard_output.hpp"
 #include "simulation/setup/mesh_generator.hpp"
 
 namespace snag {
@@ -24,7 +23,7 @@ ExitCode judge(const std::string& file, double scale) {
   const Mesh mesh = import_mesh(file, MPI_COMM_WORLD, {.scale = scale});
   const MeshQuality found = quality(mesh);
   const std::string table = quality_table(mesh, found);
-  if (rank_of(MPI_COMM_WORLD) == 0) std::cout << table << std::flush;
+  print(table);
   return found.failures.empty() ? ExitCode::ok : ExitCode::mesh;
 }
 
@@ -45,7 +44,7 @@ Action add_mesh(CLI::App& app) {
     if (!options->judged.empty()) return judge(options->judged, options->scale);
     const std::vector<std::string> rest = command->remaining();
     if (!rest.empty()) return generate_mesh(MPI_COMM_WORLD, rest);
-    if (rank_of(MPI_COMM_WORLD) == 0) std::cout << command->help();
+    print(command->help());
     return ExitCode::usage;
   };
 }

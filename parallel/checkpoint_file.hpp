@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "parallel/checkpoint_trailer.hpp"
 #include "parallel/hdf5_file.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 #include "parallel/write_failure.hpp"
 
@@ -156,7 +157,7 @@ struct CheckpointFile {
     const hsize_t rows = shape(dataset).first;
     auto values = read<T>(dataset, name, whole_on_first(rows));
     values.resize(rows);
-    MPI_Bcast(values.data(), static_cast<int>(rows * sizeof(T)), MPI_BYTE, 0, comm);
+    broadcast<T>(comm, values);
     return values;
   }
 };

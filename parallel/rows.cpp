@@ -44,6 +44,14 @@ std::vector<int> row_starts(MPI_Comm comm, std::size_t n_mine) {
   return start;
 }
 
+void broadcast_bytes(MPI_Comm comm, void* rows, std::size_t n_rows, std::size_t row_size) {
+  if (n_rows > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw Error(ExitCode::io, "sending rows to all ranks: " + std::to_string(n_rows) +
+                                  " are too many, must be below 2^31; coarsen the mesh or the surface, or split the case");
+  const RowType row(row_size);
+  MPI_Bcast(rows, static_cast<int>(n_rows), row.type, 0, comm);
+}
+
 void gather_bytes(MPI_Comm comm, const void* mine, const std::vector<int>& start, std::size_t row_size, void* all, bool on_all) {
   const RowType row(row_size);
   std::vector<int> count(start.size() - 1);

@@ -1,5 +1,6 @@
 #pragma once
-// Rows of any plain type that travel between ranks: gathered on all, gathered on the first, or each sent to the rank it is for.
+// Rows of any plain type that travel between ranks: from the first to all, gathered on all, gathered on the first, or each sent to the rank
+// it is for.
 #include <mpi.h>
 
 #include <cstddef>
@@ -14,10 +15,18 @@ namespace snag {
 std::vector<int> row_starts(MPI_Comm comm, std::size_t n_mine);
 
 /// Without types, for the templates below: rows of `row_size` bytes.
+void broadcast_bytes(MPI_Comm comm, void* rows, std::size_t n_rows, std::size_t row_size);
 void gather_bytes(MPI_Comm comm, const void* mine, const std::vector<int>& start, std::size_t row_size, void* all, bool on_all);
 void exchange_bytes(MPI_Comm comm, const void* sent, const std::vector<int>& n_sent, void* received, const std::vector<int>& n_received,
                     std::size_t row_size);
 std::vector<int> exchanged_counts(MPI_Comm comm, const std::vector<int>& n_sent);
+
+/// Rank 0's rows on every rank; all must have room for as many. Collective. Throws Error(io) if there are 2^31 or more.
+template <class Row>
+void broadcast(MPI_Comm comm, std::span<Row> rows) {
+  static_assert(std::is_trivially_copyable_v<Row>);
+  broadcast_bytes(comm, rows.data(), rows.size(), sizeof(Row));
+}
 
 /// The rows of all ranks in order of ranks, on every rank; `start` of row_starts. Collective.
 template <class Row>

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -111,7 +112,7 @@ void on_all_ranks(MPI_Comm comm, const std::function<void()>& work) {
   throw Error(static_cast<ExitCode>(header[0]), message);
 }
 
-void leave_together(ExitCode code) {
+void leave_together(const Error& failure) {
   MPI_Request request;
   MPI_Ibarrier(MPI_COMM_WORLD, &request);
   for (int waited = 0; waited < 100; ++waited) {
@@ -120,7 +121,8 @@ void leave_together(ExitCode code) {
     if (done) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+  std::fprintf(stderr, "error: rank %d of %d: %s\n", rank_of(MPI_COMM_WORLD), size_of(MPI_COMM_WORLD), failure.what());
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(failure.code));
 }
 
 void check_petsc(int error_code, const char* call) {

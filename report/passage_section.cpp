@@ -146,7 +146,7 @@ std::string letters(const RagPassage& passage) {
             html::number(passage.events[i].time) + " s";
   if (passage.events.size() > most_marks)
     text += "; the other " + std::to_string(passage.events.size() - most_marks) + " events stand in the table of the rag";
-  return "<p>RowsByRank in the plots: " + text + ".</p>\n";
+  return "<p>Letters in the plots: " + text + ".</p>\n";
 }
 
 std::string pump_plot(const RagPassage& passage, const PumpRecord& pump, const std::string& title, const char* column, const char* label) {

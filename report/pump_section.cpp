@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/series.hpp"
+#include "base/words.hpp"
 #include "report/html.hpp"
 #include "report/line_plot.hpp"
 #include "report/monitor_plots.hpp"
@@ -134,7 +135,7 @@ std::string pump_section(const nlohmann::json& summary, const std::filesystem::p
                over_revolutions(revolutions, "Efficiency of each revolution", "efficiency", "efficiency");
     content += "<div class=\"plots\">\n" + plots + "</div>\n";
   } catch (const Error& error) {
-    content += "<p class=\"problem\">" + std::string(error.what()) + "</p>\n";
+    content += "<p class=\"problem\">" + escaped(error.what()) + "</p>\n";
   }
   return content;
 }

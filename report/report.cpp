@@ -129,6 +129,20 @@ std::string missing(const Pictures& pictures) {
   return problem((pictures.made.empty() ? "There are no pictures: " : "Some pictures are missing: ") + pictures.problem);
 }
 
+/// The results may come from another program, or somebody has changed them.
+std::string unreadable(const std::string& part, const nlohmann::json::exception& failure) {
+  return problem(part + " cannot be shown: summary.json has other values than a run writes (" + failure.what() +
+                 "); take the summary.json of the run, or run the case again");
+}
+
+std::string step_section_of(const nlohmann::json& summary) {
+  try {
+    return step_section(summary);
+  } catch (const nlohmann::json::exception& failure) {
+    return unreadable("The choice of the time step", failure);
+  }
+}
+
 /// Rags in a pump: what is known of their passage.
 struct Passages {
   std::string verdict, section;
@@ -144,6 +158,8 @@ Passages passages_of(const nlohmann::json& summary, const std::filesystem::path&
             passage_columns()};
   } catch (const Error& error) {
     return {"", problem("The passage of the rags could not be drawn: " + std::string(error.what())), {}};
+  } catch (const nlohmann::json::exception& failure) {
+    return {"", unreadable("The passage of the rags", failure), {}};
   }
 }
 
@@ -185,7 +201,7 @@ void write_report(const std::filesystem::path& dir) {
   page += section("Warnings", warning_list(log));
   if (is_passage) page += section("Passage of the rag through the pump", drawn.instants + passages.section);
   page += section("Pump", pump_section(summary, dir / "monitors"));
-  page += section("Time step", step_section(summary));
+  page += section("Time step", step_section_of(summary));
   page += section("Balances", balance_tables(summary));
   page += section("Walls", wall_table(summary));
   page += section("Rags", rag_tables(summary));

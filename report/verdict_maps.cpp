@@ -181,7 +181,7 @@ std::string map_of_ways(const Verdict& v) {
          " [m]</text>\n</svg>\n<p>The measured paths in parts of time, in the same colours: the largest score of a coordinate there." +
          (v.missing_force.empty() ? ""
                                   : " Arrows: the missing force over mass, red of the base model, blue with " +
-                                        (v.effects.empty() ? "the effects of the verdict" : effects_in_words(v)) +
+                                        (v.effects.empty() ? "the effects of the verdict" : escaped(effects_in_words(v))) +
                                         "; the longest red one is " + html::number(largest_of(v.missing_force, axes)) + " N/kg.") +
          "</p>\n";
 }

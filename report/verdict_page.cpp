@@ -242,7 +242,7 @@ std::string where(const Verdict& v) {
          "part: if it differs again, a gap begins in that part (framed: born here); if it agrees, the gap is inherited from an earlier "
          "part.</p>\n" +
          map_of_gap(v, &GapCell::score) +
-         (has_after ? "<p>What is left with " + effects_in_words(v) + ", strengths and inputs fitted.</p>\n" +
+         (has_after ? "<p>What is left with " + escaped(effects_in_words(v)) + ", strengths and inputs fitted.</p>\n" +
                           map_of_gap(v, &GapCell::score_after)
                     : "") +
          map_of_ways(v) + missing_force(v) + curves(v) + html::table(header, rows) +

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/atomic_file.hpp"
+#include "base/explained.hpp"
 #include "base/folder_lock.hpp"
 #include "base/log.hpp"
 #include "base/quotation.hpp"
@@ -195,8 +196,13 @@ RunInput input_of(const Study& study, const StudyRun& run, FileHashes& hashes) {
 enum class RunState : int { nothing, ended, stopped, partial };
 
 /// What an earlier start of the study left of a run; a partial one has begun and has no summary.
-RunState previous_state(const std::filesystem::path& folder, const RunInput& input) {
-  if (!std::filesystem::exists(folder / "monitors")) return RunState::nothing;
+struct PreviousRun {
+  RunState state;
+  ExitCode code = ExitCode::ok;  // of one that has ended
+};
+
+PreviousRun previous_run(const std::filesystem::path& folder, const RunInput& input) {
+  if (!std::filesystem::exists(folder / "monitors")) return {RunState::nothing};
   const auto before = file_text(folder / "input.toml");
   // Runs of earlier versions do not say what was in the files.
   if (before != input.text + input.files && before != input.text)
@@ -204,27 +210,27 @@ RunState previous_state(const std::filesystem::path& folder, const RunInput& inp
                                      ": has a run of another case, of other values or of other files (as a mesh that was made again) than "
                                      "the study (see its input.toml); choose another --out, or remove the folder");
   const auto summary = nlohmann::json::parse(file_text(folder / "summary.json").value_or(""), nullptr, false);
-  if (!summary.is_object()) return RunState::partial;
+  if (!summary.is_object()) return {RunState::partial};
   const int code = summary.value("exit", -1);
   for (const ExitCode end : {ExitCode::ok, ExitCode::diverged, ExitCode::invariant})
-    if (code == static_cast<int>(end)) return RunState::ended;
-  return code == static_cast<int>(ExitCode::stopped) ? RunState::stopped : RunState::partial;
+    if (code == static_cast<int>(end)) return {RunState::ended, end};
+  return {code == static_cast<int>(ExitCode::stopped) ? RunState::stopped : RunState::partial};
 }
 
-RunState prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run, FileHashes& hashes) {
-  int before = 0;
+PreviousRun prepare(const std::filesystem::path& folder, const Study& study, const StudyRun& run, FileHashes& hashes) {
+  int before[2] = {0, 0};
   on_all_ranks(world, [&] {
     if (rank_of(world) != 0) return;
     const RunInput input = input_of(study, run, hashes);
-    const RunState state = previous_state(folder, input);
-    before = static_cast<int>(state);
-    if (state != RunState::nothing) return;  // an earlier version did not say what was in the files: it stays unknown
+    const PreviousRun found = previous_run(folder, input);
+    before[0] = static_cast<int>(found.state), before[1] = static_cast<int>(found.code);
+    if (found.state != RunState::nothing) return;  // an earlier version did not say what was in the files: it stays unknown
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
     write_atomically(folder / "input.toml", input.text + input.files);
   });
-  MPI_Bcast(&before, 1, MPI_INT, 0, world);
-  return static_cast<RunState>(before);
+  MPI_Bcast(before, 2, MPI_INT, 0, world);
+  return {static_cast<RunState>(before[0]), static_cast<ExitCode>(before[1])};
 }
 
 bool has_checkpoint(const std::filesystem::path& folder) {
@@ -236,7 +242,13 @@ bool has_checkpoint(const std::filesystem::path& folder) {
   }
 }
 
-/// Runs one; what it failed with if that is its own matter.
+/// The codes of a failure that concerns one run only: its flow, its rags, its mesh, or a value of it that is refused, as a pose that cannot
+/// be made. What the others need as well (the disk, the memory) has other codes.
+bool is_of_one_run(ExitCode code) {
+  return code == ExitCode::diverged || code == ExitCode::invariant || code == ExitCode::mesh || code == ExitCode::usage;
+}
+
+/// Runs one; the code with which it ended or failed. Throws Error where the failure is not of this run alone.
 ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem::path& folder, RunState before,
                  const ReportWriter& write_report, Prepared& prepared) {
   RunOptions options{
@@ -247,12 +259,33 @@ ExitCode run_one(const Study& study, const StudyRun& run, const std::filesystem:
   }
   try {
     return run_case(options);
-  } catch (const Error& failure) {
-    // Of this run alone: its flow, its rags, or a value of it that is refused, as a pose that cannot be made.
-    if (failure.code != ExitCode::diverged && failure.code != ExitCode::invariant && failure.code != ExitCode::usage) throw;
-    log::error(run.name + ": " + failure.what());
-    leave_together(failure.code);
-    return failure.code;
+  } catch (const std::exception& failure) {
+    const Error error = explained(failure);
+    if (is_of_one_run(error.code)) log::error(run.name + ": " + error.what());
+    leave_together(error);
+    if (!is_of_one_run(error.code)) throw error;
+    return error.code;
+  }
+}
+
+/// Table and plots of the runs that there are. Collective; throws Error(io).
+void write_results(const Study& study, const std::filesystem::path& folder, const StudyOptions& options) {
+  std::string results;
+  on_all_ranks(world, [&] {
+    if (rank_of(world) == 0) results = options.write_results(study, folder);
+  });
+  log::info(results);
+  log::info("study: " + (folder / "study.csv").string() + " and " + (folder / "study.html").string());
+}
+
+/// The same after a failure that ends the study; the failure goes on to the command line.
+void write_results_after(const Error& failure, Study& study, StudyRun& run, const std::filesystem::path& folder,
+                         const StudyOptions& options) {
+  run.failed_with = static_cast<int>(failure.code);
+  try {
+    write_results(study, folder, options);
+  } catch (const Error& second) {
+    log::warning(std::string("no table of the study: ") + second.what());
   }
 }
 
@@ -364,21 +397,22 @@ ExitCode run_study(const StudyOptions& options) {
       log::info(which + "\n  " + joined(run.overrides));
       continue;
     }
-    const RunState before = prepare(folder / run.name, study, run, hashes);
-    log::info(which + (before == RunState::ended ? " has been run before" : ""));
-    if (before == RunState::ended) continue;
-    const ExitCode code = run_one(study, run, folder / run.name, before, options.write_report, prepared);
+    const PreviousRun before = prepare(folder / run.name, study, run, hashes);
+    const bool has_ended = before.state == RunState::ended;
+    log::info(which + (has_ended ? " has been run before" : ""));
+    ExitCode code = before.code;
+    try {
+      if (!has_ended) code = run_one(study, run, folder / run.name, before.state, options.write_report, prepared);
+    } catch (const Error& failure) {
+      write_results_after(failure, study, run, folder, options);
+      throw;
+    }
     if (code == ExitCode::stopped) return code;
     run.failed_with = static_cast<int>(code);
     if (worst == ExitCode::ok) worst = code;
   }
   if (options.dry_run) return worst;
-  std::string results;
-  on_all_ranks(world, [&] {
-    if (rank_of(world) == 0) results = options.write_results(study, folder);
-  });
-  log::info(results);
-  log::info("study: " + (folder / "study.csv").string() + " and " + (folder / "study.html").string());
+  write_results(study, folder, options);
   return worst;
 }
 

@@ -5,9 +5,11 @@
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -225,7 +227,12 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
-  if (print_manual) return std::fputs(manual().c_str(), stdout) < 0 ? static_cast<int>(ExitCode::io) : 0;
+  if (print_manual) {
+    if (std::fputs(manual().c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+      throw Error(ExitCode::io, std::string("standard output: cannot be written (") + std::strerror(errno) +
+                                    "); check where it is redirected to, and that the disk has space");
+    return 0;
+  }
   if (request.geometry.empty())
     throw Error(ExitCode::usage, "snag-mesh: a subcommand is required, one of " + joined(geometries().names()) + "; see snag-mesh --help");
   run(request);

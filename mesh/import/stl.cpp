@@ -8,15 +8,18 @@
 #include "base/atomic_file.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/words.hpp"
 #include "mesh/point_tree.hpp"
 #include "mesh/wall_surface.hpp"
+#include "parallel/rows.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
 namespace {
 
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
-constexpr double joining_distance = 1e-9;  // over the diagonal of the bounding box
+constexpr double joining_distance = 1e-9;    // over the diagonal of the bounding box
+constexpr double largest_coordinate = 1e30;  // in the unit of the file: areas and their squares stay finite
 
 std::vector<Vec3> binary_corners(const std::string& content, std::size_t n_triangles) {
   std::vector<Vec3> corners;
@@ -45,6 +48,15 @@ std::vector<Vec3> ascii_corners(const std::string& content, const std::string& n
                                   " corners, an ASCII STL file has a multiple of three and the word endsolid "
                                   "(and a binary one 84 + 50 n bytes); the file is cut off or not STL, export it again");
   return corners;
+}
+
+/// A damaged file may have coordinates that are not numbers.
+void check_corners(const std::vector<Vec3>& corners, const std::string& name) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (const Vec3& x = corners[i]; !(norm_squared(x) < largest_coordinate * largest_coordinate))
+      throw Error(ExitCode::io, name + ": triangle " + std::to_string(i / 3 + 1) + " has the corner (" + number_text(x.x) + ", " +
+                                    number_text(x.y) + ", " + number_text(x.z) + "), coordinates must be numbers below " +
+                                    number_text(largest_coordinate) + "; the file is damaged, export the STL file again");
 }
 
 std::vector<Vec3> corners_of(const std::filesystem::path& file) {
@@ -87,12 +99,14 @@ WallSurface read_stl(const std::filesystem::path& file, const std::string& part,
   std::vector<Vec3> corners;
   MPI_Comm comm = MPI_COMM_WORLD;
   on_all_ranks(comm, [&] {
-    if (rank_of(comm) == 0) corners = corners_of(file);
+    if (rank_of(comm) != 0) return;
+    corners = corners_of(file);
+    check_corners(corners, file.string());
   });
   auto n = static_cast<std::int64_t>(corners.size());
   MPI_Bcast(&n, 1, MPI_INT64_T, 0, comm);
   corners.resize(static_cast<std::size_t>(n));
-  MPI_Bcast(corners.data(), static_cast<int>(3 * n), MPI_DOUBLE, 0, comm);
+  broadcast<Vec3>(comm, corners);
   for (Vec3& x : corners) x *= scale;
 
   const std::vector<int> node = joined(corners);
@@ -107,6 +121,9 @@ WallSurface read_stl(const std::filesystem::path& file, const std::string& part,
     }
     surface.triangles.push_back(triangle);
   }
+  if (surface.triangles.empty())
+    throw Error(ExitCode::io, file.string() + ": none of its " + std::to_string(n_flat) +
+                                  " triangles has an area, at least one must have; check the file, export the STL file again");
   if (n_flat > 0) log::warning(file.string() + ": " + std::to_string(n_flat) + " triangles without area are left out");
   return surface;
 }

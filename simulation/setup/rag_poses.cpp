@@ -35,6 +35,18 @@ std::vector<ParticlePose> as_poses(const std::vector<double>& n) {
   return poses;
 }
 
+/// The pose of a run that is resumed. Its rag may be that of another case: cases are compared when all tables have been read, and poses are
+/// made before.
+std::vector<ParticlePose> stored_poses(const Rag& rag, CheckpointReader& checkpoint, std::size_t number) {
+  std::vector<ParticlePose> poses = as_poses(checkpoint.shared(name_in_checkpoint(number)));
+  const std::size_t expected = static_cast<std::size_t>(rag.n_columns) * static_cast<std::size_t>(rag.n_rows);
+  if (poses.size() != expected)
+    throw Error(ExitCode::usage, "the checkpoint was written by another case (its pose of " + rag.name + " has " +
+                                     std::to_string(poses.size()) + " particles, this one " + std::to_string(expected) +
+                                     "); resume with the same case and --set values; only [time] end may be another");
+  return poses;
+}
+
 /// Direction along which the rag is to travel: of the pipe, or along the folds.
 Vec3 direction_of_travel(const RagPiece& piece) {
   if (piece.plan.crumpled()) return unit(piece.plan.confine_axis);
@@ -100,7 +112,7 @@ RagPoses::RagPoses(MPI_Comm comm, std::vector<RagPiece>& pieces, const ContactSe
     model[n] = first_alike(pieces, n);
     if (!pieces[n].plan.crumpled() || model[n] != n) continue;
     if (is_stored(n))
-      pieces[n].poses = as_poses(stored->shared(name_in_checkpoint(n)));
+      pieces[n].poses = stored_poses(pieces[n].rag, *stored, n);
     else if (made && made->contains(key(n)))
       pieces[n].poses = made->at(key(n)), reused.push_back("pose of " + pieces[n].rag.name + ": as made for an earlier run");
     else

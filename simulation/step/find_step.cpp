@@ -32,7 +32,7 @@ auto with_smaller_steps(int& n, std::vector<std::string>& notes, const Trial& tr
       return trial(n);
     } catch (const Error& failure) {
       if (failure.code != ExitCode::diverged || n >= most_trial_steps) throw;
-      leave_together(failure.code);
+      leave_together(failure);
       notes.push_back("at " + degrees_text(n) + " a step the water diverged; smaller steps are tried");
       log::warning(notes.back() + ": " + failure.what());
     }

@@ -2,6 +2,7 @@
 # cost: 30
 # processors: 2
 """Requirement: `snag calibrate` makes a textile passport that a case can use and a report (the same on one rank as on two: calibrate_long.py); tests that no cloth gives end with exit code 2 and one clear message."""
+import fcntl
 import re
 import shutil
 import tomllib
@@ -72,6 +73,19 @@ class Calibrate(harness.CaseTest):
 
     def test_radius_without_unit(self):
         self.refused(["--radius"], "", "", "--radius", "1.5")
+
+    def test_folder_is_checked_first(self):
+        """A folder that cannot be made, or that another process writes to, ends the command before anything is computed."""
+        (self.work / "file").write_text("in the way")
+        taken = self.work / "taken"
+        taken.mkdir()
+        with open(taken / ".lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            for out, words in ((self.work / "file" / "out", "cannot be written"), (taken, "is in use by")):
+                run = harness.snag(["calibrate", TESTS, "--radius", "5mm", "--seeds", "2", "--out", out])
+                self.assertEqual(run.code, 6, run.tail())
+                self.assertIn(words, run.messages[0])
+                self.assertNotIn("calibration of", run.stdout)
 
     def calibrate(self, radius, ranks, out, *arguments):
         run = harness.snag(["calibrate", TESTS, "--radius", radius, "--seeds", "2", *arguments, "--out", self.work / out], ranks, self.work / out)

@@ -5,7 +5,7 @@ import re
 import subprocess
 
 import harness
-from small_cases import CHANNEL, CHANNEL_MESH, TWO_SHEETS
+from small_cases import CHANNEL, CHANNEL_MESH, SMALL_SHEETS, TWO_SHEETS
 
 
 class Mistakes(harness.CaseTest):
@@ -80,6 +80,28 @@ class Mistakes(harness.CaseTest):
         run = subprocess.run(command, env=harness.ENVIRONMENT, capture_output=True, text=True, timeout=100)
         self.assertEqual(run.returncode, 6, run.stderr)
         self.assertIn("File too large", run.stderr)
+
+    def test_output_that_cannot_be_written(self):
+        """What a command prints is its result: an output on a full disk is an error. A run has its result in files, and goes on."""
+        mesh, case = self.mesh(*CHANNEL_MESH), self.case(SMALL_SHEETS)
+        for words in (["manual"], ["completion"], ["--version"], ["--build-info"], ["--help"], ["run", "--help"], ["mesh", "--info", mesh], ["mesh", "--manual"],
+                      ["run", case, "--out", self.work / "out"]):
+            with open("/dev/full", "w") as full:
+                run = subprocess.run(harness.command(words), env=harness.ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)
+            self.assertEqual(run.returncode, 0 if "--out" in words else 6, f"{words}: {run.stderr}")
+            if "--out" not in words:
+                self.assertIn("standard output: cannot be written (No space left on device)", run.stderr, words)
+
+    @harness.parallel
+    def test_rank_that_fails_alone(self):
+        """The memory of the second rank is limited, the first one waits for it: the error names the rank."""
+        one_sheet, _, _ = SMALL_SHEETS.rpartition("[[rag]]")
+        case = self.case(one_sheet.replace("_mm = 20\n", "_mm = 1600\n").replace("0, 0, 0.0535]", "0, 0, 2]"))
+        check = harness.command(["check", case])
+        command = ["mpirun", "-n", "1", *check, ":", "-n", "1", "bash", "-c", 'ulimit -v 450000; exec "$@"', "bash", *check]
+        run = subprocess.run(command, env=harness.ENVIRONMENT, capture_output=True, text=True, timeout=100)
+        self.assertEqual(run.returncode, 6, run.stderr)
+        self.assertIn("error: rank 1 of 2: the memory of this machine", run.stderr)
 
     def test_scale_of_a_mesh(self):
         refused = harness.snag(["mesh", "--info", self.mesh(*CHANNEL_MESH), "--scale", "-1"])

@@ -5,6 +5,7 @@ harness.main(). The program is that of the build folder SNAG_BINARY_DIR; several
 
 A test that needs several processors is marked `@harness.parallel`; `script.py serial` runs the others, `script.py parallel` these alone.
 """
+import csv
 import json
 import os
 import pathlib
@@ -50,7 +51,7 @@ class Monitor:
 
     def __init__(self, file):
         self.lines = file.read_text().splitlines()
-        self.columns = self.lines[0].split(",")
+        self.columns = next(csv.reader(self.lines[:1]))
         self.names, _, self.values = read_columns(file)
 
     def column(self, name):

@@ -1,6 +1,6 @@
 # timeout: 600
 """Requirement: Snag as it is installed makes a mesh, checks a case and reads a picture from any folder; the citation is that of
-CITATION.cff; the completion of the shell knows every command and option."""
+CITATION.cff; the completion of the shell knows every command and option; the revision is that of the sources at the last build."""
 import re
 import shutil
 import subprocess
@@ -47,6 +47,46 @@ class Installation(harness.CaseTest):
 
     def version(self):
         return re.search(r"project\(snag VERSION (\S+)", (harness.SOURCE_DIR / "CMakeLists.txt").read_text())[1]
+
+
+class Revision(harness.CaseTest):
+    """The revision that a build compiles in is that of the sources at that build."""
+
+    def git(self, *words, folder="tree"):
+        run = subprocess.run(["git", "-C", self.work / folder, "-c", "user.name=a", "-c", "user.email=a@b", *words], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout.strip()
+
+    def written(self, folder="tree"):
+        """Revision and time of the file that the script writes."""
+        file = self.work / "version_git.cpp"
+        script = harness.SOURCE_DIR / "base" / "version_git.cmake"
+        run = subprocess.run(["cmake", "-D", f"SOURCE={self.work / folder}", "-D", f"FILE={file}", "-P", script], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return re.search(r'version_git = "(.*)";', file.read_text())[1], file.stat().st_mtime_ns
+
+    def test_revision(self):
+        source = self.work / "tree" / "part" / "source.cpp"
+        source.parent.mkdir(parents=True)
+        source.write_text("1\n")
+        self.git("init", "--quiet")
+        self.git("add", ".")
+        self.git("commit", "--quiet", "-m", "first")
+        self.git("tag", "a-tag")
+        first = self.written()
+        self.assertEqual(first[0], self.git("rev-parse", "--short=12", "HEAD"))
+        self.assertEqual(self.written(), first, "the same revision leaves the file as it is")
+        source.write_text("2\n")
+        self.assertEqual(self.written()[0], first[0] + "-dirty")
+        self.git("commit", "--quiet", "-a", "-m", "second")
+        second = self.written()[0]
+        self.assertNotEqual(second, first[0])
+        self.assertEqual(second, self.git("rev-parse", "--short=12", "HEAD"))
+        self.git("worktree", "add", "--quiet", self.work / "other", "a-tag")
+        self.assertEqual(self.written("other")[0], first[0])
+        self.assertEqual(self.written("tree/part")[0], "", "a folder within a repository is none of its own")
+        (self.work / "unpacked").mkdir()
+        self.assertEqual(self.written("unpacked")[0], "")
 
 
 class Installed(Installation):

@@ -41,6 +41,9 @@ class Poses(harness.CaseTest):
         self.assertNotIn("making the pose", resumed.stdout + resumed.stderr)
         self.assertEqual(as_made, stored.read_text())
         self.assertEqual(two.summary["rags"], resumed.summary["rags"])
+        for length in (60, 240):
+            refused = self.run_case(file, 1, "--resume", "--set", f"rag.length_mm={length}", out="one", code=2)
+            self.assertIn("was written by another case", refused.stderr)
 
     def test_runs_of_a_study_share_it(self):
         """A pose is made once for all runs with the same cloth and seed, and each run is what it is by itself."""

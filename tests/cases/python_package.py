@@ -82,6 +82,15 @@ class PythonPackage(harness.CaseTest):
         with self.assertRaisesRegex(FileNotFoundError, "a run that has ended writes it"):
             snag.Run(self.work / "going").summary
 
+    def test_column_with_a_comma(self):
+        """Patches are named by the user, and a monitor has columns of their names."""
+        (self.work / "named" / "monitors").mkdir(parents=True)
+        (self.work / "named" / "case.resolved.toml").write_text("")
+        (self.work / "named" / "monitors" / "patches.csv").write_text('time [s],"a, ""b""_flow [m3/s]",outlet_flow [m3/s]\n0.1,2,3\n0.2,4,5\n')
+        frame = snag.Run(self.work / "named").monitor("patches")
+        self.assertEqual(frame.attrs["units"], {"time": "s", 'a, "b"_flow': "m3/s", "outlet_flow": "m3/s"})
+        self.assertEqual(frame['a, "b"_flow'].tolist(), [2, 4])
+
     def test_study(self):
         study = snag.open(self.shared / "results" / "drop")
         self.assertIsInstance(study, snag.Study)

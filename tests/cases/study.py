@@ -221,7 +221,7 @@ class Study(harness.CaseTest):
 
     @harness.parallel
     def test_failed_run_does_not_stop_the_others(self):
-        """A rag at 400 m/s leaves its bonds behind within a step: the study goes on and ends with the code of that run."""
+        """A rag at 400 m/s leaves its bonds behind within a step: the study goes on and ends with the code of that run, a repeated one too."""
         text = STUDY.format(zip="zip = true").replace("rag.0.length", "rag.1.velocity_m_s").replace('"100 mm", "120 mm"', '"[4e4, 0, -3e4]", "[2, 0, -3]"')
         done = harness.snag(["study", self.written(text), "--out", self.work / "study"], 1, self.work / "study")
         rows = self.table()
@@ -229,12 +229,38 @@ class Study(harness.CaseTest):
         self.assertEqual(rows[1]["exit"], "0", done.tail())
         self.assertNotEqual(rows[0]["exit"], "0", done.tail())
         self.assertEqual(done.code, int(rows[0]["exit"]))
+        again = harness.snag(["study", self.work / "study.toml", "--out", self.work / "study"])
+        self.assertEqual(again.stdout.count("has been run before"), 2, again.tail())
+        self.assertEqual(again.code, done.code)
 
     def test_refused_value_does_not_stop_the_others(self):
         """A radius for which the cloth is not calibrated: the other run is made, and the table says which one was refused."""
         text = STUDY.format(zip="zip = true").replace("[1, 1.25]", "[3, 1.25]")
         done = self.study(text, ranks=1, code=2)
         self.assertEqual([row["exit"] for row in self.table()], ["2", "0"], done.tail())
+
+    def test_unfit_mesh_does_not_stop_the_others(self):
+        """A cell of one run's mesh is turned inside out: the others are made. What no run can do without, a file that is absent, ends the study, with a table."""
+        (self.work / "cube.toml").write_text("[box]\nsize_mm = 50\nlower_m = [0, 0, 0]\nupper_m = [0.1, 0.1, 0.1]\ncells = \"hexahedra\"\n")
+        for name in ("first", "third"):
+            made = harness.snag(["mesh", "box", self.work / "cube.toml", "--format", "2.2", "--out", self.work / f"{name}.msh"])
+            self.assertEqual(made.code, 0, made.tail())
+        first = (self.work / "first.msh").read_text()
+        self.assertEqual(len(re.findall(r" 0\.05 0\.05 0\.05\n", first)), 1)
+        (self.work / "second.msh").write_text(first.replace(" 0.05 0.05 0.05\n", " 0.15 0.05 0.05\n"))
+        self.case('[case]\nname = "box"\n[mesh]\nfile = "first.msh"\n[time]\nend_ms = 1\nstep_ms = 1\n'
+                  '[flow]\n[[boundary]]\npatches = ["x0", "x1", "y0", "y1", "z0", "z1"]\nkind = "wall"\n[output]\nreport = false\n', "box")
+        study = self.work / "study.toml"
+        study.write_text('[study]\nname = "boxes"\ncase = "box.toml"\nresults = ["mesh.cells"]\n'
+                         '[[vary]]\nkey = "mesh.file"\nname = "mesh"\ntexts = ["first.msh", "second.msh", "third.msh"]\n')
+        run = harness.snag(["study", study, "--out", self.work / "study"])
+        self.assertEqual(run.code, 3, run.tail())
+        self.assertEqual([(row["exit"], row["mesh.cells"]) for row in self.table()], [("0", "8"), ("3", ""), ("0", "8")], run.tail())
+        (self.work / "second.msh").unlink()
+        lost = harness.snag(["study", study, "--out", self.work / "lost"])
+        self.assertEqual(lost.code, 6, lost.tail())
+        self.assertIn("second.msh", lost.stderr)
+        self.assertEqual([row["exit"] for row in self.table("lost")], ["0", "6", ""], lost.tail())
 
     @harness.parallel
     def test_generated_mesh_is_made_once(self):

@@ -1,4 +1,5 @@
 """Tables of numbers as Snag writes them: the first line holds `name [unit]` of each column."""
+import csv
 import io
 import pathlib
 
@@ -14,7 +15,7 @@ def name_and_unit(column):
 def read_columns(file):
     """Names, units and values [row][column] of a monitor. A last line that a run has not finished is left out."""
     head, _, rows = pathlib.Path(file).read_text().partition("\n")
-    names, units = zip(*map(name_and_unit, head.split(",")))
+    names, units = zip(*map(name_and_unit, next(csv.reader([head]))))  # a name with a comma, as of a patch, is in quotes
     whole = rows[: rows.rfind("\n") + 1]
     values = numpy.loadtxt(io.StringIO(whole), delimiter=",", ndmin=2) if whole else numpy.empty((0, len(names)))
     return list(names), list(units), values

@@ -2,7 +2,9 @@
 // long ranks: 2 5
 #include "mesh/wall_surface.hpp"
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "base/error.hpp"
@@ -150,6 +152,32 @@ TEST(WallSurface, RefusesBrokenStl) {
     EXPECT_THROW(read_stl(file.path(), "casing"), Error);
   }
   EXPECT_THROW(read_stl("no/such/file.stl", "casing"), Error);
+}
+
+std::string refusal_of(const test::TemporaryFile& file, const std::string& content) {
+  fill(file, content);
+  try {
+    read_stl(file.path(), "casing");
+  } catch (const Error& refused) {
+    EXPECT_EQ(refused.code, ExitCode::io);
+    return refused.what();
+  }
+  return "";
+}
+
+// A corner that is not a number is refused with its triangle, and so is a file none of whose triangles has an area: the walls would be
+// absent from the run.
+TEST(WallSurface, RefusesStlWithoutTriangles) {
+  const test::TemporaryFile file(".stl");
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), -1e35}) {
+    auto triangles = cube();
+    triangles[6][1].y = value;
+    EXPECT_NE(refusal_of(file, binary_stl(triangles)).find("triangle 7 has the corner"), std::string::npos) << value;
+  }
+  auto flat = cube();
+  for (auto& triangle : flat) triangle[2] = triangle[1];
+  for (const std::string& content : {binary_stl(flat), ascii_stl(flat)})
+    EXPECT_NE(refusal_of(file, content).find("none of its 12 triangles has an area"), std::string::npos);
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include "parallel/rows.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "parallel/session.hpp"
 
@@ -73,6 +75,32 @@ TEST(Rows, ReachTheRankTheyAreFor) {
     }
   }
   EXPECT_EQ(at, received.rows.size());
+}
+
+// Every rank gets the rows of the first.
+TEST(Rows, OfTheFirstRankComeToAll) {
+  std::vector<Row> rows = rank_of(MPI_COMM_WORLD) == 0 ? rows_of(3) : std::vector<Row>(3);
+  broadcast<Row>(MPI_COMM_WORLD, rows);
+  const std::vector<Row> expected = rows_of(3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].id, expected[i].id);
+    EXPECT_EQ(rows[i].place, expected[i].place);
+  }
+}
+
+// A message is counted in rows: 400 million of 8 bytes have more bytes than an int counts. One rank sends them to nobody, so that their
+// memory is not touched.
+TEST(Rows, MayHaveMoreBytesThanAnIntCounts) {
+  if (size_of(MPI_COMM_WORLD) > 1) GTEST_SKIP() << "3.2 GB on each rank";
+  constexpr std::size_t n = 400'000'000, n_bytes = n * sizeof(std::int64_t);
+  void* memory = mmap(nullptr, n_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  ASSERT_NE(memory, MAP_FAILED);
+  MPI_Comm strict = MPI_COMM_NULL;
+  MPI_Comm_dup(MPI_COMM_WORLD, &strict);
+  MPI_Comm_set_errhandler(strict, MPI_ERRORS_ARE_FATAL);
+  broadcast(strict, std::span(static_cast<std::int64_t*>(memory), n));
+  MPI_Comm_free(&strict);
+  munmap(memory, n_bytes);
 }
 
 }  // namespace

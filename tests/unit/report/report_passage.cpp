@@ -184,7 +184,8 @@ TEST_F(PassageReport, ShowsThePassageOnce) {
   EXPECT_TRUE(holds(html, "<td>Revolutions that the mean is over</td><td>3</td><td>6</td><td>3</td>"));
   EXPECT_TRUE(holds(html, "<td>Head</td><td>5 m</td><td>4.6 m</td><td>5 m</td><td>-8 %</td>")) << html.substr(html.find("<td>Head"), 200);
   EXPECT_TRUE(holds(html, "(x, y, z) = (0.01, 0.02, 0.03) m")) << "place of the largest tension";
-  EXPECT_TRUE(holds(html, "<b>b</b> wholly in the casing, 0.45 s; <b>c</b> exited, 0.7 s.</p>"));
+  EXPECT_TRUE(
+      holds(html, "<p>Letters in the plots: <b>a</b> entered, 0.4 s; <b>b</b> wholly in the casing, 0.45 s; <b>c</b> exited, 0.7 s.</p>"));
   const auto over_time = html.substr(html.find("<h2>Over time"));
   for (const char* other : {"passage: ", "rag forces: ", "Largest tension of a bond", "Particles that have left"})
     EXPECT_FALSE(holds(over_time, other)) << other;
@@ -199,6 +200,18 @@ TEST_F(PassageReport, GoesWithoutAMonitorItCannotRead) {
   write_report(dir);
   EXPECT_TRUE(holds(page(), "The passage of the rags could not be drawn"));
   EXPECT_TRUE(holds(page(), "Rag 0 has left the domain") || holds(page(), "Rag has left the domain")) << "the outcome is told all the same";
+}
+
+// So does an event that no run writes: here its name is a number.
+TEST_F(PassageReport, GoesWithoutEventsItCannotRead) {
+  write_pump();
+  write_way();
+  auto content = summary();
+  content["rags"][0]["events"][1]["what"] = 5;
+  write_summary(content);
+  write_report(dir);
+  EXPECT_TRUE(holds(page(), "The passage of the rags cannot be shown: summary.json has other values than a run writes"));
+  EXPECT_TRUE(holds(page(), "<h2>Rags</h2>"));
 }
 
 /// A vane along +x at time 0, a square casing around it, and a small sheet beside the shaft, five times.

@@ -73,11 +73,29 @@ TEST_F(UntrustedResults, LinksOutOfTheFolderAreRefused) {
 TEST_F(UntrustedResults, NamesAreShownAsText) {
   Series patches("monitors/patches.csv", {"time [s]", "<script>alert(2)</script>_flow [m3/s]", "a,\"b\"_flow [m3/s]"});
   patches.add({0, 1, 2}), patches.add({1, 2, 1});
+  Series pump("monitors/pump.csv", {"time [s]", "<script>alert(3)</script> [m]"});
+  pump.add({0, 1});
   write_report(dir);
   const std::string page = file_text(dir / "report.html").value_or("");
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_NE(page.find("&lt;script&gt;alert(2)"), std::string::npos);
+  EXPECT_NE(page.find("&lt;script&gt;alert(3)"), std::string::npos);
   EXPECT_NE(page.find("a,&quot;b&quot;"), std::string::npos) << "a column with a comma and quotes stays one column";
+}
+
+// A section whose values no run writes has a sentence about that, and the others are there.
+TEST_F(UntrustedResults, ForeignValuesCostTheirSection) {
+  for (const char* found : {"{}", R"({"step_s": "x"})", R"({"step_s": 1, "degrees_per_step": 2, "accuracy": null, "notes": 5})", "7"}) {
+    write("summary.json", R"({"case": "x", "exit": 0, "simulated_s": 1, "time_steps": 2, "auto_step": )" + std::string(found) + "}");
+    write_report(dir);
+    const std::string page = file_text(dir / "report.html").value_or("");
+    EXPECT_NE(page.find("<h2>Run summary</h2>"), std::string::npos) << found;
+    EXPECT_NE(page.find("<h2>Time step</h2>"), std::string::npos) << found;
+  }
+  write("summary.json", R"({"case": "x", "auto_step": {}})");
+  write_report(dir);
+  EXPECT_NE(file_text(dir / "report.html").value_or("").find("The choice of the time step cannot be shown: summary.json has other values"),
+            std::string::npos);
 }
 
 }  // namespace

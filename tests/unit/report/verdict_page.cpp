@@ -130,6 +130,15 @@ TEST(VerdictPage, NothingIsChangedWithoutACause) {
   EXPECT_TRUE(holds(verdict_page(tie), "point B with flow.amplitude doubled"));
 }
 
+// A candidate of one's own has a name of any kind: it is shown as text, also where the cells are that it leaves.
+TEST(VerdictPage, NamesAreShownAsText) {
+  Verdict v = of(VerdictKind::effects, Wording::attributed, {"<script>alert(1)</script>"}, 0.999);
+  v.where[0].score_after = 1;
+  const std::string page = verdict_page(v);
+  EXPECT_FALSE(holds(page, "<script"));
+  EXPECT_TRUE(holds(page, "What is left with &lt;script&gt;"));
+}
+
 TEST(VerdictPage, PairsOfStrengths) {
   Verdict v = of(VerdictKind::effects, Wording::attributed, {"added_mass", "lift"}, 0.95);
   v.posterior.hypothesis = "added_mass+lift";
