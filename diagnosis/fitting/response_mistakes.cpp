@@ -36,7 +36,7 @@ void Responses::find_noise_in_right_units() {
     const Mistake& made = *mistake(k);
     Experiment right = experiment_;
     for (Datum& d : right.data)
-      if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor;
+      if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor, d.sd /= made.factor;
     for (PointSummary& point : summarize(right, simulator_, has_spread_)) {
       Eigen::VectorXd factor = Eigen::VectorXd::Ones(std::ssize(point.rows));
       std::vector<double> spread_noise_u;
