@@ -42,7 +42,8 @@ struct ObservableTable {
           .meaning = "Unit of the values and of the uncertainties.",
           .required = true},
          setting("kind", &kind,
-                 "Distribution of repeats. Uncertainties of a lognormal quantity are relative, all others have the unit of the quantity.",
+                 "Distribution of repeats. Uncertainties of a lognormal quantity are relative, all others have the unit of the quantity. "
+                 "orientation, which comes back after half a turn, is an angle where this says gaussian.",
                  {std::begin(kinds), std::end(kinds)}),
          {.key = "noise_u",
           .target = &observable.noise_u,
@@ -70,11 +71,12 @@ Observable read_observable(const Table& table) {
   table.read(keys.section().parameters);
   Observable& observable = keys.observable;
   observable.kind = static_cast<Observable::Kind>(std::find(std::begin(kinds), std::end(kinds), keys.kind) - std::begin(kinds));
+  const ObservableRecord* record = find_observable(observable.id);
+  if (record && record->period() > 0 && observable.kind == Observable::Kind::gaussian) observable.kind = Observable::Kind::angle;
   const auto unit = parse_unit(observable.unit);
   if (!unit || observable.unit.empty())
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": unknown unit \"" + observable.unit +
                                      "\"; write one such as \"m\", \"mm/s\", \"deg\", or \"1\" for a pure number");
-  const ObservableRecord* record = find_observable(observable.id);
   if (record && parse_unit(record->unit)->exponents != unit->exponents)
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": the unit \"" + observable.unit + "\" must be of the kind of \"" +
                                      record->unit + "\", in which runs give " + observable.id + "; write the unit of the data");

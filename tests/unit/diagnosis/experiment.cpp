@@ -166,6 +166,15 @@ TEST_F(ReadExperiment, EachNumberHasItsScatter) {
   EXPECT_EQ(message(head + x_mm + A, means + "A,0,0.1,x,1,10,\nA,0,0.2,x,2,1,\n"), "accepted");
 }
 
+/// Requirement: what comes back after half a turn is an angle, whatever is stated.
+TEST_F(ReadExperiment, OrientationIsAnAngle) {
+  for (const char* kind : {"", "kind = \"gaussian\"\n", "kind = \"angle\"\n"}) {
+    const auto e = read_experiment(write(head + "[[observable]]\nid = \"orientation\"\nunit = \"deg\"\nnoise_u = 1\n" + kind + A,
+                                         columns + "A,0,0.1,orientation,1\n"));
+    EXPECT_EQ(e.observables[0].kind, Observable::Kind::angle) << kind;
+  }
+}
+
 // Published means stand for their repeats: number, mean and scatter come back exactly.
 TEST_F(ReadExperiment, RowsForSeveralRepeats) {
   const std::string all = "point,replicate,t_s,observable,value,censored,n,sd\n";
