@@ -35,6 +35,7 @@ bool is_done(const std::filesystem::path& folder) {
 /// A quantity over time, of the first rag where a monitor has several.
 struct Course {
   std::vector<double> time, value;
+  double period = 0;  // of an angle, rad; 0: it is none
 
   double at(double t) const {
     const auto next = std::lower_bound(time.begin(), time.end(), t * (1 - 1e-9));
@@ -42,20 +43,28 @@ struct Course {
     const auto i = static_cast<std::size_t>(next - time.begin());
     if (i == 0 || time[i] == time[i - 1]) return value[i];
     const double s = std::clamp((t - time[i - 1]) / (time[i] - time[i - 1]), 0.0, 1.0);
-    return value[i - 1] + s * (value[i] - value[i - 1]);
+    if (period == 0) return value[i - 1] + s * (value[i] - value[i - 1]);
+    return std::remainder(value[i - 1] + s * std::remainder(value[i] - value[i - 1], period), period);
   }
   double mean_of_last_half() const {
-    double sum = 0;
-    int n = 0;
+    WindowMean mean;
     for (std::size_t i = 0; i < time.size(); ++i)
-      if (time[i] >= 0.5 * time.back()) sum += value[i], ++n;
-    return n > 0 ? sum / n : nan;
+      if (time[i] >= 0.5 * time.back()) mean.add(value[i], period);
+    return mean.value();
   }
 };
 
 bool has_column(const SeriesTable& table, const std::string& name) {
   return std::any_of(table.columns.begin(), table.columns.end(),
                      [&](const std::string& column) { return column == name || column.starts_with(name + " ["); });
+}
+
+/// Whether the rag of this row of silhouettes is there: of one that has not come yet, or has left, all columns are 0. (Cloth seen exactly
+/// from its edge has no area, but a place.)
+bool is_there(const SeriesTable& table, std::size_t row) {
+  if (!has_column(table, "area")) return true;
+  const auto is_zero = [&](const char* name) { return !has_column(table, name) || table.column(name)[row] == 0; };
+  return !(is_zero("area") && is_zero("elongation_ratio") && is_zero("x") && is_zero("y"));
 }
 
 /// The monitor that tells a name: rags and pictures first, since others have an x of their own.
@@ -69,9 +78,10 @@ Course course_of(const std::filesystem::path& folder, const std::string& name) {
     const SeriesTable table = read_series(file);
     if (!has_column(table, name)) continue;
     const bool of_rags = has_column(table, "rag");
-    Course course;
+    const ObservableRecord* record = find_observable(name);
+    Course course{.time = {}, .value = {}, .period = record ? record->period() : 0};
     for (std::size_t i = 0; i < table.values.front().size(); ++i) {
-      if (of_rags && table.column("rag")[i] != 0) continue;
+      if (of_rags && (table.column("rag")[i] != 0 || !is_there(table, i))) continue;
       course.time.push_back(table.column("time")[i]), course.value.push_back(table.column(name)[i]);
     }
     return course;
@@ -120,7 +130,7 @@ std::vector<double> read_observables(const std::filesystem::path& folder, const 
     const Course& of = course(record.id);
     for (std::size_t i = 0; i < of.time.size(); ++i) {
       const double t = of.time[i];
-      if (camera.in_window({course("x").at(t), course("y").at(t), course("z").at(t)})) mean.add(of.value[i], record.period());
+      if (camera.in_window({course("x").at(t), course("y").at(t), course("z").at(t)})) mean.add(of.value[i], of.period);
     }
     return mean.value();
   };

@@ -38,7 +38,7 @@ Screening::Screening(Responses& model, Fitter& fitter, const std::vector<int>& c
     State state = around_.state;
     const Effect& effect = model.effects()[state.effects[e].first];
     double& theta = state.effects[e].second;
-    theta = theta + 0.5 * effect.sd <= effect.maximum ? theta + 0.5 * effect.sd : std::max(effect.minimum, theta - 0.5 * effect.sd);
+    theta += step_within_range(effect, theta, 0.5 * effect.sd);
     for (const int p : training) requests.push_back({state, p});
   }
   auto responses = model.run(requests);
@@ -67,8 +67,8 @@ Eigen::VectorXd Screening::column(int k, int form, const Whitening& whitening, c
   const Effect& effect = model_.effects()[k];
   double moved = probe_strength(effect);
   for (const auto& [there, theta] : around_.state.effects)
-    if (there == k)
-      moved = theta + 0.5 * effect.sd <= effect.maximum ? 0.5 * effect.sd : std::max(effect.minimum, theta - 0.5 * effect.sd) - theta;
+    if (there == k) moved = step_within_range(effect, theta, 0.5 * effect.sd);
+  if (moved == 0) return Eigen::VectorXd::Zero(rho.size());
   return (fitter_.residual(probed_.at(k)[static_cast<std::size_t>(form)], whitening) - rho) * (effect.sd / moved);
 }
 

@@ -42,7 +42,8 @@ struct ObservableTable {
           .meaning = "Unit of the values and of the uncertainties.",
           .required = true},
          setting("kind", &kind,
-                 "Distribution of repeats. Uncertainties of a lognormal quantity are relative, all others have the unit of the quantity.",
+                 "Distribution of repeats. Uncertainties of a lognormal quantity are relative, all others have the unit of the quantity. "
+                 "orientation, which comes back after half a turn, is an angle where this says gaussian.",
                  {std::begin(kinds), std::end(kinds)}),
          {.key = "noise_u",
           .target = &observable.noise_u,
@@ -70,11 +71,12 @@ Observable read_observable(const Table& table) {
   table.read(keys.section().parameters);
   Observable& observable = keys.observable;
   observable.kind = static_cast<Observable::Kind>(std::find(std::begin(kinds), std::end(kinds), keys.kind) - std::begin(kinds));
+  const ObservableRecord* record = find_observable(observable.id);
+  if (record && record->period() > 0 && observable.kind == Observable::Kind::gaussian) observable.kind = Observable::Kind::angle;
   const auto unit = parse_unit(observable.unit);
   if (!unit || observable.unit.empty())
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": unknown unit \"" + observable.unit +
                                      "\"; write one such as \"m\", \"mm/s\", \"deg\", or \"1\" for a pure number");
-  const ObservableRecord* record = find_observable(observable.id);
   if (record && parse_unit(record->unit)->exponents != unit->exponents)
     throw Error(ExitCode::usage, table.where() + " " + observable.id + ": the unit \"" + observable.unit + "\" must be of the kind of \"" +
                                      record->unit + "\", in which runs give " + observable.id + "; write the unit of the data");
@@ -179,43 +181,69 @@ void convert(DatumRow& row, const Observable& observable, const std::string& fil
 
 auto sort_key(const Datum& d) { return std::tuple(d.point, d.observable, d.replicate, std::isnan(d.time) ? -infinity : d.time); }
 
+bool is_continuous(const Observable& observable) {
+  return observable.kind != Observable::Kind::count && observable.kind != Observable::Kind::event;
+}
+
+// All repeats of one observable at one point and time.
+struct Repeats {
+  int n = 0, line = 0;
+  double minimum = infinity, maximum = -infinity;
+  bool has_sd = false, has_censored = false;
+  bool scatter() const { return maximum > minimum || has_sd || has_censored; }
+};
+
+// Without noise_u the uncertainty of each number comes from the scatter of its repeats.
+void check_scatter(const Experiment& experiment, const std::string& file) {
+  constexpr double never = -infinity;  // a scalar has no time
+  std::map<std::tuple<int, int, double>, Repeats> all;
+  for (const Datum& d : experiment.data) {
+    const Observable& observable = experiment.observables[d.observable];
+    if (observable.noise_u > 0 || !is_continuous(observable)) continue;
+    Repeats& repeats = all[{d.observable, d.point, std::isnan(d.time) ? never : d.time}];
+    if (repeats.n == 0) repeats.line = d.line;
+    repeats.n += d.n;
+    repeats.minimum = std::min(repeats.minimum, d.value), repeats.maximum = std::max(repeats.maximum, d.value);
+    repeats.has_sd = repeats.has_sd || d.sd > 0, repeats.has_censored = repeats.has_censored || d.censored;
+  }
+  for (const auto& [place, repeats] : all) {
+    const auto& [o, p, time] = place;
+    if (repeats.n > 1 && repeats.scatter()) continue;
+    const std::string what = file + ":" + std::to_string(repeats.line) + ": observable \"" + experiment.observables[o].id +
+                             "\" at point \"" + experiment.points[p].id + "\"" +
+                             (time == never ? "" : " at t = " + number_text(time) + " s");
+    if (repeats.n < 2)
+      throw Error(ExitCode::usage,
+                  what +
+                      " has one repeat and no noise_u: its scatter is unknown; give noise_u, measure it again, or leave out "
+                      "what has one repeat only");
+    throw Error(ExitCode::usage,
+                what + " has " + std::to_string(repeats.n) + " repeats without scatter (" + number_text(repeats.minimum) +
+                    " SI) and no noise_u: its uncertainty is unknown; give noise_u (of numbers that are rounded to a step 0.3 of "
+                    "the step), or the sd of rows that stand for several repeats");
+  }
+}
+
 // All samples of one observable at one point.
 struct Column {
-  std::set<int> replicates;
-  double minimum = infinity, maximum = -infinity;
   bool scalar = false, series = false;
 };
 
 void check_columns(const Experiment& experiment, const std::string& file) {
-  using Kind = Observable::Kind;
   std::vector<std::map<int, Column>> columns(experiment.observables.size());
   for (const Datum& d : experiment.data) {
     Column& column = columns[d.observable][d.point];
-    column.replicates.insert(column.replicates.end(), d.replicate);
-    column.minimum = std::min(column.minimum, d.value), column.maximum = std::max(column.maximum, d.value);
     (std::isnan(d.time) ? column.scalar : column.series) = true;
   }
   for (std::size_t o = 0; o < columns.size(); ++o) {
     const Observable& observable = experiment.observables[o];
     const std::string where = file + ": observable \"" + observable.id + "\"";
     if (columns[o].empty()) throw Error(ExitCode::usage, where + " has no rows; measure it or remove its [[observable]]");
-    const bool continuous = observable.kind != Kind::count && observable.kind != Kind::event;
-    double minimum = infinity, maximum = -infinity;
     for (const auto& [p, column] : columns[o]) {
-      minimum = std::min(minimum, column.minimum), maximum = std::max(maximum, column.maximum);
       const std::string at = where + " at point \"" + experiment.points[p].id + "\"";
       if (column.scalar && column.series) throw Error(ExitCode::usage, at + " has rows with and without t_s; make them two observables");
-      if (!continuous && column.series)
+      if (!is_continuous(observable) && column.series)
         throw Error(ExitCode::usage, at + " is a count or an event, which has one value per replicate; leave t_s empty");
-    }
-    if (!continuous || observable.noise_u > 0) continue;
-    if (minimum == maximum)
-      throw Error(ExitCode::usage,
-                  where + " is constant (" + number_text(minimum) + " SI) and has no noise_u: its uncertainty is unknown; give noise_u");
-    for (const auto& [p, column] : columns[o]) {
-      if (column.replicates.size() < 2)
-        throw Error(ExitCode::usage, where + " has one replicate at point \"" + experiment.points[p].id +
-                                         "\" and no noise_u: its scatter is unknown; give noise_u or measure it again");
     }
   }
 }
@@ -359,8 +387,9 @@ Experiment read_experiment(const CaseFile& file) {
   for (DatumRow& row : table.rows) {
     const Observable& observable = experiment.observables[row.datum.observable];
     convert(row, observable, data_name);
-    if (row.n == 1)
-      samples.emplace_back(row.datum, row.line);
+    // Of a path the mean and the scatter at each time are all that is known of its repeats: not how one repeat goes from time to time.
+    if (row.n == 1 || !std::isnan(row.datum.time))
+      row.datum.n = row.n, row.datum.sd = row.sd, samples.emplace_back(row.datum, row.line);
     else
       for (const Datum& repeat : repeats_of(row, observable)) samples.emplace_back(repeat, row.line);
   }
@@ -376,6 +405,7 @@ Experiment read_experiment(const CaseFile& file) {
   experiment.data_sha256 = table.data_sha256, experiment.withheld_sha256 = table.withheld_sha256;
   check_points(experiment, data_name);
   check_columns(experiment, data_name);
+  check_scatter(experiment, data_name);
   return experiment;
 }
 

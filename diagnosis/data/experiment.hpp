@@ -52,6 +52,8 @@ struct Datum {
   double value = 0;
   bool censored = false;  // the true value is larger (a test that ended)
   int line = 0;           // of the data file
+  int n = 1;              // repeats whose mean the value is, of paths alone: a scalar is one repeat
+  double sd = 0;          // their standard deviation; 0: as noise_u says
 };
 
 struct Experiment {
@@ -72,7 +74,7 @@ struct Experiment {
 };
 
 /// Reads DIAGNOSIS.toml and the data file beside it. Throws Error(usage, io) that names file and line: missing unit, point without data,
-/// withheld point named for training, constant column without noise_u, NaN, unknown observable, time that is not finite.
+/// withheld point named for training, repeats without scatter and noise_u, NaN, unknown observable, time that is not finite.
 Experiment read_experiment(const std::filesystem::path& file);
 Experiment read_experiment(const CaseFile& file);
 /// The same file before its keys are read. Throws Error(usage, io).

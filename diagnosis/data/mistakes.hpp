@@ -45,7 +45,7 @@ std::vector<Mistake> mistakes_of_measurement(const Experiment& experiment);
 /// Calibrations of groups of points, OperatingPoint::group: not of a group that holds all points of training, whose calibration is that of
 /// the camera.
 std::vector<Mistake> mistakes_of_groups(const Experiment& experiment);
-/// A wrong unit of the observables with this unit; `ratio`: of data to simulation, by least squares. None where it is no known factor.
+/// A wrong unit of the observables with this unit; `ratio`: of data to simulation. None where it is no known factor.
 std::vector<Mistake> mistakes_of_unit(const Experiment& experiment, const std::string& unit, double ratio);
 
 /// What is measured of a run by mistake: its values at these slots. Returns by slot how uncertain they are, because the run has no number

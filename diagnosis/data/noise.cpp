@@ -138,7 +138,7 @@ std::vector<NoiseModel> noise_of_repeats(const Experiment& experiment) {
   std::vector<std::map<int, std::map<int, std::map<double, double>>>> samples(all.size());
   for (const Datum& d : experiment.data) {
     const Observable& observable = experiment.observables[static_cast<std::size_t>(d.observable)];
-    if (experiment.points[static_cast<std::size_t>(d.point)].withheld || std::isnan(d.time) || observable.noise_u == 0) continue;
+    if (experiment.points[static_cast<std::size_t>(d.point)].withheld || std::isnan(d.time) || observable.noise_u == 0 || d.n > 1) continue;
     auto& path = samples[static_cast<std::size_t>(d.observable)][d.point];
     double value = observable.kind == Observable::Kind::lognormal ? std::log(d.value) : d.value;
     if (const auto first = path.begin(); observable.kind == Observable::Kind::angle && first != path.end())

@@ -7,7 +7,8 @@
 // of such a process, whose likelihood needs no model of the experiment. Priors: log F uniform from ln 1e-4 to ln 10; tau = 0 with
 // probability 1/2, else log tau uniform from half a sampling step to the duration. What is stated (F = 1, tau = 0) stands unless the
 // repeats speak for another noise by 6 nats; a factor below 1 is not used. Scatter that grows or decays along the path, or that is ten
-// times as large as stated, is no noise of an instrument: it is left to summary.hpp.
+// times as large as stated, is no noise of an instrument: it is left to summary.hpp. Rows that are means of several repeats are not used:
+// they do not say how one repeat goes from time to time.
 #include <vector>
 
 #include "diagnosis/data/experiment.hpp"

@@ -380,7 +380,8 @@ OutliersFound outliers_of(const Experiment& experiment, int o, bool withheld) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < experiment.data.size(); ++i) {
     const Datum& d = experiment.data[i];
-    if (d.observable != o || std::isnan(d.time) || experiment.points[static_cast<std::size_t>(d.point)].withheld != withheld) continue;
+    if (d.observable != o || std::isnan(d.time) || d.n > 1 || experiment.points[static_cast<std::size_t>(d.point)].withheld != withheld)
+      continue;
     points.try_emplace(d.point, observable.noise_u, period)
         .first->second.add(d.replicate, d.time, logarithm ? std::log(d.value) : d.value, i);
     ++n;

@@ -9,6 +9,7 @@
 // the samples before it predict those behind it. A kink of the path is therefore no outlier, nor is a deviation that most of the other
 // repeats have. Up to three outliers in a row are found. They are left out where the mixture leads by 6 nats over all samples of an
 // observable; otherwise no sample is left out. Scalars of a replicate are not examined: their scatter is evidence of its own.
+// Nor are means of several repeats: a false number among the repeats shows in their standard deviation.
 //
 // s of a short path: an outlier is far from its prediction, and so are the four samples that it predicts. In a path of 20 samples three
 // outliers thus spoil most of the predictions. So s is found without the samples that spoil it. It is not taken below what is usual, the

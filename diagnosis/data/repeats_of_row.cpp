@@ -19,6 +19,11 @@ std::vector<double> scores(int n) {
 
 }  // namespace
 
+MeanAndSd of_logarithm(const MeanAndSd& quantity) {
+  const double ratio = quantity.sd / quantity.mean, variance = std::log1p(ratio * ratio);
+  return {.mean = std::log(quantity.mean) - 0.5 * variance, .sd = std::sqrt(variance)};
+}
+
 std::vector<Datum> repeats_of(const DatumRow& row, const Observable& observable) {
   using Kind = Observable::Kind;
   std::vector<Datum> repeats(static_cast<std::size_t>(row.n), row.datum);
@@ -30,11 +35,10 @@ std::vector<Datum> repeats_of(const DatumRow& row, const Observable& observable)
   }
   if (row.sd == 0) return repeats;
   const std::vector<double> z = scores(row.n);
-  // Of a lognormal quantity: variance of the logarithm ln(1 + (sd/mean)^2), its mean ln(mean) less half of that.
-  const double ratio = row.sd / row.datum.value, sigma = std::sqrt(std::log1p(ratio * ratio));
+  const MeanAndSd logarithm = observable.kind == Kind::lognormal ? of_logarithm({row.datum.value, row.sd}) : MeanAndSd{};
   for (std::size_t i = 0; i < z.size(); ++i)
-    repeats[i].value = observable.kind == Kind::lognormal ? row.datum.value * std::exp(sigma * z[i] - 0.5 * sigma * sigma)
-                                                          : row.datum.value + row.sd * z[i];
+    repeats[i].value =
+        observable.kind == Kind::lognormal ? std::exp(logarithm.mean + logarithm.sd * z[i]) : row.datum.value + row.sd * z[i];
   return repeats;
 }
 

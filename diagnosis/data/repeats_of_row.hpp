@@ -7,9 +7,15 @@
 
 namespace snag {
 
-/// The repeats of a row in SI whose n is above 1, numbered from its replicate on: as many samples with exactly this mean and standard
-/// deviation, which hold all that a normal (lognormal: of the logarithm, by its moments) law needs; of events and counts with this total,
-/// rounded to a whole number.
+struct MeanAndSd {
+  double mean = 0, sd = 0;
+};
+/// Of the logarithm of a lognormal quantity with these: variance ln(1 + (sd/mean)^2), mean ln(mean) less half of that.
+MeanAndSd of_logarithm(const MeanAndSd& quantity);
+
+/// The repeats of a scalar row in SI whose n is above 1, numbered from its replicate on: as many samples with exactly this mean and
+/// standard deviation, which hold all that a normal (lognormal: of the logarithm, by its moments) law needs; of events and counts with this
+/// total, rounded to a whole number.
 std::vector<Datum> repeats_of(const DatumRow& row, const Observable& observable);
 
 }  // namespace snag

@@ -76,6 +76,9 @@ struct Fit {
 /// the strength is known, and where one form is much stronger than another that is little, however clear the effect is.
 double clear_of_nothing(const Fit& fit, std::size_t effect, const std::vector<Effect>& effects);
 
+/// Step of a strength for a derivative: as wanted or back, where its range has room for that; else to the farther end of the range.
+double step_within_range(const Effect& effect, double theta, double wanted);
+
 class Fitter {
  public:
   explicit Fitter(Responses& model);
@@ -97,8 +100,9 @@ class Fitter {
   /// Runs that [budget] still allows, those for the gap before and after at the withheld points aside.
   int runs_left() const;
   using Runs = std::function<std::vector<Response>(const std::vector<Responses::Request>&)>;
-  /// Where a run with an input or a strength moved from `origin` fails, what one with it moved to the other side, as far as its range goes,
-  /// says of it; where that fails too, it changes nothing. `run` as the responses were made.
+  /// Where a run with an input or a strength moved from `origin` fails, or lacks rows that the origin has, what one with it moved to the
+  /// other side, as far as its range goes, says of these rows; where that lacks them too, they do not change. `run` as the responses were
+  /// made.
   void mirror_failed(const State& origin, const std::vector<Response>& at_origin, std::span<const Responses::Request> requests,
                      std::span<Response> responses, const Runs& run) const;
   /// Begins with these strengths and leading forms (by effect; empty: the first form of each). If another form then has most of the share,

@@ -7,6 +7,36 @@
 
 namespace snag {
 
+namespace {
+
+/// Whether the origin has numbers that a run with something moved has not: the run failed, or ended before.
+bool lacks_rows(const Response& moved, const Response& origin) {
+  for (Eigen::Index i = 0; i < origin.value.size(); ++i)
+    if (std::isfinite(origin.value[i]) && !std::isfinite(moved.value[i])) return true;
+  return !moved.failure.empty();
+}
+
+/// Those rows as by the derivative on the other side, from a run that was moved back by `reach` steps; unchanged where it lacks them, too.
+void fill_rows(Response& moved, const Response& origin, const Response& back, double reach) {
+  const Eigen::VectorXd answered = moved.value;
+  const bool has_failed = !moved.failure.empty();
+  if (has_failed) moved = origin;
+  for (Eigen::Index i = 0; i < origin.value.size(); ++i) {
+    if (!has_failed && std::isfinite(answered[i])) continue;
+    moved.value[i] = origin.value[i];
+    if (back.failure.empty() && std::isfinite(back.value[i])) moved.value[i] += (origin.value[i] - back.value[i]) / reach;
+  }
+}
+
+}  // namespace
+
+double step_within_range(const Effect& effect, double theta, double wanted) {
+  const double above = effect.maximum - theta, below = theta - effect.minimum;
+  if (wanted <= above) return wanted;
+  if (wanted <= below) return -wanted;
+  return above >= below ? above : -below;
+}
+
 Fitter::Fitter(Responses& model) : model_(model) { base_ = linearize(model.base(), {}); }
 
 std::vector<int> Fitter::first_rows() const {
@@ -56,10 +86,13 @@ Linearization Fitter::linearize(const State& state, const Hypothesis& hypothesis
 void Fitter::mirror_failed(const State& origin, const std::vector<Response>& at_origin, std::span<const Responses::Request> requests,
                            std::span<Response> responses, const Runs& run) const {
   const auto& training = model_.training();
+  const auto origin_of = [&](std::size_t i) -> const Response& {
+    return at_origin[static_cast<std::size_t>(std::find(training.begin(), training.end(), requests[i].point) - training.begin())];
+  };
   std::vector<Responses::Request> mirrored;
   std::vector<std::pair<std::size_t, double>> failed;  // its response, and its step over that of the request
   for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (responses[i].failure.empty()) continue;
+    if (!lacks_rows(responses[i], origin_of(i))) continue;
     Responses::Request down = requests[i];
     down.state.nuisances = 2 * origin.nuisances - down.state.nuisances;
     double reach = 1;
@@ -70,16 +103,15 @@ void Fitter::mirror_failed(const State& origin, const std::vector<Response>& at_
       if (step == 0) continue;
       theta = std::clamp(from - step, effect.minimum, effect.maximum), reach = (from - theta) / step;
     }
-    const auto p = std::find(training.begin(), training.end(), down.point) - training.begin();
-    responses[i] = at_origin[static_cast<std::size_t>(p)];
-    if (reach > 0) failed.emplace_back(i, reach), mirrored.push_back(std::move(down));
+    if (reach > 0)
+      failed.emplace_back(i, reach), mirrored.push_back(std::move(down));
+    else
+      fill_rows(responses[i], origin_of(i), origin_of(i), 1);
   }
   if (failed.empty()) return;
   const auto down = run(mirrored);
-  for (std::size_t i = 0; i < failed.size(); ++i) {
-    Response& response = responses[failed[i].first];
-    if (down[i].failure.empty()) response.value += (response.value - down[i].value) / failed[i].second;
-  }
+  for (std::size_t i = 0; i < failed.size(); ++i)
+    fill_rows(responses[failed[i].first], origin_of(failed[i].first), down[i], failed[i].second);
 }
 
 void Fitter::add_shares(Linearization& at) {
@@ -176,10 +208,11 @@ Eigen::MatrixXd Fitter::effect_columns(const Hypothesis& hypothesis, const Linea
       steps.push_back(0);
       continue;
     }
+    const double step = step_within_range(effect, state.effects[e].second, size * effect.sd);
+    steps.push_back(step / effect.sd);
+    if (step == 0) continue;
     State moved = state;
-    const double sign = state.effects[e].second + size * effect.sd > effect.maximum ? -1 : 1;
-    moved.effects[e].second = std::max(effect.minimum, state.effects[e].second + sign * size * effect.sd);
-    steps.push_back((moved.effects[e].second - state.effects[e].second) / effect.sd);
+    moved.effects[e].second += step;
     for (const int p : training) requests.push_back({moved, p});
   }
   auto moved = run_near(at, requests);

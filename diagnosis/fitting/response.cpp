@@ -39,10 +39,10 @@ double row_value(const Row& row, const Observable& observable, const RunResult& 
   return sum;
 }
 
-// Logarithm of the time at which the runs of a point end; where that is not told they lasted as long as the tests.
-double log_end(const Row& row, const Simulator& simulator, int point) {
+// Logarithm of the time at which the runs of a point end, as the data say it; where that is not known they lasted as long as the tests.
+double log_end(const Row& row, const Simulator& simulator, int point, double factor_of_unit) {
   const double end = simulator.run_end(point);
-  return end > 0 ? std::log(end) : *std::max_element(row.values.begin(), row.values.end());
+  return end > 0 ? std::log(factor_of_unit * end) : *std::max_element(row.values.begin(), row.values.end());
 }
 
 // Mean over the slots of the variance between runs.
@@ -226,7 +226,7 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
       came += std::isfinite(values(i, s));
       // A run that ended first says that the time is not earlier.
       if (row.kind == Row::Kind::time && results[s].failure.empty() && !std::isfinite(values(i, s)))
-        values(i, s) = log_end(row, simulator_, request.point);
+        values(i, s) = log_end(row, simulator_, request.point, factor_of_unit(request.state, row.observable));
       if (std::isfinite(values(i, s))) sum += values(i, s), ++counted;
     }
     response.later[i] = row.kind == Row::Kind::time && came == 0 && counted > 0;
@@ -250,8 +250,10 @@ Response Responses::response(const Request& request, std::span<const RunResult> 
   }
   for (std::size_t j = 0; j < nuisances_.size(); ++j) {
     if (nuisances_[j].bias_observable < 0 || !acts_at(static_cast<int>(j), request.point)) continue;
+    const int biased = nuisances_[j].bias_observable;
+    const bool is_relative = experiment_.observables[static_cast<std::size_t>(biased)].kind == Observable::Kind::lognormal;
     const double bias = request.state.nuisances[static_cast<Eigen::Index>(j)] * nuisances_[j].bias *
-                        factor_of_unit(request.state, nuisances_[j].bias_observable);
+                        (is_relative ? 1 : factor_of_unit(request.state, biased));
     for (int i = 0; i < n; ++i)
       if (point.rows[i].observable == nuisances_[j].bias_observable && point.rows[i].kind != Row::Kind::spread) response.value[i] += bias;
   }
@@ -354,7 +356,14 @@ void Responses::note_rows_left_out(std::size_t point, const Response& answer) {
   std::map<int, Left> all;  // by observable
   const std::vector<Row>& rows = points_[point].rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].kind != Row::Kind::path) continue;
+    if (rows[i].kind != Row::Kind::path) {
+      if (!std::isfinite(answer.value[static_cast<Eigen::Index>(i)]))
+        notes_.push_back(
+            experiment_.observables[static_cast<std::size_t>(rows[i].observable)].id + " at point " + experiment_.points[point].id +
+            " is not compared, for the runs have no such number. If they end before the event comes, raise [time] end_s of the "
+            "case, or give the time kind = \"lognormal\": then a run says that it comes later.");
+      continue;
+    }
     Left& left = all[rows[i].observable];
     ++left.of;
     if (!std::isfinite(answer.value[static_cast<Eigen::Index>(i)])) ++left.n, left.from = std::min(left.from, rows[i].begin);

@@ -92,7 +92,8 @@ class Responses {
   /// run is dear, and these are the same).
   int n_seeds(const State& state) const;
   int n_seeds_of_distribution(const State& state) const;
-  int n_runs() const { return simulator_.n_runs(); }
+  /// Runs that were asked for, whether made now or kept from before.
+  int n_used() const { return simulator_.n_used(); }
   /// Runs that [budget] still allows.
   int runs_left() const { return experiment_.max_runs - simulator_.n_used(); }
   State base() const { return {{}, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nuisances_.size()))}; }

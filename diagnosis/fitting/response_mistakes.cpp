@@ -13,18 +13,26 @@ void Responses::find_mistakes(const std::vector<Response>& answers) {
   add(mistakes_of_inputs(experiment_, simulator_.nuisances()));
   add(mistakes_of_measurement(experiment_));
   add(mistakes_of_groups(experiment_));
-  std::map<std::string, std::pair<double, double>> products;  // by unit: of data and simulation, of simulation with itself
+  struct Ratio {
+    double both = 0, own = 0;     // products of data and simulation, of simulation with itself
+    double logarithm = 0, n = 0;  // sum of ln(data/simulation) of lognormal quantities
+  };
+  std::map<std::string, Ratio> ratios;  // by unit
   for (const int p : training_)
-    for (int i = 0; i < points_[p].n_gaussian; ++i) {
+    for (std::size_t i = 0; i < points_[p].rows.size(); ++i) {
       const Row& row = points_[p].rows[i];
       const Observable& observable = experiment_.observables[static_cast<std::size_t>(row.observable)];
-      const double simulated = answers[p].value[i];
-      if (observable.kind != Observable::Kind::gaussian || !std::isfinite(simulated)) continue;
-      auto& [both, own] = products[observable.unit];
-      both += row.value * simulated, own += simulated * simulated;
+      const double simulated = answers[p].value[static_cast<Eigen::Index>(i)];
+      if (row.kind == Row::Kind::spread || answers[p].later[i] || !std::isfinite(simulated) || !std::isfinite(row.u)) continue;
+      Ratio& ratio = ratios[observable.unit];
+      if (observable.kind == Observable::Kind::gaussian) ratio.both += row.value * simulated, ratio.own += simulated * simulated;
+      if (observable.kind == Observable::Kind::lognormal) ratio.logarithm += row.value - simulated, ratio.n += 1;
     }
-  for (const auto& [unit, product] : products)
-    if (product.second > 0) add(mistakes_of_unit(experiment_, unit, product.first / product.second));
+  for (const auto& [unit, ratio] : ratios) {
+    std::vector<Mistake> found = mistakes_of_unit(experiment_, unit, ratio.own > 0 ? ratio.both / ratio.own : 0);
+    if (found.empty() && ratio.n > 0) found = mistakes_of_unit(experiment_, unit, std::exp(ratio.logarithm / ratio.n));
+    add(std::move(found));
+  }
   find_noise_in_right_units();
 }
 
@@ -36,7 +44,7 @@ void Responses::find_noise_in_right_units() {
     const Mistake& made = *mistake(k);
     Experiment right = experiment_;
     for (Datum& d : right.data)
-      if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor;
+      if (std::count(made.observables.begin(), made.observables.end(), d.observable) > 0) d.value /= made.factor, d.sd /= made.factor;
     for (PointSummary& point : summarize(right, simulator_, has_spread_)) {
       Eigen::VectorXd factor = Eigen::VectorXd::Ones(std::ssize(point.rows));
       std::vector<double> spread_noise_u;

@@ -67,7 +67,7 @@ std::vector<NewCondition> new_conditions(Responses& model, const Attribution& at
       requests.back().state.nuisances[j] += nuisance_step;
     }
   }
-  const int affordable = std::min(model.runs_left(), model.n_runs() / 4);
+  const int affordable = std::min(model.runs_left(), model.n_used() / 4);
   int n_runs = 0;
   for (const Responses::Request& request : requests) n_runs += model.n_seeds(request.state);
   if (requests.empty() || n_runs > affordable) return {};

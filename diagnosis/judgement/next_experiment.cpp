@@ -12,12 +12,15 @@ namespace snag {
 namespace {
 
 // T of one observable at one point, rows begin .. end.
-Separation separation(const Responses& model, std::size_t p, const Predictions& predictions, int begin, int end) {
+Separation separation(const Responses& model, std::size_t p, const Predictions& predictions, int begin, int end, int n_repeats) {
   const PointSummary& point = model.points()[model.training()[p]];
   const int n = end - begin;
   const Row& first = point.rows[begin];
   const Eigen::VectorXd difference = finite(predictions.difference.segment(begin, n));
-  Eigen::MatrixXd C = point.covariance.block(begin, begin, n, n) * std::max(1, first.n_replicates);
+  Eigen::VectorXd measured(n);  // root of the repeats that were, over those to come
+  for (int i = 0; i < n; ++i)
+    measured[i] = std::sqrt(std::max(1, point.rows[static_cast<std::size_t>(begin + i)].n_replicates) / static_cast<double>(n_repeats));
+  Eigen::MatrixXd C = measured.asDiagonal() * point.covariance.block(begin, begin, n, n) * measured.asDiagonal();
   const Eigen::VectorXd numerical = predictions.numerical_error.segment(begin, n);
   C += numerical * numerical.transpose();
   for (const Eigen::VectorXd& all : predictions.by_input) {
@@ -47,7 +50,7 @@ Predictions predictions_of(const Fit& a, const Fit& b, std::size_t p) {
 }
 
 // The same of a row with a likelihood of its own, by the variance of one replicate; spreads are no measurement of one.
-Separation separation(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int row) {
+Separation separation(const Responses& model, const Fit& a, const Fit& b, std::size_t p, int row, int n_repeats) {
   const PointSummary& point = model.points()[model.training()[p]];
   const Row& own = point.rows[row];
   const double difference = a.at.responses[p].value[row] - b.at.responses[p].value[row],
@@ -57,7 +60,12 @@ Separation separation(const Responses& model, const Fit& a, const Fit& b, std::s
   if (own.kind == Row::Kind::count) variance = mean * std::max(1.0, own.sigma);
   if (own.kind == Row::Kind::event) variance = mean * (1 - mean);
   Separation result{0, model.experiment().observables[own.observable].id, model.experiment().points[point.point].id, own.begin};
-  if (std::isfinite(difference) && variance > 0) result.T = difference * difference / variance;
+  if (!std::isfinite(difference) || !(variance > 0)) return result;
+  const Predictions predictions = predictions_of(a, b, p);
+  variance = variance / n_repeats + std::pow(predictions.numerical_error[row], 2);
+  for (const Eigen::VectorXd& change : predictions.by_input)
+    if (std::isfinite(change[row])) variance += change[row] * change[row];
+  result.T = difference * difference / variance;
   return result;
 }
 
@@ -92,12 +100,12 @@ std::string spoken(std::string name) {
 
 }  // namespace
 
-Separation best_separation(const Responses& model, std::size_t training_point, const Predictions& predictions) {
+Separation best_separation(const Responses& model, std::size_t training_point, const Predictions& predictions, int n_repeats) {
   const PointSummary& point = model.points()[model.training()[training_point]];
   Separation best;
   for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
     while (end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable) ++end;
-    Separation tried = separation(model, training_point, predictions, begin, end);
+    Separation tried = separation(model, training_point, predictions, begin, end, n_repeats);
     if (tried.T > best.T) best = std::move(tried);
   }
   return best;
@@ -105,20 +113,31 @@ Separation best_separation(const Responses& model, std::size_t training_point, c
 
 namespace {
 
-Separation repeat_that_tells_most(const Responses& model, const Fit& a, const Fit& b) {
+Separation repeats_that_tell_most(const Responses& model, const Fit& a, const Fit& b, int n_repeats) {
   Separation best;
   for (std::size_t p = 0; p < model.training().size(); ++p) {
-    if (Separation tried = best_separation(model, p, predictions_of(a, b, p)); tried.T > best.T) best = std::move(tried);
+    if (Separation tried = best_separation(model, p, predictions_of(a, b, p), n_repeats); tried.T > best.T) best = std::move(tried);
     const PointSummary& point = model.points()[model.training()[p]];
     for (int row = point.n_gaussian; row < static_cast<int>(point.rows.size()); ++row)
-      if (Separation tried = separation(model, a, b, p, row); tried.T > best.T) best = std::move(tried);
+      if (Separation tried = separation(model, a, b, p, row, n_repeats); tried.T > best.T) best = std::move(tried);
   }
   return best;
 }
 
+// The fewest repeats with which a measurement separates the two; 0: no number up to `most` does.
+int repeats_needed(const Responses& model, const Fit& a, const Fit& b, double wanted_T, int most) {
+  if (repeats_that_tell_most(model, a, b, most).T < wanted_T) return 0;
+  int too_few = 0, enough = most;
+  while (enough - too_few > 1) {
+    const int n = (too_few + enough) / 2;
+    (repeats_that_tell_most(model, a, b, n).T < wanted_T ? too_few : enough) = n;
+  }
+  return enough;
+}
+
 }  // namespace
 
-double best_repeat(const Responses& model, const Fit& a, const Fit& b) { return repeat_that_tells_most(model, a, b).T; }
+double best_repeat(const Responses& model, const Fit& a, const Fit& b) { return repeats_that_tell_most(model, a, b, 1).T; }
 
 int rival_of(const Attribution& attribution, int fit) {
   int rival = -1;
@@ -135,16 +154,19 @@ std::string next_experiment(const Responses& model, const Attribution& attributi
   const Fit &a = attribution.fits[first], &b = attribution.fits[second];
   // Derivatives by the inputs are known where a fit linearized them.
   if (a.at.by_nuisance.empty() && !model.nuisances().empty()) return "";
-  const Separation best = repeat_that_tells_most(model, a, b);
   const std::string both = spoken(attribution.names[first]) + " from " + spoken(attribution.names[second]);
-  constexpr double wanted_nats = 6, most_replicates = 1000;
-  const double replicates = std::ceil(2 * wanted_nats / std::max(best.T, 1e-300));
-  if (replicates > most_replicates)
+  constexpr double wanted_nats = 6;
+  constexpr int most_replicates = 1000;
+  const int replicates = repeats_needed(model, a, b, 2 * wanted_nats, most_replicates);
+  if (replicates == 0)
     return "No number of repeats of these measurements would distinguish " + both + "; that needs another operating point or observable.";
+  const Separation best = repeats_that_tell_most(model, a, b, replicates);
   return "To distinguish " + both + ", repeat the measurement of " + best.observable + " at point " + best.point +
          (std::isnan(best.time) ? "" : ", especially near t = " + number_text(best.time) + " s") +
-         ": there their predictions differ most, by " + two_digits(std::sqrt(best.T)) + " standard uncertainties of one repeat. " +
-         (replicates > 1 ? number_text(replicates) + " more repeats are enough." : "One more repeat is enough.");
+         ": there their predictions differ most, by " + two_digits(std::sqrt(best.T)) + " standard uncertainties of " +
+         (replicates > 1
+              ? "the mean of " + std::to_string(replicates) + " repeats. " + std::to_string(replicates) + " more repeats are enough."
+              : "one repeat. One more repeat is enough.");
 }
 
 }  // namespace snag

@@ -1,6 +1,10 @@
 #pragma once
 // The measurement that would separate two hypotheses best: Hunter and Reiner's T, the squared difference of their predictions over the
-// covariance of one more replicate and of the inputs. Where no effect explains the data: where to look.
+// covariance of more replicates and of the inputs,
+//
+//   T(n) = d . (C_noise/n + C_common)^-1 d,   C_common: inputs, biases and error of the step, which no repeat makes smaller.
+//
+// Where no effect explains the data: where to look.
 #include <string>
 
 #include "diagnosis/attribution/attribution.hpp"
@@ -14,7 +18,7 @@ struct Predictions {
   Eigen::VectorXd chance{};                 // variance that the seeds of the runs give the difference; empty: none
 };
 
-/// T of one more repeat.
+/// T of more repeats.
 struct Separation {
   double T = 0;
   std::string observable, point;
@@ -22,7 +26,7 @@ struct Separation {
 };
 
 /// Of the Gaussian observable that separates them best, at a point of training.
-Separation best_separation(const Responses& model, std::size_t training_point, const Predictions& predictions);
+Separation best_separation(const Responses& model, std::size_t training_point, const Predictions& predictions, int n_repeats = 1);
 /// T of one more repeat where it tells most.
 double best_repeat(const Responses& model, const Fit& a, const Fit& b);
 /// The likeliest fit beside this one; -1 if there is none.

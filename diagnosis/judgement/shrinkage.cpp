@@ -16,12 +16,31 @@ constexpr int least_points = 3;
 
 Eigen::VectorXd data_uncertainty(const PointSummary& point) { return point.covariance.diagonal().cwiseSqrt(); }
 
+/// Gaussian rows of each withheld point that are compared.
+using ComparedRows = std::vector<std::vector<int>>;
+
 /// What fits say of the withheld points.
 class Prediction {
  public:
   Prediction(Responses& model, const Attribution& attribution) : model_(model), attribution_(attribution) {}
 
-  WithheldError predict(const Fit& fit) {
+  /// Those for which the base model and the fit have a number; empty, and why, where a run fails.
+  ComparedRows rows_with_answer(const Fit& fit, std::string& failure) {
+    ComparedRows rows;
+    const auto responses = model_.run(withheld_state(fit), model_.withheld()), base = model_.run(model_.base(), model_.withheld());
+    for (std::size_t p = 0; p < responses.size(); ++p) {
+      if (!responses[p].failure.empty()) {
+        failure = "at point " + model_.experiment().points[static_cast<std::size_t>(model_.withheld()[p])].id + ": " + responses[p].failure;
+        return {};
+      }
+      rows.emplace_back();
+      for (int i = 0; i < model_.points()[model_.withheld()[p]].n_gaussian; ++i)
+        if (std::isfinite(responses[p].value[i]) && std::isfinite(base[p].value[i])) rows.back().push_back(i);
+    }
+    return rows;
+  }
+
+  WithheldError predict(const Fit& fit, const ComparedRows& compared) {
     const auto& withheld = model_.withheld();
     const State state = withheld_state(fit);
     const State leading = lead_of(state);
@@ -54,21 +73,25 @@ class Prediction {
     WithheldError prediction;
     for (std::size_t p = 0; p < withheld.size(); ++p) {
       const PointSummary& point = model_.points()[withheld[p]];
-      const int g = point.n_gaussian;
-      const Eigen::VectorXd u = data_uncertainty(point);
-      const auto scaled = [&](const Response& a, const Response& b) { return finite((a.value - b.value).head(g).cwiseQuotient(u)); };
+      const std::vector<int>& rows = compared[p];
+      const auto g = std::ssize(rows);
+      const Eigen::VectorXd u = data_uncertainty(point)(rows);
+      const auto scaled = [&](const Response& a, const Response& b) {
+        return Eigen::VectorXd(finite((a.value - b.value)(rows)).cwiseQuotient(u));
+      };
       Eigen::VectorXd data(g);
-      for (int i = 0; i < g; ++i) data[i] = point.rows[i].value;
-      const Eigen::VectorXd error = (responses[p].value.head(g) - data).cwiseQuotient(u);
+      for (Eigen::Index i = 0; i < g; ++i) data[i] = point.rows[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])].value;
+      const Eigen::VectorXd error = (Eigen::VectorXd(responses[p].value(rows)) - data).cwiseQuotient(u);
       Eigen::MatrixXd strength(g, n_open), input(g, m);
       for (Eigen::Index e = 0; e < n_open; ++e) strength.col(e) = scaled(moved_strength[static_cast<std::size_t>(e)][p], responses[p]);
       for (int j = 0; j < m; ++j) input.col(j) = scaled(moved_input[j][p], lead[p]) * posterior[j];
       const Eigen::MatrixXd scale = u.cwiseInverse().asDiagonal();
-      const Eigen::MatrixXd V = scale * model_covariance(point, responses[p], step_error[p], {}) * scale;
+      const Eigen::MatrixXd all = model_covariance(point, responses[p], step_error[p], {});
+      const Eigen::MatrixXd V = scale * Eigen::MatrixXd(all(rows, rows)) * scale;
       // The best inputs turn an error e into V (V + B B^T)^-1 e.
       const Eigen::MatrixXd projection = (V + input * input.transpose()).llt().solve(V).transpose();
       const Eigen::MatrixXd covariance = projection * V;
-      prediction.error.push_back(projection * finite(error));
+      prediction.error.push_back(projection * error);
       prediction.noise.push_back(
           Eigen::LLT<Eigen::MatrixXd>(0.5 * (covariance + covariance.transpose()) + 1e-9 * Eigen::MatrixXd::Identity(g, g)).matrixL());
       prediction.covariance.push_back(covariance), prediction.projection.push_back(projection);
@@ -138,14 +161,24 @@ class Prediction {
   const Attribution& attribution_;
 };
 
+std::int64_t n_rows(const ComparedRows& rows) {
+  std::int64_t n = 0;
+  for (const std::vector<int>& of_point : rows) n += std::ssize(of_point);
+  return n;
+}
+
 }  // namespace
 
 void measure_shrinkage(Responses& model, const Attribution& attribution, int chosen, Verdict& verdict) {
   const auto& withheld = model.withheld();
-  const auto has_cells = [&](int p) { return model.points()[p].n_gaussian > 0; };
-  if (std::count_if(withheld.begin(), withheld.end(), has_cells) < least_points) return;
+  const auto n_points = [](const ComparedRows& rows) {
+    return std::count_if(rows.begin(), rows.end(), [](const auto& of_point) { return !of_point.empty(); });
+  };
   Prediction prediction(model, attribution);
-  const WithheldError before = prediction.predict(attribution.fits.front());
+  std::string failure;
+  const ComparedRows all = prediction.rows_with_answer(attribution.fits.front(), failure);
+  if (n_points(all) < least_points) return;
+  const WithheldError before = prediction.predict(attribution.fits.front(), all);
   verdict.gap.before = verdict.gap.after = excess_gap(before);
   verdict.gap.floor = noise_floor(before);
   const std::uint64_t seed = model.experiment().seed;
@@ -163,14 +196,25 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
       if (i == chosen) return;
       break;
     }
-    const WithheldError after = prediction.predict(attribution.fits[i]);
-    const Shrinkage shrunk = shrinkage(before, after, seed);
+    const ComparedRows both = prediction.rows_with_answer(attribution.fits[i], failure);
+    if (n_points(both) < least_points) {
+      if (i != chosen) continue;
+      verdict.notes.push_back("The shrinkage at the withheld points is not known: with " + attribution.names[i] +
+                              (failure.empty() ? " fewer than three of them have numbers to compare." : " the run fails " + failure));
+      return;
+    }
+    const WithheldError base = both == all ? before : prediction.predict(attribution.fits.front(), both);
+    const WithheldError after = prediction.predict(attribution.fits[i], both);
+    const Shrinkage shrunk = shrinkage(base, after, seed);
     if (i != chosen) {
       verdict.shrinkage_rejected[attribution.names[i]] = shrunk;
       continue;
     }
     verdict.shrinkage[attribution.names[i]] = shrunk;
-    verdict.gap.after = excess_gap(after), verdict.gap.floor = noise_floor(after);
+    verdict.gap.before = excess_gap(base), verdict.gap.after = excess_gap(after), verdict.gap.floor = noise_floor(after);
+    if (both != all)
+      verdict.notes.push_back("The shrinkage at the withheld points is that of " + std::to_string(n_rows(both)) + " of " +
+                              counted(n_rows(all), "row") + ": the runs with " + attribution.names[i] + " have no number for the others.");
   }
   verdict.gap.computable = true;
   // What no effect of the library takes away: the gap after beyond the floor.

@@ -116,6 +116,25 @@ TEST(ObservableSources, MeansInAFolderAreThoseOfTheWindow) {
   std::filesystem::remove_all(folder);
 }
 
+/// Requirement: a rag that has not come yet, or has left, has no silhouette; an axis turns on between two samples, and its mean is that of
+/// axes.
+TEST(ObservableSources, SilhouettesInAFolder) {
+  const auto folder = std::filesystem::temp_directory_path() / "snag_silhouettes";
+  std::filesystem::create_directories(folder / "monitors");
+  std::ofstream(folder / "monitors" / "silhouettes.csv")
+      << "time [s],rag [1],area [m2],elongation_ratio [1],orientation [rad]\n0,0,0,0,0\n1,0,2,3,1.5\n2,0,4,5,-1.5\n3,0,0,0,0\n";
+  const auto seen = read_observables(
+      folder, {{"area"}, {"orientation"}, {"area", 0.5}, {"area", 1.5}, {"area", 2.5}, {"orientation", 1.5}, {"elongation_ratio", 1}}, {});
+  EXPECT_NEAR(seen[0], 3, 1e-12);
+  EXPECT_NEAR(std::abs(seen[1]), std::numbers::pi / 2, 1e-12);
+  EXPECT_TRUE(std::isnan(seen[2]));
+  EXPECT_NEAR(seen[3], 3, 1e-12);
+  EXPECT_TRUE(std::isnan(seen[4]));
+  EXPECT_NEAR(std::abs(seen[5]), std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(seen[6], 3, 1e-12);
+  std::filesystem::remove_all(folder);
+}
+
 /// Requirement: a run in a folder answers an observable of the whole run by the source's own function, not a number where the run lacks it.
 TEST(ObservableSources, ANewSourceIsReadInAFolder) {
   const auto folder = std::filesystem::temp_directory_path() / "snag_observable_sources";

@@ -141,14 +141,38 @@ TEST_F(ReadExperiment, ExplainsMistakesOfTheData) {
   EXPECT_TOLD(message(head + x_mm + A, "point,replicate,t_s,value\n"), "\"observable\" is missing");
   EXPECT_TOLD(message(head + x_mm + A, "point,replicate,t_s,observable,value,colour\n"), "unknown column \"colour\"");
   EXPECT_TOLD(message(head + x_mm + A, "# nothing\n"), "is empty");
-  EXPECT_TOLD(message(head + bare + A, columns + "A,0,0.1,x,1\nA,1,0.1,x,1\n"), "is constant");
-  EXPECT_TOLD(message(head + bare + A, columns + "A,0,0.1,x,1\nA,0,0.2,x,2\n"), "one replicate");
+  EXPECT_TOLD(message(head + bare + A, columns + "A,0,0.1,x,1\nA,1,0.1,x,1\n"), "without scatter");
+  EXPECT_TOLD(message(head + bare + A, columns + "A,0,0.1,x,1\nA,0,0.2,x,2\n"), "one repeat");
   const std::string time = "[[observable]]\nid = \"retention_time\"\nunit = \"s\"\nkind = \"lognormal\"\n";
   EXPECT_TOLD(message(head + time + A, columns + "A,0,,retention_time,0\n"), "positive");
   const std::string count = "[[observable]]\nid = \"recirculations\"\nunit = \"1\"\nkind = \"count\"\n";
   EXPECT_TOLD(message(head + count + A, columns + "A,0,,recirculations,1.5\n"), "whole number");
   EXPECT_TOLD(message(head + count + A, "point,replicate,t_s,observable,value,censored\nA,0,,recirculations,1,1\n"), "censored");
   EXPECT_EQ(message(head + count + A, columns + "A,0,,recirculations,0\n"), "accepted");
+}
+
+/// Requirement: without noise_u each number has its scatter, at each point and time; one elsewhere is not enough.
+TEST_F(ReadExperiment, EachNumberHasItsScatter) {
+  const std::string bare = head + "[[observable]]\nid = \"x\"\nunit = \"mm\"\n" + A;
+  const std::string means = "point,replicate,t_s,observable,value,n,sd\n";
+  EXPECT_EQ(message(bare, columns + "A,0,0.1,x,1\nA,1,0.1,x,2\nA,0,0.2,x,3\nA,1,0.2,x,4\n"), "accepted");
+  EXPECT_TOLD(message(bare, columns + "A,0,0.1,x,1\nA,1,0.1,x,2\nA,0,0.2,x,3\nA,1,0.2,x,3\n"),
+              "data.csv:4: observable \"x\" at point \"A\" at t = 0.2 s has 2 repeats without scatter (0.003 SI) and no noise_u");
+  EXPECT_TOLD(message(bare, columns + "A,0,0.1,x,1\nA,1,0.1,x,2\nA,0,0.2,x,3\n"),
+              "data.csv:4: observable \"x\" at point \"A\" at t = 0.2 s has one repeat and no noise_u");
+  EXPECT_EQ(message(bare, means + "A,0,0.1,x,1,10,0.2\nA,0,0.2,x,2,5,0.3\n"), "accepted");
+  EXPECT_TOLD(message(bare, means + "A,0,0.1,x,1,10,0.2\nA,0,0.2,x,2,5,\n"), "t = 0.2 s has 5 repeats without scatter");
+  EXPECT_TOLD(message(bare, means + "A,0,,x,1,10,0\n"), "point \"A\" has 10 repeats without scatter");
+  EXPECT_EQ(message(head + x_mm + A, means + "A,0,0.1,x,1,10,\nA,0,0.2,x,2,1,\n"), "accepted");
+}
+
+/// Requirement: what comes back after half a turn is an angle, whatever is stated.
+TEST_F(ReadExperiment, OrientationIsAnAngle) {
+  for (const char* kind : {"", "kind = \"gaussian\"\n", "kind = \"angle\"\n"}) {
+    const auto e = read_experiment(write(head + "[[observable]]\nid = \"orientation\"\nunit = \"deg\"\nnoise_u = 1\n" + kind + A,
+                                         columns + "A,0,0.1,orientation,1\n"));
+    EXPECT_EQ(e.observables[0].kind, Observable::Kind::angle) << kind;
+  }
 }
 
 // Published means stand for their repeats: number, mean and scatter come back exactly.

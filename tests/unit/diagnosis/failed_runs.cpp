@@ -65,6 +65,63 @@ TEST(FailedRuns, DerivativesByStrengthsAreThoseOfTheOtherSide) {
   }
 }
 
+/// Two times of a path, 3 + 20 d and 5 + 20 d of the deviation d of a length, of which the second is not reached beyond `most`; and an
+/// effect of a range narrower than a step, from its minimum on, before one that is the deviation.
+class Leaves final : public TestSimulator {
+ public:
+  explicit Leaves(double most) : most_(most) {
+    effects_ = {{.name = "late", .minimum = 0, .maximum = 0.01}, {.name = "longer", .minimum = -1}};
+    nuisances_ = {{"length", 0.05, {0}}}, slots_ = {{.time = 0}, {.time = 1}};
+  }
+
+ private:
+  std::vector<double> values(const RunRequest& request, NormalNumbers&) const override {
+    const double d = number_of(request.nuisances, "length") + number_of(request.effects, "longer");
+    const double late = number_of(request.effects, "late");
+    return {3 + 20 * d, d <= most_ ? 5 + 20 * d + 7 * late : std::numeric_limits<double>::quiet_NaN()};
+  }
+  double most_;
+};
+
+Experiment of_two_times() {
+  Experiment experiment;
+  experiment.observables = {{.id = "x", .unit = "m", .noise_u = 0.1, .calibration_group = "", .numerics_u = 0}};
+  experiment.points = {{.id = "A", .case_file = {}}};
+  experiment.data = {{.time = 0, .value = 3}, {.time = 1, .value = 5}};
+  return experiment;
+}
+
+/// Requirement: where a run with an input moved up ends before a row, the derivative of this row is that of the other side.
+TEST(FailedRuns, RowsThatAMovedRunLacksAreThoseOfTheOtherSide) {
+  const Experiment experiment = of_two_times();
+  for (const double most : {1.0, 0.0}) {
+    Leaves simulator(most);
+    Responses responses(experiment, simulator);
+    const Linearization base = Fitter(responses).base();
+    EXPECT_NEAR(base.by_nuisance[0][0].value[0], 3.5, 1e-12) << most;
+    EXPECT_NEAR(base.by_nuisance[0][0].value[1], 5.5, 1e-12) << most;
+  }
+}
+
+/// Requirement: a strength at the end of a range narrower than a step is moved to the other end, and the columns of the others stay theirs.
+TEST(FailedRuns, StrengthsOfANarrowRange) {
+  const Experiment experiment = of_two_times();
+  Leaves simulator(1);
+  Responses responses(experiment, simulator);
+  Fitter fitter(responses);
+  const Fit fit = fitter.fit({{0, 1}}, Eigen::VectorXd::Zero(2));
+  const Eigen::MatrixXd& J = fit.linear.J;
+  EXPECT_NEAR(J(0, 0), 0, 1e-6);
+  EXPECT_NEAR(J(1, 0), -7 / 0.1, 0.1);
+  EXPECT_NEAR(J(0, 1), -20 / 0.1, 0.1);
+  EXPECT_NEAR(J(1, 1), -20 / 0.1, 0.1);
+  const Effect narrow{.name = "narrow", .sd = 1, .minimum = 0, .maximum = 0.01};
+  EXPECT_EQ(step_within_range(narrow, 0, 0.1), 0.01);
+  EXPECT_EQ(step_within_range(narrow, 0.01, 0.1), -0.01);
+  EXPECT_EQ(step_within_range(narrow, 0.002, 0.001), 0.001);
+  EXPECT_EQ(step_within_range(narrow, 0.01, 0.001), -0.001);
+}
+
 /// Requirement: a process beside inputs with which nothing runs explains no more than one beside inputs with which all runs.
 TEST(FailedRuns, NoProcessIsBesideThem) {
   Experiment experiment;

@@ -2,10 +2,13 @@
 // measurement says of a run is known where the run has numbers, and as uncertain beyond as the run bends.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "diagnosis/data/mistakes.hpp"
+#include "diagnosis/fitting/response.hpp"
+#include "tests/verification/diagnosis/test_simulator.hpp"
 
 namespace snag {
 namespace {
@@ -106,6 +109,45 @@ TEST(Mistakes, BeyondARunTheyAreAsUncertainAsItBends) {
     EXPECT_NEAR(std::abs(values[end] - t * t), u[end], 1e-12);
     EXPECT_NEAR(none[end], 0, 1e-12);
     EXPECT_NEAR(straight[end], 2 * t, 1e-12);
+  }
+}
+
+/// Answers a path with 1 + t and its scalar, if there is one, with 3.
+class InSeconds final : public TestSimulator {
+ public:
+  explicit InSeconds(const std::vector<Slot>& at) { slots_ = at; }
+
+ private:
+  std::vector<double> values(const RunRequest&, NormalNumbers&) const override {
+    std::vector<double> all;
+    for (const Slot& slot : slots_) all.push_back(std::isnan(slot.time) ? 3 : 1 + slot.time);
+    return all;
+  }
+};
+
+/// Requirement: a wrong unit of a lognormal quantity, of a path or a scalar, is found by the mean difference of logarithms; its relative
+/// bias is not multiplied.
+TEST(Mistakes, UnitsOfLognormalQuantities) {
+  for (const bool is_path : {false, true}) {
+    Experiment experiment;
+    experiment.observables = {{.id = "retention_time",
+                               .unit = "s",
+                               .kind = Observable::Kind::lognormal,
+                               .noise_u = 0.05,
+                               .bias_u = 0.01,
+                               .calibration_group = ""}};
+    experiment.points = {{.id = "A", .case_file = {}}};
+    const auto at = is_path ? slots(6) : std::vector<Slot>{{}};
+    for (const Slot& slot : at) experiment.data.push_back({.time = slot.time, .value = 1050 * (is_path ? 1 + slot.time : 3)});
+    InSeconds simulator(at);
+    Responses responses(experiment, simulator);
+    const auto& effects = responses.effects();
+    const auto unit = std::find_if(effects.begin(), effects.end(), [](const Effect& effect) { return effect.name == "unit:s"; });
+    ASSERT_NE(unit, effects.end());
+    State state = responses.base();
+    state.effects = {{static_cast<int>(unit - effects.begin()), 1}}, state.nuisances[0] = 1;
+    const Row& row = responses.points().front().rows.front();
+    EXPECT_NEAR(responses.run(state, {0}).front().value[0], row.value - std::log(1.05) + 0.01, 1e-9);
   }
 }
 

@@ -111,6 +111,24 @@ TEST(Rows, ThoseAfterTheEndOfARunAreTold) {
   EXPECT_TRUE(all.notes().empty());
 }
 
+/// Requirement: a number that the runs do not have is named.
+TEST(Rows, NumbersThatNoRunHasAreNamed) {
+  for (const bool lognormal : {false, true}) {
+    const Observable time{.id = "retention_time",
+                          .unit = "s",
+                          .kind = lognormal ? Observable::Kind::lognormal : Observable::Kind::gaussian,
+                          .noise_u = 0.1,
+                          .calibration_group = ""};
+    const Experiment experiment = of_one_row(time, {{.value = 3}});
+    Constant never(std::numeric_limits<double>::quiet_NaN());
+    const Responses responses(experiment, never);
+    EXPECT_EQ(responses.points().front().rows.size(), lognormal ? 1 : 0);
+    ASSERT_EQ(responses.notes().size(), lognormal ? 0 : 1);
+    for (const std::string& note : responses.notes())
+      EXPECT_EQ(note.find("retention_time at point A is not compared, for the runs have no such number."), 0) << note;
+  }
+}
+
 /// Requirement: the cells of a path change where it comes into another region, and each is in the region where it was measured.
 TEST(Rows, CellsAreToldApartByRegion) {
   constexpr int n = 20;

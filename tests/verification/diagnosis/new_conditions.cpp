@@ -74,6 +74,34 @@ TEST(NewConditions, AreRankedByNatsOverCost) {
   EXPECT_THROW(judged(experiment), Error);
 }
 
+/// A sphere whose runs were all made before.
+class Resumed final : public Simulator {
+ public:
+  explicit Resumed(const Experiment& experiment) : sphere_(experiment) {}
+  const std::vector<Effect>& effects() const override { return sphere_.effects(); }
+  const std::vector<Nuisance>& nuisances() const override { return sphere_.nuisances(); }
+  const std::vector<Slot>& slots(int point) const override { return sphere_.slots(point); }
+  bool restarts(int point) const override { return sphere_.restarts(point); }
+  std::vector<RunResult> run(std::span<const RunRequest> requests) override { return sphere_.run(requests); }
+  int n_runs() const override { return 0; }
+  int n_used() const override { return sphere_.n_runs(); }
+
+ private:
+  formula::Sphere sphere_;
+};
+
+/// Requirement: a diagnosis that is repeated from its kept runs proposes the same conditions.
+TEST(NewConditions, AreThoseOfTheFirstTimeWhenResumed) {
+  std::size_t n = 0;
+  for (int i = 0; n == 0 && i < 20; ++i) {
+    const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.3}}}, 2, 0, 1, 3e-3, 8900 + i);
+    n = judged(experiment).identifiability.new_conditions.size();
+    Resumed resumed(experiment);
+    EXPECT_EQ(diagnose(experiment, resumed).identifiability.new_conditions.size(), n);
+  }
+  EXPECT_GT(n, 0u);
+}
+
 TEST(NewConditions, NoneForTwins) {
   const Experiment experiment = formula::experiment({.effects = {{"added_mass", 0.5}}}, 6, 0, 3, 5e-4, 8800);
   formula::Sphere sphere(experiment, false, true);
