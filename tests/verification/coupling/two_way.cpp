@@ -292,7 +292,7 @@ struct AnsweringWater final : FluidField {
         arrays.field(t, sampled::response)[k] = response;
       }
   }
-  FluidSamples at(std::size_t index, const Tile&, double) override {
+  FluidSamples at(std::size_t index, const Tile&, double, double) override {
     const auto vector = [&](int f) { return VectorArray{arrays.field(index, f), arrays.field(index, f + 1), arrays.field(index, f + 2)}; };
     return {.density = 1000,
             .dynamic_viscosity = 1e-3,
