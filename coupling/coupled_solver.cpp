@@ -115,7 +115,7 @@ Vec3 CoupledSolver::water_velocity(int rag) {
   for (std::size_t t = 0; t < rags_.tiles().size(); ++t) {
     const Tile& tile = rags_.tiles()[t];
     if (tile.rag != rag) continue;
-    const FluidSamples water = prescribed_field_ ? prescribed_field_->at(t, tile, 0) : FluidSamples{};
+    const FluidSamples water = prescribed_field_ ? prescribed_field_->at(t, tile, 0, 0) : FluidSamples{};
     for_particles(tile, [&](int k, int, int) {
       if (prescribed_field_)
         velocity.push_back(water.velocity[k]);

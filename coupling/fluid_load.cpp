@@ -90,8 +90,7 @@ void FluidLoad::add(std::size_t index, Tile& tile, double step) {
   const double m = rag.mass;
   const double *exists = tile.exists.data(), *free = tile.free.data(), *slope = array(slope_sum), *added_mass = array(added_mass_sum);
   const double *none = array(zero), *d = fluid.response ? fluid.response : none, *relief = array(relief_sum);
-  const VectorArray r_of = fluid.velocity_rate.x ? fluid.velocity_rate : VectorArray{none, none, none};
-  const double* rate[] = {r_of.x, r_of.y, r_of.z};
+  const double* rate[] = {fluid.velocity_rate.x, fluid.velocity_rate.y, fluid.velocity_rate.z};
   double *phi = array(relaxation), *driven = array(chi), *slopes = sums_.field(index, slope_integral);
   for (int j = 0; j < tile.ny; ++j) {
     const int first = tile.index(0, j), end = first + tile.nx;
@@ -156,9 +155,9 @@ FluidSamples FluidLoad::evaluate(std::size_t index, Tile& tile, double step) {
   if (needs_drag_) particles.last_drag = state(tile, drag_begin_);
   Forces silent = reacting, unfelt = reacting;
   silent.force = vector(one_way_force), unfelt.force = vector(unfelt_force);
-  // The middle of the sub-step is where the integrator evaluates forces.
-  FluidSamples fluid = field_.at(index, tile, elapsed_[index] + 0.5 * step);
-  if (fluid.velocity_rate.x) follow(fluid, index, tile, particles);
+  // The integrator evaluates forces where the particles are in the middle of the sub-step, with their velocities at its start.
+  FluidSamples fluid = field_.at(index, tile, elapsed_[index], step);
+  if (fluid.start.x) follow(fluid, index, tile, particles);
   if (changes_fluid_) {
     if (fluid.velocity.x != array(seen_velocity))
       for (int i = 0; i < 3; ++i) {
@@ -208,11 +207,11 @@ void FluidLoad::keep_drag(Tile& tile, const FluidSamples& fluid, const Particles
   }
 }
 
-/// The water on the way of the particles, at the start of the sub-step, where their velocities are: u + (c + e) t + G (x - x_0) - d J, its
-/// rate c + e + G v without the answer, and Du/Dt there.
+/// The water on the way of the particles at the start of the sub-step, the time of their velocities: u + (c + e) t + G (x - h/2 v - x_0)
+/// - d J, its rate r = c + e + G v without the answer, and Du/Dt in the middle of the sub-step, where that water has u + h/2 r.
 void FluidLoad::follow(FluidSamples& fluid, std::size_t index, Tile& tile, const Particles& particles) {
   const auto component = [](const VectorArray& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
-  const double elapsed = elapsed_[index], *d = fluid.response ? fluid.response : array(zero);
+  const double elapsed = elapsed_[index], half = 0.5 * particles.step, *d = fluid.response ? fluid.response : array(zero);
   const VectorArray x = particles.position, x_0 = fluid.start, v = particles.velocity;
   for (int i = 0; i < 3; ++i) {
     const double *u = component(fluid.velocity, i), *c = component(fluid.velocity_rate, i), *J = sums_.field(index, impulse_x + i);
@@ -221,19 +220,19 @@ void FluidLoad::follow(FluidSamples& fluid, std::size_t index, Tile& tile, const
     double *seen = array(seen_velocity + i), *rate = array(rate_on_way + i);
 #pragma omp simd
     for (int k = particles.begin; k < particles.end; ++k) {
-      seen[k] = u[k] + elapsed * (c[k] + e[k]) + dot(G[k], x[k] - x_0[k]) - d[k] * J[k];
+      seen[k] = u[k] + elapsed * (c[k] + e[k]) + dot(G[k], x[k] - half * v[k] - x_0[k]) - d[k] * J[k];
       rate[k] = c[k] + e[k] + dot(G[k], v[k]);
     }
   }
   const auto vector = [&](int f) { return VectorArray{array(f), array(f + 1), array(f + 2)}; };
   if (needed_.material_acceleration) {
-    const VectorArray u = fluid.velocity, seen = vector(seen_velocity);
+    const VectorArray u = fluid.velocity, seen = vector(seen_velocity), rate = vector(rate_on_way);
     for (int i = 0; i < 3; ++i) {
       const double* at_start = component(fluid.material_acceleration, i);
       const VectorArray G = fluid.velocity_gradient[i];
       double* a = array(seen_acceleration + i);
 #pragma omp simd
-      for (int k = particles.begin; k < particles.end; ++k) a[k] = at_start[k] + dot(G[k], seen[k] - u[k]);
+      for (int k = particles.begin; k < particles.end; ++k) a[k] = at_start[k] + dot(G[k], seen[k] + half * rate[k] - u[k]);
     }
     fluid.material_acceleration = vector(seen_acceleration);
   }

@@ -85,7 +85,7 @@ Vec3 KernelField::mean_place(std::size_t b) const {
           arrays_.field(t, sampled::mean_place + 2)[k]};
 }
 
-FluidSamples KernelField::at(std::size_t index, const Tile&, double) {
+FluidSamples KernelField::at(std::size_t index, const Tile&, double, double) {
   const auto vector = [&](int f) { return VectorArray{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
   FluidSamples fluid{.density = flow_.density,
                      .dynamic_viscosity = flow_.dynamic_viscosity,

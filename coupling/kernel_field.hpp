@@ -24,7 +24,7 @@ class KernelField final : public FluidField {
   KernelField(const Flow& flow, Kernel& kernel, const std::vector<Rag>& rags, WaterPrediction& prediction, bool two_way)
       : flow_(flow), kernel_(kernel), rags_(rags), edges_(rags), prediction_(prediction), two_way_(two_way) {}
   void sample(std::span<const Tile> tiles, const SampleSet& needed) override;
-  FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
+  FluidSamples at(std::size_t index, const Tile& tile, double elapsed, double step) override;
   bool answers() const override { return two_way_; }
   /// After a step of the flow: by how much the prediction missed its answers (WaterPrediction::missed_rates), in the order of particles().
   /// `impulse`: of the particles in that step, N s. Two-way; collective.

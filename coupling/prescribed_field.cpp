@@ -68,14 +68,41 @@ void PrescribedField::sample(std::span<const Tile> tiles, const SampleSet& neede
   }
 }
 
-void PrescribedField::add_modes(const VectorSum& u_at, const std::array<VectorSum, 3>& G_at, const Tile& tile) const {
+Vec3 PrescribedField::uniform_velocity(double t) const {
+  Vec3 u = flow_.velocity;
+  for (int i = 0; i < 3; ++i)
+    if (flow_.amplitude[i] != 0) u[i] += flow_.amplitude[i] * std::sin(flow_.omega[i] * t + flow_.phase[i]);
+  return u;
+}
+
+Vec3 PrescribedField::uniform_rate(double t) const {
+  Vec3 rate;
+  for (int i = 0; i < 3; ++i)
+    if (flow_.amplitude[i] != 0) rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(flow_.omega[i] * t + flow_.phase[i]);
+  return rate;
+}
+
+void PrescribedField::set_velocity(const VectorSum& u_at, const Tile& tile, double t, double ago) const {
+  const double *x = tile.field(Tile::x), *y = tile.field(Tile::y), *z = tile.field(Tile::z);
+  const double *v_x = tile.field(Tile::vx), *v_y = tile.field(Tile::vy), *v_z = tile.field(Tile::vz);
+  const Vec3 uniform = uniform_velocity(t);
+  const Mat3 G = flow_.gradient;
+  const int begin = tile.index(0, 0), end = tile.index(tile.nx, tile.ny - 1);
+#pragma omp simd
+  for (int p = begin; p < end; ++p) {
+    const Vec3 u = uniform + G * Vec3{x[p] - ago * v_x[p], y[p] - ago * v_y[p], z[p] - ago * v_z[p]};
+    u_at.x[p] = u.x, u_at.y[p] = u.y, u_at.z[p] = u.z;
+  }
+  if (!flow_.pipe.changes_water()) return;
+  const double speed = flow_.pipe_speed();
+  for (int p = begin; p < end; ++p) u_at.add(p, flow_.pipe.velocity(tile.vector(Tile::x, p) - ago * tile.vector(Tile::vx, p), speed));
+}
+
+void PrescribedField::set_gradient(const std::array<VectorSum, 3>& G_at, const Tile& tile) const {
   const int begin = tile.index(0, 0), end = tile.index(tile.nx, tile.ny - 1);
   const double speed = flow_.pipe_speed();
   for (int p = begin; p < end; ++p) {
-    const Vec3 x = tile.vector(Tile::x, p);
-    u_at.add(p, flow_.pipe.velocity(x, speed));
-    if (!needed_.velocity_gradient) continue;
-    const Mat3 G = flow_.pipe.gradient(x, speed);
+    const Mat3 G = flow_.pipe.gradient(tile.vector(Tile::x, p), speed);
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 row = flow_.gradient[i] + G[i];
       G_at.at(i).x[p] = row.x, G_at.at(i).y[p] = row.y, G_at.at(i).z[p] = row.z;
@@ -83,40 +110,36 @@ void PrescribedField::add_modes(const VectorSum& u_at, const std::array<VectorSu
   }
 }
 
-FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed) {
-  const double t = time_ + elapsed;
-  Vec3 uniform, rate;  // the part of u that is the same everywhere, and its time derivative
-  for (int i = 0; i < 3; ++i) {
-    uniform[i] = flow_.velocity[i];
-    if (flow_.amplitude[i] == 0) continue;
-    const double angle = flow_.omega[i] * t + flow_.phase[i];
-    uniform[i] += flow_.amplitude[i] * std::sin(angle);
-    rate[i] = flow_.amplitude[i] * flow_.omega[i] * std::cos(angle);
-  }
+FluidSamples PrescribedField::at(std::size_t index, const Tile& tile, double elapsed, double step) {
+  const double start = time_ + elapsed, middle = start + 0.5 * step;
   const auto vector = [&](int f) { return VectorSum{arrays_.field(index, f), arrays_.field(index, f + 1), arrays_.field(index, f + 2)}; };
-  const VectorSum u_at = vector(velocity);
+  const VectorSum u_0 = vector(velocity), u_m = vector(change);
   const std::array G_at{vector(gradient), vector(gradient + 3), vector(gradient + 6)};
-  const double *x = tile.field(Tile::x), *y = tile.field(Tile::y), *z = tile.field(Tile::z);
-  const Mat3 G = flow_.gradient;
-  const int begin = tile.index(0, 0), end = tile.index(tile.nx, tile.ny - 1);
-#pragma omp simd
-  for (int p = begin; p < end; ++p) {
-    const Vec3 u = uniform + G * Vec3{x[p], y[p], z[p]};
-    u_at.x[p] = u.x, u_at.y[p] = u.y, u_at.z[p] = u.z;
-  }
-  if (flow_.pipe.changes_water()) add_modes(u_at, G_at, tile);
+  set_velocity(u_0, tile, start, 0.5 * step), set_velocity(u_m, tile, middle, 0);
+  if (flow_.pipe.changes_water() && needed_.velocity_gradient) set_gradient(G_at, tile);
   const auto array = [](const VectorSum& v) { return VectorArray{v.x, v.y, v.z}; };
   FluidSamples fluid{.density = flow_.density,
                      .dynamic_viscosity = viscosity_,
-                     .velocity = array(u_at),
+                     .velocity = array(u_0),
+                     .velocity_rate = array(u_m),
                      .velocity_gradient = {array(G_at[0]), array(G_at[1]), array(G_at[2])}};
-  const FormulaSource source{flow_, rate, {x, y, z}, fluid.velocity, begin, end};
+  const int begin = tile.index(0, 0), end = tile.index(tile.nx, tile.ny - 1);
+  const FormulaSource source{.flow = flow_,
+                             .rate = uniform_rate(middle),
+                             .position = {tile.field(Tile::x), tile.field(Tile::y), tile.field(Tile::z)},
+                             .velocity = array(u_m),
+                             .begin = begin,
+                             .end = end};
   for_each_row([&](const SampleRow& row, int first) {
     double* arrays[3] = {};
     for (int i = 0; i < row.components(); ++i) arrays[i] = arrays_.field(index, first + i);
     if (row.of_formula && needed_.*row.needed) row.of_formula(source, arrays);
     row.point(fluid, arrays);
   });
+  const double per_half = step > 0 ? 2 / step : 0;
+#pragma omp simd
+  for (int p = begin; p < end; ++p)
+    u_m.x[p] = per_half * (u_m.x[p] - u_0.x[p]), u_m.y[p] = per_half * (u_m.y[p] - u_0.y[p]), u_m.z[p] = per_half * (u_m.z[p] - u_0.z[p]);
   return fluid;
 }
 

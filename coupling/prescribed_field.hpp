@@ -5,7 +5,8 @@
 //   k(x) = max(k_0 + x . grad k, 0),   epsilon uniform
 //   Du/Dt = du/dt + G u,    grad p = -rho Du/Dt + mu lap u = -rho Du/Dt      (beside the hydrostatic)
 //
-// Evaluated where the particles are at every sub-step.
+// Evaluated on the way of the particles in every sub-step of length h, in whose middle they are at x_m: u_0 = u(x_m - h/2 v, t),
+// u_m = u(x_m, t + h/2), and the rate du/dt + G v on their way is 2 (u_m - u_0)/h, to the second order of h.
 #include "coupling/fluid_field.hpp"
 #include "coupling/particle_list.hpp"
 #include "coupling/pipe_flow.hpp"
@@ -40,11 +41,16 @@ class PrescribedField final : public FluidField {
   /// Time at the start of the step that comes, s.
   void set_time(double time) { time_ = time; }
   void sample(std::span<const Tile> tiles, const SampleSet& needed) override;
-  FluidSamples at(std::size_t index, const Tile& tile, double elapsed) override;
+  FluidSamples at(std::size_t index, const Tile& tile, double elapsed, double step) override;
 
  private:
-  /// Those of the pipe, to velocities and gradients at the places of a tile.
-  void add_modes(const VectorSum& u_at, const std::array<VectorSum, 3>& G_at, const Tile& tile) const;
+  /// The part of u that is the same everywhere, m/s, and its derivative in time, m/s2.
+  Vec3 uniform_velocity(double t) const;
+  Vec3 uniform_rate(double t) const;
+  /// u at the time t where the particles of a tile were a time `ago`.
+  void set_velocity(const VectorSum& u_at, const Tile& tile, double t, double ago) const;
+  /// G with the modes of the pipe, where the particles are.
+  void set_gradient(const std::array<VectorSum, 3>& G_at, const Tile& tile) const;
 
   PrescribedFlow flow_;
   double viscosity_, time_ = 0;

@@ -36,11 +36,11 @@ struct SampleSet {
 /// The fluid at the particles of a tile, undisturbed by the particle itself as far as the kernel can tell. Of the fields only the velocity
 /// and what the force's description asks for may be read.
 struct FluidSamples {
-  double density = 0;                                  // rho, kg/m3
-  double dynamic_viscosity = 0;                        // mu, Pa s
-  VectorArray velocity = {};                           // u, m/s
-  VectorArray velocity_rate = {};                      // of u in this step but for the answer to the rags' forces, m/s2; null: zero
-  VectorArray start = {};                              // place of the particle for which the samples are, m; null: where it is
+  double density = 0;              // rho, kg/m3
+  double dynamic_viscosity = 0;    // mu, Pa s
+  VectorArray velocity = {};       // u, m/s
+  VectorArray velocity_rate = {};  // of u on the way of the particle, with `start` at that place, but for the answer to forces, m/s2
+  VectorArray start = {};          // place of the particle at the start of the step, for which the samples are, m; null: its way is in them
   const double* response = nullptr;                    // velocity that u loses per impulse of the particle, 1/kg; null: zero
   std::array<VectorArray, 3> velocity_gradient = {};   // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
   VectorArray pressure_gradient = {};                  // Pa/m

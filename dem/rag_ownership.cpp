@@ -92,13 +92,14 @@ std::vector<double> RagSystem::all_row_boxes() {
   return boxes;
 }
 
-/// True once a row has left its box by more than what the ghosts were chosen for.
+/// True once a row may have left its box by more than what the ghosts were chosen for: two rows then approach by 2 margin at most, in any
+/// direction.
 bool RagSystem::ghosts_outdated(const Box* moved) {
   const double margin = contacts_->skin() / 2 + ghost_path(*contacts_);
   const auto within = [&] {
-    for (int c = 0; c < 3; ++c)
-      if (grown_.lower[c] < -margin || grown_.upper[c] > margin) return false;
-    return true;
+    Vec3 furthest;
+    for (int c = 0; c < 3; ++c) furthest[c] = std::max({0.0, -grown_.lower[c], grown_.upper[c]});
+    return norm_squared(furthest) <= margin * margin;
   };
   if (moved && !moved->empty()) {  // a look at all particles only if this bound is not enough
     grown_.lower += moved->lower, grown_.upper += moved->upper;

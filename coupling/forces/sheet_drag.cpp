@@ -155,7 +155,7 @@ struct SheetDrag final : FluidForce {
       for (int p = first; p < first + tile.nx; ++p) {
         const Vec3 along = direction(lattice.along(p)), across = direction(lattice.across(p)), n = direction(cross(along, across));
         const Vec3 w = u[p] - v[p], w_n = dot(w, n) * n, w_t = w - w_n;
-        const double speed_t = std::sqrt(norm_squared(w_t));
+        const double speed_t = std::sqrt(norm_squared(w_t)), here = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - here;
         double through = dot(w, n), K_t = C_t * speed_t;
         if (covered) {
           const double s = from_edge[p], sigma = std::numbers::sqrt2 * width[p], R = relief_ratio(s, sigma);
@@ -163,7 +163,7 @@ struct SheetDrag final : FluidForce {
           const double driven = jump[p] + dot(J[p], n) / (rho * area),
                        fading = 1 + h * (chi * std::abs(driven) / (2 * g * g) + nu / friction_area(s, sigma));
           jump[p] = driven / fading;
-          relief[p] = R / (rho * area * fading);
+          relief[p] = here * R / (rho * area * fading);
           through -= R * jump[p];
         }
         double K_n = K * std::abs(through);
@@ -190,7 +190,6 @@ struct SheetDrag final : FluidForce {
         K_n *= 0.5 * rho * area, K_t *= rho * area;
         const Vec3 along_normal = K_n * through * n;
         // Both sides of the sheet are in C_t rho = 2 C_t rho/2.
-        const double here = norm_squared(n) > 0.5 ? theta : 0, rest = 1 - here;
         force.x[p] = rest * force.x[p] + here * (along_normal.x + K_t * w_t.x);
         force.y[p] = rest * force.y[p] + here * (along_normal.y + K_t * w_t.y);
         force.z[p] = rest * force.z[p] + here * (along_normal.z + K_t * w_t.z);

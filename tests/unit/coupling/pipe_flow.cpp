@@ -177,7 +177,7 @@ TEST(PipeFlow, PrescribedFlowHasTheModes) {
   PrescribedField field(flow);
   field.sample(rags.tiles(), {.velocity_gradient = true, .material_acceleration = true});
   const Tile& tile = rags.tiles()[0];
-  const FluidSamples fluid = field.at(0, tile, 0);
+  const FluidSamples fluid = field.at(0, tile, 0, 0);
   const int p = tile.index(0, 0);
   const double omega = 0.3 * U / R, share = 1 - 0.05 * 0.05 / (R * R);
   EXPECT_NEAR(norm(fluid.velocity[p] - Vec3{2 * U * share, omega * 0.04, omega * 0.03}), 0, 1e-12);

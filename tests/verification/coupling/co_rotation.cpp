@@ -8,6 +8,7 @@
 
 #include "dem/particles/tile_particles.hpp"
 #include "sphere_motion.hpp"
+#include "tests/structured_box.hpp"
 
 namespace snag {
 namespace {
@@ -52,6 +53,54 @@ TEST(CoRotation, NeutralClothStays) {
       EXPECT_NEAR(left, 1, 0.02);
     }
   EXPECT_GT(after_a_turn(cloth(2e-3, {0, 1, 0}, {0, 0, 1}), "forces = [\"published\"]\n"), 1.5);
+}
+
+/// Distance of a neutral sphere from the axis after one turn in so many steps of one sub-step each, over that at the begin; `make` makes
+/// the coupled run of its rags.
+template <class Make>
+double sphere_after_a_turn(int steps, const Make& make) {
+  RagSystem rags(MPI_COMM_SELF, {}, {sphere_piece(2e-4, 998.2, {radius, 0, 0}, {0, speed * radius, 0})});
+  CoupledSolver solver = make(rags);
+  for (int n = 0; n < steps; ++n) solver.step(2 * std::numbers::pi / speed / steps);
+  EXPECT_EQ(rags.n_sub_steps(), steps);
+  const Tile& tile = rags.tiles()[0];
+  const Vec3 x = tile.vector(Tile::x, tile.index(0, 0));
+  return std::hypot(x.x, x.y) / radius;
+}
+
+/// Second order of the deviation from the radius in the length of the sub-steps.
+template <class Make>
+void expect_second_order(const char* name, const Make& make) {
+  std::vector<double> errors;
+  for (const int steps : {50, 100, 200}) errors.push_back(std::abs(sphere_after_a_turn(steps, make) - 1));
+  const double order = std::log2(errors[0] / errors[2]) / 2;
+  std::printf("  %s: off the radius by %.2e %.2e %.2e, order %.2f\n", name, errors[0], errors[1], errors[2], order);
+  EXPECT_GT(order, 1.8);
+  EXPECT_LT(errors[1], 2e-3);
+}
+
+Coupling sphere_forces() {
+  return read_coupling(
+      CaseFile::parse("[coupling]\nmode = \"one_way\"\nkernel = \"cell\"\nforces = [\"schiller_naumann\", \"pressure_gradient\", "
+                      "\"added_mass\"]\n")
+          .root(),
+      false);
+}
+
+// Requirement: a small neutral sphere, which the drag ties to the water within a sub-step, leaves its radius by an error of second order in
+// the sub-step, in a prescribed flow and in one of cells.
+TEST(CoRotation, SphereStaysToSecondOrder) {
+  PrescribedFlow prescribed;
+  prescribed.gradient[0] = {0, -speed, 0}, prescribed.gradient[1] = {speed, 0, 0};
+  expect_second_order("prescribed", [&](RagSystem& rags) { return CoupledSolver(sphere_forces(), rags, prescribed); });
+
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}, {10, 10, 10});
+  Flow flow(mesh);
+  const auto u = [](const Vec3& x) { return cross({0, 0, speed}, x); };
+  for (int c = 0; c < mesh.n_all_cells(); ++c) flow.velocity[c] = u(mesh.cell_centre[c]), flow.velocity_gradient[c] = prescribed.gradient;
+  flow.velocity_older = flow.velocity_old = flow.velocity;
+  for (int f = 0; f < mesh.n_faces; ++f) flow.flux[f] = dot(u(mesh.face_centre[f]), mesh.face_vector[f]);
+  expect_second_order("cells", [&](RagSystem& rags) { return CoupledSolver(sphere_forces(), rags, flow, [](double) {}); });
 }
 
 }  // namespace

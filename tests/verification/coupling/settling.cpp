@@ -1,7 +1,10 @@
 // ranks: 1 3
 // long ranks: 2
-// A sphere and a small sheet that fall through the flow solver's own water, in a periodic box: nothing but gravity comes from outside.
+// A sphere and a small sheet that fall through the flow solver's own water, in a periodic box: nothing but gravity comes from outside. And
+// suspensions that settle in water without a net flow.
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 #include "coupling/coupled_solver.hpp"
 #include "parallel/session.hpp"
@@ -82,6 +85,50 @@ TEST(Settling, MomentumCloses) {
     EXPECT_LT(norm(after.of_rags - before.of_rags - impulse - t * before.weight), 1e-10 * exchanged);
     EXPECT_EQ(solver.report().particles_outside, 0);
     EXPECT_LT(after.of_rags.z, 0) << "it falls";
+  }
+}
+
+/// Speed at which spheres of 2 mm settle in creeping flow where they fill a share of each cell and the mixture is at rest, over that of one
+/// sphere by Stokes.
+double settling_speed(double solid_fraction, const std::string& forces) {
+  const double d = 2e-3, excess = 500, mu = 1, cell = d * std::cbrt(std::numbers::pi / 6 / solid_fraction);  // m, kg/m3, Pa s, m
+  const std::array<int, 3> n{2, 2, 3};
+  const Mesh mesh = structured_box(world, {}, cell * Vec3{2, 2, 3}, n, {true, true, true});
+  Flow flow(mesh);
+  flow.dynamic_viscosity = mu;
+  std::vector<RagPiece> spheres;
+  for (int c = 0; c < n[0] * n[1] * n[2]; ++c) {
+    RagSettings sphere(RagSettings::Shape::particle);
+    sphere.diameter = d, sphere.density = flow.density + excess;
+    sphere.position = cell * Vec3{c % n[0] + 0.5, c / n[0] % n[1] + 0.5, c / (n[0] * n[1]) + 0.5};
+    spheres.push_back(make_piece(sphere, "test"));
+  }
+  RagSystem rags(world, {}, spheres);
+  const std::string text =
+      "[gravity]\nacceleration_m_s2 = [0, 0, -9.81]\n[coupling]\nmode = \"one_way\"\nkernel = \"cell\"\nforces = [" + forces + "]\n";
+  CoupledSolver solver(read_coupling(CaseFile::parse(text).root()), rags, flow, [](double) {});
+  for (int k = 0; k < 40; ++k) solver.step(1e-4);  // some ten times the time of relaxation
+  const Momentum momentum_of = momentum(rags, flow.density, {});
+  const double mass = rags.rags()[0].mass * static_cast<double>(spheres.size());
+  return -momentum_of.of_rags.z / mass / (excess * 9.81 * d * d / (18 * mu));
+}
+
+// Requirement: in water without a net flow a suspension settles with the speed of Richardson and Zaki (1954), epsilon^4.65 of a single
+// sphere, by each law of suspensions and by the exponent of volume_fraction; the law of di_felice is 4 % faster, as for a single sphere.
+TEST(Settling, SuspensionIsHinderedAsRichardsonAndZaki) {
+  const auto expect = [](double solid_fraction, const std::string& forces, double tolerance) {
+    const double exact = std::pow(1 - solid_fraction, 4.65), found = settling_speed(solid_fraction, forces);
+    if (rank_of(world) == 0)
+      std::printf("  solid fraction %.2f, %s: %.4f, Richardson and Zaki %.4f\n", solid_fraction, forces.c_str(), found, exact);
+    EXPECT_NEAR(found, exact, tolerance * exact);
+  };
+  for (const double solid_fraction : {0.05, 0.1}) {
+    expect(solid_fraction, "\"ergun_wen_yu\"", 0.01);
+    expect(solid_fraction, "\"gidaspow\"", 0.03);
+  }
+  for (const double solid_fraction : {0.05, 0.2, 0.4}) {
+    expect(solid_fraction, "\"di_felice\"", 0.07);
+    expect(solid_fraction, "\"schiller_naumann\", \"volume_fraction\"", 0.04);
   }
 }
 

@@ -56,7 +56,7 @@ TEST_P(SolidBodyRotation, AcceleratesTowardsTheAxis) {
   field.sample(rags.tiles(), {.material_acceleration = true});
   EXPECT_EQ(kernel.n_outside(), 0);
   for (std::size_t t = 0; t < rags.tiles().size(); ++t) {
-    const FluidSamples fluid = field.at(t, rags.tiles()[t], 0);
+    const FluidSamples fluid = field.at(t, rags.tiles()[t], 0, 0);
     for_particles(rags.tiles()[t], [&](int k, int, int) {
       const Vec3 place = rags.tiles()[t].vector(Tile::x, k), u = GetParam().stream + cross(omega, place - shells.origin);
       EXPECT_LT(norm(fluid.velocity[k] - u), 1e-10 * norm(u)) << "at the particle, not at the centre of its cell";

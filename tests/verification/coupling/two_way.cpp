@@ -186,6 +186,34 @@ TEST_P(TwoWayExchange, RanksDoNotMatter) {
 
 INSTANTIATE_TEST_SUITE_P(Registry, TwoWayExchange, testing::ValuesIn(kernel_shapes().names()));
 
+/// Velocity of the first particle of a heavy piece that falls in water that it sets in motion, m/s.
+Vec3 velocity_of_fall(const RagSettings& settings, const std::string& forces) {
+  const Mesh mesh = structured_box(MPI_COMM_SELF, {0, 0, 0}, {0.002, 0.004, 0.002}, {10, 20, 10});
+  Flow flow(mesh);
+  RagSystem rags(MPI_COMM_SELF, {}, {make_piece(settings, "test")});
+  const auto advance = [&](double step) {
+    for (int c = 0; c < mesh.n_cells; ++c) flow.velocity[c] += step / flow.density * flow.reaction[c];
+  };
+  const std::string text = "[gravity]\nacceleration_m_s2 = [0, -9.81, 0]\n[coupling]\nforces = [\"free_stream_drag\", " + forces + "]\n";
+  CoupledSolver solver(read_coupling(CaseFile::parse(text).root()), rags, flow, advance);
+  for (int n = 0; n < 40; ++n) solver.step(1e-3);
+  const Tile& tile = rags.tiles()[0];
+  return tile.vector(Tile::vx, tile.index(0, 0));
+}
+
+// Requirement: the law of sheets does not change the motion of pieces that are no sheets, to the bit, in steps of the order of their time
+// of relaxation too.
+TEST(SheetDragExchange, OtherPiecesKeepTheirMotion) {
+  RagSettings sphere(RagSettings::Shape::particle), fibre(RagSettings::Shape::fibre);
+  sphere.diameter = 1e-4, sphere.density = 2500, sphere.position = {1e-3, 3e-3, 1e-3};
+  fibre.length = 4e-4, fibre.diameter = 1e-4, fibre.position = sphere.position;
+  for (const RagSettings& piece : {sphere, fibre}) {
+    const Vec3 without = velocity_of_fall(piece, "\"added_mass\""), with = velocity_of_fall(piece, "\"added_mass\", \"sheet_drag\"");
+    EXPECT_EQ(with, without);
+    EXPECT_LT(without.y, -1e-5) << "it does not fall: the test shows nothing";
+  }
+}
+
 /// Particles of a density over that of the water fill a share phi of a water driven by the body force rho G; one in the middle of each
 /// cell. Returns the accelerations of water and particles over G, least and largest, after the first two steps, which know nothing of the
 /// last.
@@ -264,7 +292,7 @@ struct AnsweringWater final : FluidField {
         arrays.field(t, sampled::response)[k] = response;
       }
   }
-  FluidSamples at(std::size_t index, const Tile&, double) override {
+  FluidSamples at(std::size_t index, const Tile&, double, double) override {
     const auto vector = [&](int f) { return VectorArray{arrays.field(index, f), arrays.field(index, f + 1), arrays.field(index, f + 2)}; };
     return {.density = 1000,
             .dynamic_viscosity = 1e-3,

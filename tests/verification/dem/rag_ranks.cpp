@@ -118,6 +118,25 @@ TEST(RagRanks, LongAdvanceIsTheSameOnAnyNumberOfRanks) {
   EXPECT_GT(sum(MPI_COMM_WORLD, spread.rags.contacts()->measures().n_contacts), 5);
 }
 
+TEST(RagRanks, SpheresThatMeetDiagonally) {
+  // Requirement: spheres of two ranks that approach each other along a diagonal of the axes touch as on one rank, though none of their
+  // coordinates changes by as much as their distance does. At the start they are just beyond the reach of the ghosts, 7.5 mm.
+  const auto distance_after = [](MPI_Comm comm) {
+    std::vector<RagPiece> spheres{cloth(1, 1), cloth(1, 1)};
+    for (const double side : {-1.0, 1.0}) {
+      RagPiece& piece = spheres[side < 0 ? 0 : 1];
+      piece.centre = side * 2.2e-3 * Vec3{1, 1, 1}, piece.velocity = -side * Vec3{1, 1, 1};
+    }
+    RagSystem rags(comm, {}, spheres);
+    rags.set_contacts(std::make_unique<ContactSolver>(ContactSettings{}, rags.rags(), nullptr));
+    rags.advance(3e-3);
+    return norm(rag_states(rags)[0].centre - rag_states(rags)[1].centre);
+  };
+  const double alone = distance_after(MPI_COMM_SELF), spread = distance_after(MPI_COMM_WORLD);
+  EXPECT_GT(alone, 2e-3) << "they must bounce";
+  EXPECT_EQ(spread, alone);
+}
+
 TEST(RagRanks, BondsBreakAlikeOnAnyNumberOfRanks) {
   // Requirement: with breakage the same bonds break, both tiles of a bond agree, and whole plus broken stays the number at birth.
   ThrownCloth alone(MPI_COMM_SELF, true), spread(MPI_COMM_WORLD, true);
