@@ -104,7 +104,7 @@ ExitCode run_calibrate(const CalibrateOptions& options) {
     settings.report_progress = [](const std::string& line) { log::info(line); };
     calibrations.push_back(calibrate(MPI_COMM_WORLD, tests, settings));
     tell_result(tests, calibrations.back());
-    write({});  // what there is stays if the next radius fails
+    write({});  // the results so far remain if the next radius fails
   }
   if (options.independence) {
     const Calibration& calibration = calibrations[calibrations.size() / 2];

@@ -40,7 +40,7 @@ struct FluidSamples {
   double dynamic_viscosity = 0;    // mu, Pa s
   VectorArray velocity = {};       // u, m/s
   VectorArray velocity_rate = {};  // of u on the way of the particle, with `start` at that place, but for the answer to forces, m/s2
-  VectorArray start = {};          // place of the particle at the start of the step, for which the samples are, m; null: its way is in them
+  VectorArray start = {};  // place of the particle at the start of the step, for which the samples are, m; null: they are those on its way
   const double* response = nullptr;                    // velocity that u loses per impulse of the particle, 1/kg; null: zero
   std::array<VectorArray, 3> velocity_gradient = {};   // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
   VectorArray pressure_gradient = {};                  // Pa/m

@@ -9,8 +9,8 @@
 // settling the weight less that of the water displaced. Programs whose u is the velocity in the gaps, w_g = w/epsilon, and whose particles
 // also have the force - V grad p of the mixture, state the same laws as F_A:
 //
-//   - V grad p = rho V (Du/Dt - g) + (1 - epsilon) F    (momentum of the water),   so that   F = F_A + (1 - epsilon) F =
-//   F_A(w/epsilon)/epsilon
+//   - V grad p = rho V (Du/Dt - g) + (1 - epsilon) F    (momentum of the water)
+//   F = F_A + (1 - epsilon) F,   so that   F = F_A(w/epsilon)/epsilon
 //
 // Source: Ergun (1952), Chem. Eng. Progr. 48, 89-94; Wen and Yu (1966), Chem. Eng. Progr. Symp. Ser. 62, 100-111.
 #include <algorithm>

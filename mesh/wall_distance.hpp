@@ -20,7 +20,7 @@ class WallTree {
  public:
   /// The triangles must outlive the tree.
   explicit WallTree(const std::vector<WallTriangle>& triangles);
-  /// The nearest point; none counts that is not nearer than `within`, m.
+  /// The nearest point among those nearer than `within`, m.
   WallPoint nearest(const Vec3& place, double within = std::numeric_limits<double>::infinity()) const;
 
  private:

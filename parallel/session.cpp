@@ -121,7 +121,8 @@ void leave_together(const Error& failure) {
     if (done) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  std::fprintf(stderr, "error: rank %d of %d: %s\n", rank_of(MPI_COMM_WORLD), size_of(MPI_COMM_WORLD), failure.what());
+  if (rank_of(MPI_COMM_WORLD) > 0)
+    std::fprintf(stderr, "error: rank %d of %d: %s\n", rank_of(MPI_COMM_WORLD), size_of(MPI_COMM_WORLD), failure.what());
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(failure.code));
 }
 

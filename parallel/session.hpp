@@ -29,8 +29,8 @@ int size_of(MPI_Comm comm);
 /// failing rank). The work itself must not communicate after the point where it may throw. Collective.
 void on_all_ranks(MPI_Comm comm, const std::function<void()>& work);
 
-/// After an error: a rank that fails alone leaves the others waiting in some exchange; gives them a moment to fail too. Returns where all
-/// have failed. Else this rank writes the error and its number to stderr (the log is silent on most ranks) and ends all with the code.
+/// After an error. Waits 5 s for all ranks to fail, and returns if they do. If not, the other ranks wait in an exchange: this rank then
+/// writes its number and the error to stderr (only rank 0 has a log, and has written it) and ends all ranks with the code.
 void leave_together(const Error& failure);
 
 /// Throw Error(io/mesh/...) with PETSc's own message if a PETSc call failed.

@@ -110,7 +110,7 @@ std::string pairs_of_strengths(const Verdict& v) {
 std::string how_far(const Verdict& v) {
   if (!v.gap.computable)
     return "<p>Not computable: it needs paths or means of scalars at three or more withheld operating points, enough runs in the "
-           "budget for the chosen hypothesis there, and that these do not fail. The verdict follows from the evidence alone.</p>\n";
+           "budget for the chosen hypothesis there, and none of these runs may fail. The verdict follows from the evidence alone.</p>\n";
   std::string text = bars({{"gap before", html::number(v.gap.before), v.gap.before, false},
                            {"gap after", html::number(v.gap.after), v.gap.after, true},
                            {"noise floor", html::number(v.gap.floor), v.gap.floor, false},

@@ -58,7 +58,7 @@ struct StudyRun {
   std::string name;                    // of its folder: "flow-26.8_speed-1200"
   std::vector<std::string> values;     // of what varies, in the order of the study file
   std::vector<std::string> overrides;  // as for --set
-  int failed_with = 0;                 // code of a run that was refused and has no summary
+  int failed_with = 0;                 // code of a run that failed; shown where it has no summary
 };
 
 struct Study {

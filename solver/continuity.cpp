@@ -123,11 +123,11 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   return report;
 }
 
-/// Of the water at a wall: that of the wall where it does not slip. Where it `slips`, as with a wall function, it is carried round a
-/// turning wall with its own velocity u along that of the wall, v: (u.v/v.v)^2 of the wall's acceleration, exact where the wall is a
-/// surface of revolution. At most all of it: water that runs ahead of a rotor at its start would ask for a multiple of the wall's
-/// acceleration, and runs away. None where the water runs against the wall. What the curvature of a standing wall asks for is not known
-/// here and taken as zero: first order.
+/// Of the water at a face without a given pressure: at an inlet as its condition gives it, at a wall without slip that of the wall. Where
+/// it `slips`, as with a wall function, it is carried round a turning wall with its own velocity u along that of the wall, v: (u.v/v.v)^2
+/// of the wall's acceleration, exact where the wall is a surface of revolution. At most all of it: water that is faster than a rotor at its
+/// start would have a multiple of the wall's acceleration, and the flow would diverge. None where the water runs against the wall. That
+/// along the curvature of a standing wall is not known here and taken as zero: first order.
 Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b, bool slips) {
   if (!slips && (flow.wall_function.empty() || !flow.wall_function[b])) return values.acceleration[b];
   const Vec3& v = values.velocity[b];

@@ -175,8 +175,8 @@ bool FlowSolver::go_on_from(CheckpointReader& checkpoint) {
   return true;
 }
 
-/// In the frame of a zone that stands the velocity of a cell does not change as it turns with the rotor; in a zone that slides it does.
-/// Turns that of the step before from the one to the other.
+/// With motion = "frame" the old velocity of a cell has components that turn with the rotor; with a sliding mesh its components are in the
+/// frame at rest. Turns the old velocity and its gradient by `angle` from the one to the other.
 void FlowSolver::turn_history(double angle) {
   const Mat3 R = rotation(rotating_zone_->axis(), angle);
   for (int c = 0; c < flow.mesh.n_all_cells(); ++c) {

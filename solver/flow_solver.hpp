@@ -64,7 +64,8 @@ class FlowSolver {
   void save(CheckpointWriter& checkpoint) const;
   void load(CheckpointReader& checkpoint);
   /// Reads the water and its history from the checkpoint of another run on the same mesh, with its rotor at the same angle; the time stays
-  /// 0, and the next step equals the next step of that run. Returns false, and reads nothing, if the checkpoint lacks a field. Collective.
+  /// 0. The next step is that of the other run if both slide or neither. Returns false, and reads nothing, if a field is missing.
+  /// Collective.
   bool go_on_from(CheckpointReader& checkpoint);
 
   const FlowSettings& settings() const { return settings_; }

@@ -267,8 +267,8 @@ struct Momentum::BoundaryFace {
         const Vec3& u = boundary.values().velocity[b];
         const double c = conductance(S, d);
         friction_slope = {mu * c, mu * c, mu * c};
-        // What leaves is the water of the cell. With the velocity that is given there, nothing would carry off what the water has across
-        // it. A convective outlet takes its velocity from the cell, with success in hexahedra.
+        // Fluid that leaves carries the velocity of the cell. With the given velocity the convection would not damp the tangential velocity
+        // of the cell. A convective outlet derives its velocity from the cell, which is stable in hexahedra.
         if (F > 0 && boundary.is_open(patch) && !(boundary.is_outlet(patch) && mesh.cell_shape[P] == CellShape::hexahedron))
           convection_slope = F, convection_source = F * (G * along_face(d, unit(S)));
         else

@@ -3,7 +3,7 @@
 //   form "power"    epsilon^(-theta)
 //   form "linear"   1 + theta (1 - epsilon): its leading order
 //
-// For a drag law of single spheres by the slip w = u - v, u the velocity of the mixture, as the laws of coupling/suspension_drag.hpp. A
+// It multiplies a drag law of single spheres by the slip w = u - v, u the velocity of the mixture, as in coupling/suspension_drag.hpp. A
 // suspension that settles in water without a net flow then has v = v_single epsilon^n, theta = n in creeping flow. (Published exponents of
 // about 2.7 are for the slip in the gaps and for the drag beside the pressure gradient of the mixture: 2 less.)
 // Source: Richardson and Zaki (1954), Trans. Inst. Chem. Eng. 32, 35-53: n = 4.65; di Felice (1994), Int. J. Multiphase Flow 20, 153-159:

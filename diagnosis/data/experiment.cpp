@@ -43,7 +43,7 @@ struct ObservableTable {
           .required = true},
          setting("kind", &kind,
                  "Distribution of repeats. Uncertainties of a lognormal quantity are relative, all others have the unit of the quantity. "
-                 "orientation, which comes back after half a turn, is an angle where this says gaussian.",
+                 "orientation, which repeats after half a turn, is taken as an angle if the kind is gaussian.",
                  {std::begin(kinds), std::end(kinds)}),
          {.key = "noise_u",
           .target = &observable.noise_u,
@@ -189,7 +189,7 @@ bool is_continuous(const Observable& observable) {
 struct Repeats {
   int n = 0, line = 0;
   double minimum = infinity, maximum = -infinity;
-  bool has_sd = false, has_censored = false;
+  bool has_sd = false, has_censored = false, lacks_sd = false;  // lacks_sd: a row stands for several repeats whose scatter it does not give
   bool scatter() const { return maximum > minimum || has_sd || has_censored; }
 };
 
@@ -205,22 +205,22 @@ void check_scatter(const Experiment& experiment, const std::string& file) {
     repeats.n += d.n;
     repeats.minimum = std::min(repeats.minimum, d.value), repeats.maximum = std::max(repeats.maximum, d.value);
     repeats.has_sd = repeats.has_sd || d.sd > 0, repeats.has_censored = repeats.has_censored || d.censored;
+    repeats.lacks_sd = repeats.lacks_sd || (d.n > 1 && !(d.sd > 0));
   }
   for (const auto& [place, repeats] : all) {
     const auto& [o, p, time] = place;
-    if (repeats.n > 1 && repeats.scatter()) continue;
+    if (repeats.n > 1 && repeats.scatter() && !repeats.lacks_sd) continue;
     const std::string what = file + ":" + std::to_string(repeats.line) + ": observable \"" + experiment.observables[o].id +
                              "\" at point \"" + experiment.points[p].id + "\"" +
                              (time == never ? "" : " at t = " + number_text(time) + " s");
     if (repeats.n < 2)
-      throw Error(ExitCode::usage,
-                  what +
-                      " has one repeat and no noise_u: its scatter is unknown; give noise_u, measure it again, or leave out "
-                      "what has one repeat only");
+      throw Error(
+          ExitCode::usage,
+          what + " has one repeat and no noise_u: its scatter is unknown; give noise_u, repeat the measurement, or remove this row");
     throw Error(ExitCode::usage,
                 what + " has " + std::to_string(repeats.n) + " repeats without scatter (" + number_text(repeats.minimum) +
-                    " SI) and no noise_u: its uncertainty is unknown; give noise_u (of numbers that are rounded to a step 0.3 of "
-                    "the step), or the sd of rows that stand for several repeats");
+                    " SI) and no noise_u: its uncertainty is unknown; give noise_u (for numbers that are rounded to a step: 0.3 of the "
+                    "step), or the sd of rows that stand for several repeats");
   }
 }
 
@@ -387,7 +387,7 @@ Experiment read_experiment(const CaseFile& file) {
   for (DatumRow& row : table.rows) {
     const Observable& observable = experiment.observables[row.datum.observable];
     convert(row, observable, data_name);
-    // Of a path the mean and the scatter at each time are all that is known of its repeats: not how one repeat goes from time to time.
+    // Of a path only the mean and the scatter at each time are known of its repeats, not how long the deviation of one repeat lasts.
     if (row.n == 1 || !std::isnan(row.datum.time))
       row.datum.n = row.n, row.datum.sd = row.sd, samples.emplace_back(row.datum, row.line);
     else

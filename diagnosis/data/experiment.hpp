@@ -53,7 +53,7 @@ struct Datum {
   bool censored = false;  // the true value is larger (a test that ended)
   int line = 0;           // of the data file
   int n = 1;              // repeats whose mean the value is, of paths alone: a scalar is one repeat
-  double sd = 0;          // their standard deviation; 0: as noise_u says
+  double sd = 0;          // their standard deviation; 0: not given, noise_u is used
 };
 
 struct Experiment {

@@ -8,7 +8,7 @@
 // probability 1/2, else log tau uniform from half a sampling step to the duration. What is stated (F = 1, tau = 0) stands unless the
 // repeats speak for another noise by 6 nats; a factor below 1 is not used. Scatter that grows or decays along the path, or that is ten
 // times as large as stated, is no noise of an instrument: it is left to summary.hpp. Rows that are means of several repeats are not used:
-// they do not say how one repeat goes from time to time.
+// they do not contain how long the deviation of one repeat lasts.
 #include <vector>
 
 #include "diagnosis/data/experiment.hpp"

@@ -23,7 +23,7 @@ double transformed(const Observable& observable, double value) { return observab
 
 // A sample of a path, or the mean of several (transformed).
 struct Sample {
-  double value = 0, sd = 0;  // sd: between them; 0: as noise_u says
+  double value = 0, sd = 0;  // sd: between them; 0: not given, noise_u is used
   int n = 1;
 };
 
@@ -41,13 +41,13 @@ struct Series {
   int observable_index = 0;
   std::map<int, int> replicates;                    // name -> 0 ..
   std::map<double, std::map<int, Sample>> samples;  // time -> replicate -> sample
-  bool has_means = false;                           // rows that stand for several repeats: how one goes from time to time is not known
+  bool has_means = false;                           // some rows stand for several repeats: how long a deviation lasts is not known
 
   std::map<double, Instant> instants;
 
   double noise_u() const { return noise->factor * observable->noise_u; }
 
-  // When all samples are there.
+  // To be called after the last sample was added.
   void sum_up() {
     for (const auto& [time, there] : samples) instants[time] = sum_of(there);
   }
@@ -64,8 +64,8 @@ struct Series {
     return all;
   }
 
-  // n samples of the noise know as little of its variance as this share of n independent ones, n/sum over i, j of r_ij^2, r their
-  // correlation: the variance of a sum of squares of Gaussian numbers is 2 sum r_ij^2.
+  // Of n samples of correlated noise the variance is as uncertain as that of n times this share independent samples, n/sum over i, j of
+  // r_ij^2, r their correlation: the variance of a sum of squares of Gaussian numbers is 2 sum r_ij^2.
   double independent_share(const std::vector<double>& times) const {
     double correlated = 0;
     for (const double a : times)

@@ -29,7 +29,7 @@ struct Row {
   double u = 0;                   // its standard uncertainty from noise and scatter
   double noise_u = 0;             // of one sample (spread: standard deviation that the noise alone gives)
   double sigma = 0;               // of one replicate's logarithm (time); overdispersion (count)
-  int n_replicates = 0;
+  int n_replicates = 0;           // of a path the mean number at its times, of a spread the largest number at one time, else of values
 };
 
 /// True for the rows that are Gaussian together.

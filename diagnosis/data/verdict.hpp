@@ -74,7 +74,7 @@ struct Shrinkage {
 
 /// Mean squares over the cells of the withheld points, in units of u_D^2.
 struct GapBars {
-  bool computable = false;  // at least three withheld points with Gaussian rows, and runs of the chosen hypothesis there, none failed
+  bool computable = false;  // three withheld points or more have rows that base model and chosen hypothesis answer, and no run failed
   double before = 0, after = 0, floor = 0, remainder = 0;
 };
 

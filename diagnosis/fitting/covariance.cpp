@@ -65,6 +65,7 @@ void add_scatter(const PointSummary& point, const Response& response, Eigen::Mat
   const double n = static_cast<double>(response.paths.cols());
   const Eigen::MatrixXd S = response.paths * response.paths.transpose() / (n - 1);
   constexpr int few_replicates = 3;
+  const auto of_few = [](const Row& row) { return row.n_replicates < few_replicates ? 1.0 / row.n_replicates : 0; };
   for (int begin = 0, end = 0; begin < point.n_gaussian; begin = end) {
     double next = 0, own = 0, step = 0;
     for (end = begin; end < point.n_gaussian && point.rows[end].observable == point.rows[begin].observable; ++end) {
@@ -76,8 +77,7 @@ void add_scatter(const PointSummary& point, const Response& response, Eigen::Mat
     const double tau = -(step > 0 ? step * (point.n_gaussian - 1) / std::max(1, end - begin - 1) : 1) / std::log(correlation);
     for (int i = begin; i < end; ++i) {
       for (int j = begin; j < end; ++j) {
-        const int replicates = std::min(point.rows[i].n_replicates, point.rows[j].n_replicates);
-        const double share = 1 / n + (replicates < few_replicates ? 1.0 / replicates : 0);
+        const double share = 1 / n + std::sqrt(of_few(point.rows[i]) * of_few(point.rows[j]));
         const double apart = i == j ? 0 : std::abs(time_of(point.rows[i]) - time_of(point.rows[j])) / tau;
         C(i, j) += share * std::sqrt(response.scatter[i] * response.scatter[j]) * std::exp(-apart);
       }

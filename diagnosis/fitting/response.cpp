@@ -358,10 +358,11 @@ void Responses::note_rows_left_out(std::size_t point, const Response& answer) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].kind != Row::Kind::path) {
       if (!std::isfinite(answer.value[static_cast<Eigen::Index>(i)]))
-        notes_.push_back(
-            experiment_.observables[static_cast<std::size_t>(rows[i].observable)].id + " at point " + experiment_.points[point].id +
-            " is not compared, for the runs have no such number. If they end before the event comes, raise [time] end_s of the "
-            "case, or give the time kind = \"lognormal\": then a run says that it comes later.");
+        notes_.push_back(experiment_.observables[static_cast<std::size_t>(rows[i].observable)].id + " at point " +
+                         experiment_.points[point].id +
+                         " is not compared, for the runs have no such number. If it is the time of an event after the end of the runs, "
+                         "raise [time] end_s "
+                         "of the case, or set kind = \"lognormal\": the run then counts as a time later than its end.");
       continue;
     }
     Left& left = all[rows[i].observable];

@@ -17,10 +17,11 @@ Separation separation(const Responses& model, std::size_t p, const Predictions& 
   const int n = end - begin;
   const Row& first = point.rows[begin];
   const Eigen::VectorXd difference = finite(predictions.difference.segment(begin, n));
-  Eigen::VectorXd measured(n);  // root of the repeats that were, over those to come
+  // Of two rows the repeats of one are among those of the other: their noise is divided by the larger number.
+  Eigen::MatrixXd C = point.covariance.block(begin, begin, n, n) / n_repeats;
+  const auto measured = [&](int i) { return std::max(1, point.rows[static_cast<std::size_t>(begin + i)].n_replicates); };
   for (int i = 0; i < n; ++i)
-    measured[i] = std::sqrt(std::max(1, point.rows[static_cast<std::size_t>(begin + i)].n_replicates) / static_cast<double>(n_repeats));
-  Eigen::MatrixXd C = measured.asDiagonal() * point.covariance.block(begin, begin, n, n) * measured.asDiagonal();
+    for (int j = 0; j < n; ++j) C(i, j) *= std::max(measured(i), measured(j));
   const Eigen::VectorXd numerical = predictions.numerical_error.segment(begin, n);
   C += numerical * numerical.transpose();
   for (const Eigen::VectorXd& all : predictions.by_input) {

@@ -182,10 +182,13 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
   verdict.gap.before = verdict.gap.after = excess_gap(before);
   verdict.gap.floor = noise_floor(before);
   const std::uint64_t seed = model.experiment().seed;
-  if (const double noise = excess_of_noise(before, seed); chosen > 0 && verdict.gap.before <= noise)
-    verdict.notes.push_back("The withheld points show no gap (excess " + number_text(verdict.gap.before) + ", noise alone makes up to " +
-                            number_text(noise) +
-                            "): the shrinkage cannot be estimated from them. Withhold points where the effect is larger.");
+  const auto note_small_gap = [&](const WithheldError& base) {
+    const double gap = excess_gap(base), noise = excess_of_noise(base, seed);
+    if (gap <= noise)
+      verdict.notes.push_back("The withheld points show no gap (excess " + number_text(gap) + ", noise alone makes up to " +
+                              number_text(noise) +
+                              "): the shrinkage cannot be estimated from them. Withhold points where the effect is larger.");
+  };
   // The chosen one first: without it there is no gap after.
   std::vector<int> order;
   if (chosen > 0) order.push_back(chosen);
@@ -211,6 +214,7 @@ void measure_shrinkage(Responses& model, const Attribution& attribution, int cho
       continue;
     }
     verdict.shrinkage[attribution.names[i]] = shrunk;
+    note_small_gap(base);
     verdict.gap.before = excess_gap(base), verdict.gap.after = excess_gap(after), verdict.gap.floor = noise_floor(after);
     if (both != all)
       verdict.notes.push_back("The shrinkage at the withheld points is that of " + std::to_string(n_rows(both)) + " of " +

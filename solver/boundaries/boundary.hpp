@@ -46,7 +46,7 @@ class Boundary {
   virtual Section section() = 0;
   virtual PrescribedQuantity fixes() const = 0;
   /// How the velocity of a cell ends at a face, for its gradients, friction and convection: value (friction by the difference to
-  /// BoundaryValues::velocity, which fluid carries through the face), slope (no friction; fluid that enters comes along the normal) or
+  /// BoundaryValues::velocity; fluid that enters carries it), slope (no friction; fluid that enters comes along the normal) or
   /// mirror (friction of the normal part alone, by the difference to BoundaryValues::velocity, nothing carried).
   virtual Side velocity_side() const;
   /// How the pressure ends: value (BoundaryValues::pressure) or slope.
@@ -61,7 +61,7 @@ class Boundary {
   /// True where the pressure is as given, false where its level follows from the flow.
   virtual bool pressure_is_prescribed() const { return pressure_side() == Side::value; }
   /// Where pressure_side() is value: the pressure that the case gives at a time, or with a target of the flow the level that the controller
-  /// has found, Pa; without what the flow itself takes from it.
+  /// has found, Pa; before the dynamic head of entering water is subtracted.
   virtual double given_pressure(double /*time*/) const { return 0; }
   /// True where what the water carries has left for good once it is beyond the patch.
   virtual bool is_outlet() const { return pressure_side() == Side::value; }

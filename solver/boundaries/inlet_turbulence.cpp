@@ -18,7 +18,8 @@ std::vector<Parameter> InletTurbulence::parameters() {
       {"turbulence_intensity", &intensity, "1", 0, 1, Basis::assumed,
        "Turbulence intensity of entering fluid: rms fluctuation of a velocity component over the speed, 0.05 for 5 %; by default 0.05."},
       {"turbulence_length_scale", &length_scale, "m", 1e-12, infinity, Basis::literature,
-       "Length scale of the eddies of entering fluid; by default 0.07 of the diameter of a circle with the area of the patch. Give it for a half model, whose patch has half the area."},
+       "Length scale of the eddies of entering fluid; by default 0.07 of the diameter of a circle with the area of the patch. The patch of "
+       "a half model has half the area: give the length scale there."},
       {"turbulence_k", &k, "m2/s2", 0, infinity, Basis::assumed,
        "Turbulent kinetic energy of entering fluid, instead of the intensity; with turbulence_epsilon."},
       {"turbulence_epsilon", &epsilon, "m2/s3", 0, infinity, Basis::assumed,

@@ -9,7 +9,7 @@
 //   over the other faces, to that of the least-squares gradients g':
 //                    interior: phi_f += 1/2 ((V g' - V g)_P - (V g' - V g)_N).S/|S|^2,   boundary: phi_f += a (V g' - V g)_P.S/|S|^2
 //                    a is 1 over the sum of |n.n_k| over all such faces k of the cell, this one among them: 1 if it has no other
-//                    it stays one value a face, so the sums telescope, and exact for linear fields
+//                    phi_f stays one value a face, so that the sums telescope, and the gradient is exact for linear fields
 //
 // A cell with few neighbours (a tetrahedron with two faces on walls where the value is unknown) leaves directions open: eigenvalues of M
 // near zero. In these directions it takes the mean gradient of its neighbours, so that linear fields stay exact. First order on any mesh,
@@ -87,7 +87,7 @@ class LeastSquares {
   /// Skew faces (mesh/skewness.hpp), ascending, and whether any rank has some.
   const std::vector<int>& skew_faces() const { return skew_faces_; }
   bool skew_anywhere() const { return skew_anywhere_; }
-  /// A boundary face without a given value that its cell lies aslant over, and the share of what its cell lacks along it that it takes.
+  /// A boundary face without a given value over which its cell lies aslant; `share`: the factor a above.
   struct AslantFace {
     int face;
     double share;
@@ -138,8 +138,8 @@ std::vector<int> closed_cells(const Mesh& mesh, const LeastSquares& squares);
 /// [n_all_cells], ghosts filled. Exact for linear fields. Local.
 Vec3 mean_of_neighbours(const Mesh& mesh, int cell, const std::vector<Vec3>& g);
 
-/// Mean of G over an owned cell and its neighbours; the same. Of a velocity whose error alternates from cell to cell it has a part of what
-/// G has in tetrahedra.
+/// Mean of G over an owned cell and its neighbours, a facet counts with its share; `G` [n_all_cells], ghosts filled. Local. In tetrahedra
+/// an error of the velocity that alternates from cell to cell changes this mean less than G.
 Mat3 mean_with_neighbours(const Mesh& mesh, int cell, const std::vector<Mat3>& G);
 
 }  // namespace snag

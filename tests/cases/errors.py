@@ -92,7 +92,6 @@ class Mistakes(harness.CaseTest):
             if "--out" not in words:
                 self.assertIn("standard output: cannot be written (No space left on device)", run.stderr, words)
 
-    @harness.parallel
     def test_rank_that_fails_alone(self):
         """The memory of the second rank is limited, the first one waits for it: the error names the rank."""
         one_sheet, _, _ = SMALL_SHEETS.rpartition("[[rag]]")

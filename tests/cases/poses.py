@@ -43,7 +43,7 @@ class Poses(harness.CaseTest):
         self.assertEqual(two.summary["rags"], resumed.summary["rags"])
         for length in (60, 240):
             refused = self.run_case(file, 1, "--resume", "--set", f"rag.length_mm={length}", out="one", code=2)
-            self.assertIn("was written by another case", refused.stderr)
+            self.assertIn("its pose of", refused.stderr)
 
     def test_runs_of_a_study_share_it(self):
         """A pose is made once for all runs with the same cloth and seed, and each run is what it is by itself."""

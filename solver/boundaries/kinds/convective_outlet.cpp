@@ -7,15 +7,15 @@
 //
 //   u(x, t + dt) = u_P + grad u_P . (x - s n - x_P)
 //
-// In other cells a step that is short against l would take nearly all of the way from x_P with a gradient in which the last u at the face
-// is, and the flow across n grows without bound. There, first order:
+// In other cells a gradient that contains the last u at the face carries u nearly all of the way from x_P to x in a step that is short
+// against l, and the flow across n grows without bound. There, first order, with grad u_P the mean over the cell and its neighbours:
 //
-//   u.n(x, t + dt) = u.n(x - s n, t)                     linear from the face, where the flux at t gives it, to x - l n; with grad u_P
-//   beyond u(x - l n) = u_P + grad u_P . (x - l n - x_P) u - (u.n) n = that of u(x - l n)                     what leaves is the water of
-//   the cell (solver/momentum.cpp) grad u_P: the mean over the cell and its neighbours
+//   u.n(x, t + dt) = u.n(x - s n, t)      s < l: linear between the face (its flux at t) and x - l n; s >= l: with grad u_P from x_P
+//   u - (u.n) n    = that of u(x - l n) = u_P + grad u_P . (x - l n - x_P);      s >= l: that of u(x - s n)
 //
-//   Du/Dt = grad u_P . (u - U n)                         for the slope of the pressure, grad u_P extrapolated to t + dt; first order in
-//   cells
+// and the convected velocity is that of the cell (solver/momentum.cpp). In all cells, for the slope of the pressure, first order in cells:
+//
+//   Du/Dt = grad u_P . (u - U n)          grad u_P extrapolated to t + dt
 //
 // Steps in which the stream crosses more than three cells may diverge, and so may steps in which friction carries momentum over several.
 //

@@ -162,6 +162,7 @@ TEST_F(ReadExperiment, EachNumberHasItsScatter) {
               "data.csv:4: observable \"x\" at point \"A\" at t = 0.2 s has one repeat and no noise_u");
   EXPECT_EQ(message(bare, means + "A,0,0.1,x,1,10,0.2\nA,0,0.2,x,2,5,0.3\n"), "accepted");
   EXPECT_TOLD(message(bare, means + "A,0,0.1,x,1,10,0.2\nA,0,0.2,x,2,5,\n"), "t = 0.2 s has 5 repeats without scatter");
+  EXPECT_TOLD(message(bare, means + "A,0,0.1,x,1,5,\nA,5,0.1,x,2,5,\n"), "t = 0.1 s has 10 repeats without scatter");
   EXPECT_TOLD(message(bare, means + "A,0,,x,1,10,0\n"), "point \"A\" has 10 repeats without scatter");
   EXPECT_EQ(message(head + x_mm + A, means + "A,0,0.1,x,1,10,\nA,0,0.2,x,2,1,\n"), "accepted");
 }

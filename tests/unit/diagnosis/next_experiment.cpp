@@ -42,8 +42,8 @@ std::string advice(double noise_u, double slope, double bias_u) {
   return next_experiment(responses, attribution, false);
 }
 
-/// Requirement: repeats make the noise smaller, but neither the inputs nor the bias: where these are as large as half of the difference of
-/// the predictions, no number of repeats is proposed.
+/// Requirement: repeats reduce the noise, but neither the uncertainty of the inputs nor the bias: where one of these is as large as the
+/// difference of the predictions or larger, no number of repeats is proposed.
 TEST(NextExperiment, RepeatsReduceOnlyTheNoise) {
   const std::string noisy = advice(2, 10, 0), uncertain = advice(0.5, 1, 0), biased = advice(2, 10, 2);
   EXPECT_NE(noisy.find("more repeats are enough"), std::string::npos) << noisy;

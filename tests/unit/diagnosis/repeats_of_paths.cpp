@@ -83,7 +83,8 @@ TEST(RepeatsOfPaths, MeansOfALognormalQuantity) {
   EXPECT_NEAR(summary.rows.back().u, u / (1 + std::sin(step * (n_times - 1))) / std::sqrt(n_repeats), 0.001);
 }
 
-/// `n` repeats, each with an offset of its own beside the noise, of standard deviation 1, or t; from `end` on only the last ones go on.
+/// `n` repeats of noise and an offset from zero, of standard deviation 1 or, where it grows, t; from sample `end` on only the last
+/// `n_at_the_end` repeats have samples.
 Experiment of_offsets(int n, int n_at_the_end, int end, double noise_u, std::uint64_t seed, bool grows = false) {
   Experiment experiment;
   experiment.observables = {{.id = "x", .unit = "m", .noise_u = noise_u, .calibration_group = ""}};
@@ -97,8 +98,8 @@ Experiment of_offsets(int n, int n_at_the_end, int end, double noise_u, std::uin
   return experiment;
 }
 
-/// Requirement: where repeats end early, what those that go on share with none is divided by their number, and is as large as it was where
-/// all were there.
+/// Requirement: where repeats end early, the offsets of those that remain are divided by their number; the variance of one offset is that
+/// of the time when all were there.
 TEST(RepeatsOfPaths, ThoseThatEndEarly) {
   constexpr int n = 6, n_seeds = 100;
   for (const int left : {1, 2})
@@ -117,7 +118,7 @@ TEST(RepeatsOfPaths, ThoseThatEndEarly) {
     }
 }
 
-/// Requirement: repeats that part at a rate go on to do so where only one is left.
+/// Requirement: scatter that grows in time is extrapolated to the times at which one repeat is left.
 TEST(RepeatsOfPaths, ScatterGrowsOn) {
   constexpr int n_seeds = 100;
   const double end = step * (n_times - 1);

@@ -25,6 +25,24 @@ TEST(Rows, CovarianceKeepsUnitsApart) {
   EXPECT_NEAR(C(1, 1) / 1e8, 1, 1e-6);
 }
 
+/// Requirement: where repeats end early, the scatter of random runs over the number of repeats gives a covariance all the same.
+TEST(Rows, CovarianceOfRepeatsThatEndEarly) {
+  PointSummary point;
+  point.n_gaussian = 2;
+  for (const double time : {0.0, 0.1}) {
+    Row row{.kind = Row::Kind::path, .observable = 0};
+    row.begin = row.end = time, row.n_replicates = time > 0 ? 1 : 6;
+    point.rows.push_back(row);
+  }
+  point.covariance = Eigen::Matrix2d::Zero();
+  Response response;
+  response.value = Eigen::Vector2d::Zero(), response.scatter = Eigen::Vector2d::Ones();
+  response.paths = Eigen::MatrixXd(2, 8);
+  for (int run = 0; run < 8; ++run) response.paths.col(run).setConstant(run - 3.5);  // what a run has, it has at both times
+  const Eigen::MatrixXd C = model_covariance(point, response, Eigen::Vector2d::Zero(), {});
+  EXPECT_GT(C.determinant(), 0);
+}
+
 /// Answers every slot with one number, or with none.
 class Constant final : public TestSimulator {
  public:

@@ -88,7 +88,7 @@ TEST(Rows, OfTheFirstRankComeToAll) {
   }
 }
 
-// A message is counted in rows: 400 million of 8 bytes have more bytes than an int counts. One rank sends them to nobody, so that their
+// A message is counted in rows: 400 million of 8 bytes have more bytes than an int counts. One rank sends them to no rank, so that their
 // memory is not touched.
 TEST(Rows, MayHaveMoreBytesThanAnIntCounts) {
   if (size_of(MPI_COMM_WORLD) > 1) GTEST_SKIP() << "3.2 GB on each rank";

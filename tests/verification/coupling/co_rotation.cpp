@@ -74,7 +74,7 @@ void expect_second_order(const char* name, const Make& make) {
   std::vector<double> errors;
   for (const int steps : {50, 100, 200}) errors.push_back(std::abs(sphere_after_a_turn(steps, make) - 1));
   const double order = std::log2(errors[0] / errors[2]) / 2;
-  std::printf("  %s: off the radius by %.2e %.2e %.2e, order %.2f\n", name, errors[0], errors[1], errors[2], order);
+  std::printf("  %s: error of the radius %.2e %.2e %.2e, order %.2f\n", name, errors[0], errors[1], errors[2], order);
   EXPECT_GT(order, 1.8);
   EXPECT_LT(errors[1], 2e-3);
 }
