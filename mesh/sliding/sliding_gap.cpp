@@ -70,13 +70,14 @@ std::string told(const OpenSide& open, const AxisFrame& frame) {
          " along the axis)";
 }
 
-/// The open face that is covered worst: the first of both sides.
+/// The open face that is covered worst, the first of both sides; empty without an open face.
 std::string worst_of(const std::vector<OpenSide>& sides, const AxisFrame& frame) {
   const OpenSide* side = nullptr;
   std::size_t worst = 0;
   for (const OpenSide& open : sides)
     for (const std::size_t f : open.face)
       if (!side || open.gap(f) > side->gap(worst)) side = &open, worst = f;
+  if (!side) return {};
   const RevolvedFace& face = side->side.face[worst];
   Vec3 middle;
   for (const int n : side->nodes_of(worst)) middle += side->side.node[n].position(side->turn) / face.n_nodes;

@@ -116,7 +116,8 @@ TEST(WallContacts, ParticlesBeyondAreCounted) {
   pieces.add_sphere(Pieces::sphere(r, 540), {0.0101, 0.0099, 0.02 + 0.9 * r}), pieces.add_sphere(Pieces::sphere(r, 540), {0.05, 0, 0});
   ContactSolver contacts(ContactSettings{}, pieces.rags, &walls);
   const auto tiles = pieces.owned();
-  for (double depth = -0.9; depth < 8; depth += 0.05) {
+  for (int i = 0; i < 178; ++i) {
+    const double depth = -0.9 + 0.05 * i;
     pieces.set(0, Tile::x, {0.0101, 0.0099, 0.02 - depth * r});
     pieces.clear_forces();
     contacts.add_forces(tiles, {}, 1e-6);
@@ -274,7 +275,7 @@ axis = [0, 1, 0]
 
 /// ASCII STL of a surface given with normals out of the fluid, written with the opposite turn: that of a solid body.
 std::filesystem::path write_solid_stl(const WallSurface& surface) {
-  const auto path = std::filesystem::temp_directory_path() / ("snag_wall_set_" + std::to_string(rank_of(MPI_COMM_WORLD)) + ".stl");
+  auto path = std::filesystem::temp_directory_path() / ("snag_wall_set_" + std::to_string(rank_of(MPI_COMM_WORLD)) + ".stl");
   std::ofstream file(path);
   file.precision(17);
   file << "solid block\n";
