@@ -146,7 +146,7 @@ class RagInPump(harness.CaseTest):
         self.assert_equal_to_the_bit(whole, resumed, lambda run: sorted((run.folder / "rags").glob(f"*_{self.n_steps:06}.vtp")))
 
     def test_stops_before_the_last_rag_is_put_in_and_in_mid_transit(self):
-        self.stop_and_resume(3, after=(4, 18))
+        self.stop_and_resume(3, after=(4, 14))
 
 
 if __name__ == "__main__":
