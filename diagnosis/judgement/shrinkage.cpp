@@ -24,10 +24,10 @@ class Prediction {
  public:
   Prediction(Responses& model, const Attribution& attribution) : model_(model), attribution_(attribution) {}
 
-  /// Those for which the base model and the fit have a number; empty, and why, where a run fails.
+  /// Those for which the fit has a number; empty, and why, where a run fails. The base model has one for all.
   ComparedRows rows_with_answer(const Fit& fit, std::string& failure) {
     ComparedRows rows;
-    const auto responses = model_.run(withheld_state(fit), model_.withheld()), base = model_.run(model_.base(), model_.withheld());
+    const auto responses = model_.run(withheld_state(fit), model_.withheld());
     for (std::size_t p = 0; p < responses.size(); ++p) {
       if (!responses[p].failure.empty()) {
         failure = "at point " + model_.experiment().points[static_cast<std::size_t>(model_.withheld()[p])].id + ": " + responses[p].failure;
@@ -35,7 +35,7 @@ class Prediction {
       }
       rows.emplace_back();
       for (int i = 0; i < model_.points()[model_.withheld()[p]].n_gaussian; ++i)
-        if (std::isfinite(responses[p].value[i]) && std::isfinite(base[p].value[i])) rows.back().push_back(i);
+        if (std::isfinite(responses[p].value[i])) rows.back().push_back(i);
     }
     return rows;
   }
