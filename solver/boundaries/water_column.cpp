@@ -12,12 +12,16 @@ namespace {
 constexpr double solved = 1e-12;  // residual over right side: G is then the same on any number of ranks, nearly to the bit
 }
 
-double column_conductance(const Mesh& mesh, const std::vector<PatchBoundary>& conditions, const Patch& patch) {
+double column_conductance(const Mesh& mesh, const std::vector<PatchBoundary>& conditions, const Patch& patch,
+                          ControlledOutlets controlled) {
+  const auto is_open = [&](const Boundary& boundary) {
+    return controlled == ControlledOutlets::open ? boundary.pressure_side() == Side::value : boundary.pressure_is_prescribed();
+  };
   std::vector<double> coefficient(static_cast<std::size_t>(mesh.n_faces)), phi(static_cast<std::size_t>(mesh.n_all_cells()));
   std::vector<double> right_side(phi.size());
   for (int f = 0; f < mesh.n_interior; ++f) coefficient[f] = conductance(mesh.face_vector[f], mesh.delta[f]);
   for (std::size_t p = 0; p < conditions.size(); ++p) {
-    if (!conditions[p].boundary->pressure_is_prescribed() && mesh.patches[p].name != patch.name) continue;
+    if (!is_open(*conditions[p].boundary) && mesh.patches[p].name != patch.name) continue;
     for (int f = mesh.patches[p].first; f < mesh.patches[p].end(); ++f) coefficient[f] = conductance(mesh.face_vector[f], mesh.delta[f]);
   }
   double square = 0;

@@ -7,6 +7,7 @@
 #include "solver/boundaries/boundary.hpp"
 #include "solver/boundaries/entering_head.hpp"
 #include "solver/boundaries/time_course.hpp"
+#include "solver/boundaries/water_column.hpp"
 
 namespace snag {
 namespace {
@@ -35,8 +36,9 @@ struct PressureInlet final : Boundary {
   std::string advice() const override {
     return total ? "" : "total = true, with the dynamic head added to pressure: a static pressure does not hold the speed of single faces";
   }
-  void prepare(const Mesh&, const Patch& patch, const std::vector<PatchBoundary>&) override {
+  void prepare(const Mesh& mesh, const Patch& patch, const std::vector<PatchBoundary>& all) override {
     course.check("[[boundary]] \"" + patch.name + "\"");
+    if (total) head_ = EnteringHead(column_conductance(mesh, all, patch, ControlledOutlets::open));
   }
   double given_pressure(double time) const override { return pressure * course.at(time); }
   void respond(const Flow& flow, const Patch& patch, double time) override {

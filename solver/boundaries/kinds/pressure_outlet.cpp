@@ -67,7 +67,7 @@ struct PressureOutlet final : Boundary {
       throw Error(ExitCode::usage, where +
                                        ": target_flow_rate needs another patch where the pressure is given, from which the fluid comes; "
                                        "use kind = \"pressure_inlet\", or remove target_flow_rate");
-    control.emplace(column_conductance(mesh, all, patch), pressure);
+    control.emplace(column_conductance(mesh, all, patch, ControlledOutlets::closed), pressure);
   }
 
   void respond(const Flow& flow, const Patch& patch, double time) override {

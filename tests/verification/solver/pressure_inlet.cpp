@@ -48,8 +48,8 @@ TEST(PressureInlet, total) {
   std::vector<double> h, error;
   for (const int steps : {30, 60, 120})
     h.push_back(3.0 / steps), error.push_back(std::abs(speed_at(mesh, "pressure_Pa = 0.6", 3, steps) - exact));
-  EXPECT_LT(error.back(), 0.01);
-  EXPECT_GT(observed_order("speed behind a total pressure, in time", h, error), 0.9);
+  EXPECT_LT(error.back(), 1e-4);
+  EXPECT_GT(observed_order("speed behind a total pressure, in time", h, error), 1.8);
   EXPECT_NEAR(speed_at(mesh, "pressure_Pa = 0.6", 40, 800), 1, 1e-6);
 }
 
@@ -75,6 +75,12 @@ TEST(PressureInlet, large_steps) {
   EXPECT_GT(run(0.25, 100), 12);
   EXPECT_LT(largest_deviation(), 0.2);
   EXPECT_NEAR(flow_rate(solver.flow, x1), 1, 0.01);
+}
+
+// Steps in which the water moves one and five lengths of its column: the flow comes to its end and stays there.
+TEST(PressureInlet, steps_longer_than_the_column) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {2, 1, 1}, {1, 1, 1});
+  for (const double step : {2.0, 10.0}) EXPECT_NEAR(speed_at(mesh, "pressure_Pa = 0.6", 400 * step, 400), 1, 1e-6) << step;
 }
 
 // A static pressure of 0.6 Pa speeds the column up at p/(rho L) = 0.25 m/s2 without end; water that flows back leaves at p_0 itself, and

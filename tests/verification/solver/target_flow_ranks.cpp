@@ -16,10 +16,22 @@ TEST(TargetFlowRanks, water_column) {
     for (const PatchBoundary& condition : conditions(from_tank("")))
       ordered[mesh.patch_index(condition.patch)] = {condition.patch, "", boundaries().make("wall", "test")};
     for (const char* open : {"x0", "x1"}) ordered[mesh.patch_index(open)].boundary = boundaries().make("pressure_outlet", "test");
-    return column_conductance(mesh, ordered, mesh.patches[mesh.patch_index("x1")]);
+    return column_conductance(mesh, ordered, mesh.patches[mesh.patch_index("x1")], ControlledOutlets::closed);
   };
   EXPECT_NEAR(conductance_of(structured_box(MPI_COMM_WORLD, {}, {2, 1, 1}, {10, 3, 6})), 0.5, 1e-9);
   EXPECT_NEAR(conductance_of(tetrahedra()), 0.5, 0.1);
+}
+
+// A column that ends at an outlet with a target of its flow is closed there or open, as asked.
+TEST(TargetFlowRanks, water_column_to_a_controlled_outlet) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {2, 1, 1}, {10, 3, 6});
+  std::vector<PatchBoundary> all(mesh.patches.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = {mesh.patches[p].name, "", boundaries().make("wall", "test")};
+  for (PatchBoundary& condition : conditions(from_tank("target_flow_rate_m3_s = 0.8")))
+    if (condition.boundary->is_open()) all[mesh.patch_index(condition.patch)].boundary = std::move(condition.boundary);
+  const Patch& inlet = mesh.patches[mesh.patch_index("x0")];
+  EXPECT_NEAR(column_conductance(mesh, all, inlet, ControlledOutlets::open), 0.5, 1e-9);
+  EXPECT_NEAR(column_conductance(mesh, all, inlet, ControlledOutlets::closed), 0, 1e-9);
 }
 
 // The conductance does not depend on which ranks hold faces of the patch: here the first one alone does, and the next patch begins where
@@ -32,7 +44,7 @@ TEST(TargetFlowRanks, water_column_of_a_patch_on_one_rank) {
       const std::string& name = mesh.patches[p].name;
       all[p] = {name, "", boundaries().make(name == "x1" || name == "z0" ? "pressure_outlet" : "wall", "test")};
     }
-    return column_conductance(mesh, all, mesh.patches[mesh.patch_index("z0")]);
+    return column_conductance(mesh, all, mesh.patches[mesh.patch_index("z0")], ControlledOutlets::closed);
   };
   EXPECT_NEAR(conductance_of(MPI_COMM_WORLD) / conductance_of(MPI_COMM_SELF), 1, 1e-9);
 }
