@@ -51,6 +51,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       slope_(workspace.vector[0]),
       gradient_(workspace.vector[1]),
       closed_cells_(closed_cells(mesh, squares_)),
+      wall_cell_(wall_cells(mesh, boundary)),
       mean_gradient_(workspace.mean_gradient()),
       change_(workspace.face),
       given_(mesh.n_faces - mesh.n_interior),
@@ -119,21 +120,19 @@ ContinuityReport Continuity::correct(Flow& flow, const BoundarySet& boundary, co
   set_boundary_of_correction(flow, boundary);
   const ContinuityReport report = solve(flow, boundary.values(), settings_.n_non_orthogonal_correctors);
   correct_cells(flow, true);
+  if (reaction_is_new_) keep_held(flow);
   if (is_last) carry_history();
   return report;
 }
 
-/// Of the water at a face without a given pressure: at an inlet as its condition gives it, at a wall without slip that of the wall. Where
-/// it `slips`, as with a wall function, it is carried round a turning wall with its own velocity u along that of the wall, v: (u.v/v.v)^2
-/// of the wall's acceleration, exact where the wall is a surface of revolution. At most all of it: water that is faster than a rotor at its
-/// start would have a multiple of the wall's acceleration, and the flow would diverge. None where the water runs against the wall. That
-/// along the curvature of a standing wall is not known here and taken as zero: first order.
-Vec3 Continuity::acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b, bool slips) {
-  if (!slips && (flow.wall_function.empty() || !flow.wall_function[b])) return values.acceleration[b];
-  const Vec3& v = values.velocity[b];
-  if (norm_squared(v) == 0) return {};
-  const double carried = std::clamp(dot(flow.velocity[cell], v) / norm_squared(v), 0.0, 1.0);
-  return carried * carried * values.acceleration[b];
+void Continuity::keep_held(const Flow& flow) {
+  reaction_is_new_ = false;
+  const bool any = std::any_of(flow.reaction.begin(), flow.reaction.end(), [](const Vec3& force) { return force != Vec3{}; });
+  held_.clear();
+  if (sum(mesh_.comm, std::int64_t{any}) == 0) return;
+  held_ = flow.reaction;
+  held_.resize(static_cast<std::size_t>(mesh_.n_all_cells()));
+  mesh_.halo.exchange(held_);
 }
 
 /// p' at the boundary: the change of the fixed pressure, or of the normal slope.
@@ -147,10 +146,14 @@ void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet&
         given_[b] = boundary.values().pressure[b] - flow.boundary_pressure[b];
         continue;
       }
-      const Vec3 acceleration = acceleration_at_wall(flow, boundary.values(), P, b, slips);
       const Vec3 given = reaction_.empty() ? Vec3{} : reaction_[P];
-      const Vec3 force = flow.body_force + given - flow.density * acceleration;
-      const double slope = dot(force, unit(mesh_.face_vector[f]));
+      const bool has_wall_function = !flow.wall_function.empty() && flow.wall_function[b] != 0;
+      std::optional<Vec3> gradient;
+      if (has_wall_function) gradient = gradient_at_wall_function(mesh_, wall_cell_, flow.pressure_gradient, held_, P);
+      if (!gradient)
+        gradient =
+            flow.body_force - flow.density * acceleration_at_wall(flow.velocity[P], boundary.values(), b, slips || has_wall_function);
+      const double slope = dot(*gradient + given, unit(mesh_.face_vector[f]));
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;
     }
@@ -160,6 +163,7 @@ void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet&
 void Continuity::balance_reaction(Flow& flow) {
   const bool any = std::any_of(flow.reaction.begin(), flow.reaction.end(), [](const Vec3& force) { return force != Vec3{}; });
   reaction_.clear(), reaction_excess_.clear();
+  reaction_is_new_ = true;
   if (sum(mesh_.comm, std::int64_t{any}) == 0) return;
   reaction_ = flow.reaction;
   reaction_.resize(static_cast<std::size_t>(mesh_.n_all_cells()));

@@ -39,6 +39,13 @@
 // V f (2e-5 for a kernel of three cells); cells take the difference off in proportion to |f|. On uniform cells f~ is (1/4, 1/2, 1/4) of the
 // normal part of f.
 //
+// The slope of the pressure at walls and where the velocity is given, explicit, with what the last correction left (a: acceleration of the
+// water there, f_b: body force, both given):
+//
+//   dp/dn = (f_b - rho a + f).n,     with a wall function:  dp/dn = (<grad p - f~> + f).n,    <..>: mean over the neighbours of the cell
+//
+// Water slips past a wall function, and what leads it along a curved wall is in the gradients around.
+//
 // So a force that pressure can hold leaves the water at rest: exactly where it is normal to layers of hexahedra, to second order on
 // tetrahedra. Sources: balanced forces, Francois et al. (2006), J. Comput. Phys. 213, 141-173; for screens and actuator discs, Rethore and
 // Sorensen (2012), Wind Energy 15, 915-926.
@@ -48,6 +55,7 @@
 #include <vector>
 
 #include "solver/boundaries/boundary.hpp"
+#include "solver/boundaries/wall_pressure.hpp"
 #include "solver/flux_history.hpp"
 #include "solver/operators/gradient.hpp"
 #include "solver/operators/poisson.hpp"
@@ -101,6 +109,9 @@ class Continuity {
   std::vector<double>
       wall_slope;  // dp/dn in force where velocity is fixed or at a symmetry, [n_faces - n_interior], Pa/m; kept in the checkpoint
 
+  /// The f~ that the pressure of a checkpoint holds: its flow.reaction. Collective.
+  void keep_held(const Flow& flow);
+
   const Poisson& poisson() const { return poisson_; }
   /// Of the turning zone when the preconditioner was last set up, rad.
   double preconditioner_angle() const { return preconditioner_angle_; }
@@ -109,7 +120,6 @@ class Continuity {
 
  private:
   void find_held_by_pressure();
-  static Vec3 acceleration_at_wall(const Flow& flow, const BoundaryValues& values, int cell, int b, bool slips);
   void pressure_gradient(const std::vector<double>& pressure, const BoundarySet& boundary, const std::vector<double>& fixed,
                          std::vector<double>& at_boundary, std::vector<Vec3>& gradient);
   void set_boundary_of_correction(const Flow& flow, const BoundarySet& boundary);
@@ -142,8 +152,10 @@ class Continuity {
   Poisson poisson_;
   double mobility_ = 1;              // m
   std::vector<double> coefficient_;  // c, [n_faces]; 0 where the boundary gives no pressure
-  // f, N/m3, [n_all_cells], and [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty without a reaction
-  std::vector<Vec3> reaction_;
+  // f, and the f~ that the pressure holds since the last correction, N/m3, [n_all_cells]; [f]_f.S - [f~]_f.S, N/m, [n_interior]; empty
+  // without a reaction
+  std::vector<Vec3> reaction_, held_;
+  bool reaction_is_new_ = false;  // since the last correction
   std::vector<double> reaction_excess_;
   double preconditioner_angle_ = 0;                            // rad
   std::vector<double>&correction_, &imbalance_, &right_side_;  // p', m3/s, m3/s over m; [n_all_cells]
@@ -155,6 +167,7 @@ class Continuity {
   std::vector<int> closed_faces_;
   std::vector<Vec3> to_mean_;
   std::vector<double> mean_flux_;
+  std::vector<WallCell> wall_cell_;                        // [n_all_cells]
   MeanGradient mean_gradient_;                             // of velocity, while fluxes are predicted
   std::vector<double>& change_;                            // of the pressure that holds f, from cell to cell, [n_faces]
   std::vector<double> given_, boundary_correction_;        // p' or its slope at the boundary as given; p' there

@@ -147,6 +147,7 @@ void FlowSolver::load(CheckpointReader& checkpoint) {
     const auto reaction = checkpoint.rows("flow/reaction", owned_ids(mesh), 3);
     flow.reaction.resize(static_cast<std::size_t>(mesh.n_cells));
     std::copy(reaction.begin(), reaction.end(), flat(flow.reaction).begin());
+    continuity_.keep_held(flow);
   }
   if (checkpoint.has("flow/solid_fraction")) flow.solid_fraction = checkpoint.rows("flow/solid_fraction", owned_ids(mesh), 1);
   if (checkpoint.has("flow/screen")) {

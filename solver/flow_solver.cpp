@@ -122,6 +122,7 @@ void FlowSolver::find_rest_pressure() {
   const std::vector<Mat3> no_gradient(flow.velocity.size());
   const auto velocity = flow.velocity;
   const auto reaction = std::exchange(flow.reaction, {});
+  const auto wall_function = std::exchange(flow.wall_function, {});
   const auto values = boundary_.exchange_for_rest_state();
   double first = 0;
   for (int k = 0; k < static_correctors; ++k) {
@@ -131,7 +132,7 @@ void FlowSolver::find_rest_pressure() {
     if (imbalance <= static_tolerance * first) break;
   }
   boundary_.restore(values);
-  flow.velocity = velocity, flow.reaction = reaction;
+  flow.velocity = velocity, flow.reaction = reaction, flow.wall_function = wall_function;
 }
 
 /// The mesh as it is at a time, and the fields that hang on its facets.

@@ -19,10 +19,11 @@
 // For large k_s* u+ = ln(y/k_s)/kappa + 8.5, Nikuradse's law of the fully rough wall (1933); the sum 1 + a k_s* joins it with the smooth
 // wall as Colebrook (1939) does for pipes of commerce. Walls of uniform sand have less friction than that at k_s* of 5 to 70.
 //
-// Limit: on a turning wall the pressure follows from the acceleration of the water that the wall carries
-// (Continuity::acceleration_at_wall). On a curved wall at rest the curvature of the streamlines is not known, and the pressure at the wall
-// is of first order: the cells at it have a velocity towards or away from the wall (a ring of 12 cells between cylinders: a tenth of that
-// along it), and angular momentum is lost there to the order of the friction torque: the torques of two cylinders differ.
+// The water slips in the cell at the wall, so that the slope of the pressure there follows from the curvature of the streamlines, which is
+// not known. It is taken from the neighbours of the cell (Continuity::gradient_at_wall_function). Limit: where the velocity differs by
+// much between the cell at the wall and the next one, the pressure at a curved wall is of first order. In a ring of 12 cells between
+// cylinders the cells at the walls have a velocity across them of 4 % of that along them (with zero slope a tenth), and angular momentum is
+// lost: the torques of the two cylinders differ.
 #include <vector>
 
 #include "solver/turbulence/wall_faces.hpp"

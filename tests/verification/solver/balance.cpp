@@ -193,3 +193,18 @@ TEST(Balance, hydrostatic) {
   EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.velocity[c]); }), 1e-6);
   EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.pressure_gradient[c] - settings.body_force); }), 1e-4);
 }
+
+// The same with a turbulence model, whose walls take the slope of the pressure from the cells around; also in a layer of one cell.
+TEST(Balance, hydrostatic_with_wall_functions) {
+  for (const Mesh& mesh : {tetrahedra(), structured_box(MPI_COMM_WORLD, {}, {2, 1, 0.2}, {10, 5, 1})}) {
+    FlowSettings settings = channel_settings(1e-3);
+    settings.body_force = {1, 2, -9.81 * 1.2};
+    FlowSolver solver(
+        mesh, settings, conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n"),
+        read_turbulence(
+            CaseFile::parse("[turbulence]\nmodel = \"k_epsilon\"\ninitial_k_m2_s2 = 1e-4\ninitial_epsilon_m2_s3 = 1e-4\n").root()));
+    for (int i = 0; i < 10; ++i) solver.advance(0.02);
+    EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.velocity[c]); }), 1e-6);
+    EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.pressure_gradient[c] - settings.body_force); }), 1e-4);
+  }
+}

@@ -44,10 +44,11 @@ Plates between_plates(const Vec3& lower, const Vec3& upper, int steps) {
 
 struct Cylinders {
   double inner, outer;  // torque of the water on them, N m
+  double across;        // largest velocity across the walls in the cells at them, over that along the walls
 };
 
 /// A ring of water between cylinders of 0.1 m and 0.15 m radius, 0.02 m high, after `steps` steps; all speeds in 1/s.
-Cylinders between_cylinders(double inner, double outer, double water, int steps) {
+Cylinders between_cylinders(double inner, double outer, double water, int steps, double dt = 0.001) {
   constexpr int n_around = 64, n_across = 12;
   PlanarGrid ring{.n_i = n_around, .n_j = n_across, .closed = true, .depth = 0.02};
   ring.node = [](int i, int j) {
@@ -63,9 +64,17 @@ Cylinders between_cylinders(double inner, double outer, double water, int steps)
                                "[[boundary]]\npatch = \"sides\"\nkind = \"symmetry\"\n"),
                     read_turbulence(CaseFile::parse(model).root()));
   for (int c = 0; c < mesh.n_cells; ++c) solver.flow.velocity[c] = cross(Vec3{0, 0, water}, mesh.cell_centre[c]);
-  for (int i = 0; i < steps; ++i) solver.advance(0.001);
+  for (int i = 0; i < steps; ++i) solver.advance(dt);
   const auto torque = [&](const char* patch) { return patch_force(solver.flow, mesh.patch_index(patch), {}).torque().z; };
-  return {torque("inner"), torque("outer")};
+  double across = 0;
+  for (const char* name : {"inner", "outer"}) {
+    const Patch& patch = mesh.patches[mesh.patch_index(name)];
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const Vec3& u = solver.flow.velocity[mesh.owner[f]];
+      across = std::max(across, std::abs(dot(u, unit(mesh.face_vector[f]))) / norm(u));
+    }
+  }
+  return {torque("inner"), torque("outer"), across};
 }
 
 void expect_same(const Vec3& a, const Vec3& b, double tolerance) { EXPECT_LT(norm(a - b), tolerance * norm(b)); }
@@ -100,4 +109,15 @@ TEST(TurbulentCouette, cylinders) {
   EXPECT_LT(std::abs(together.inner) + std::abs(together.outer), 0.02 * stopped.outer);
   EXPECT_NEAR(started.outer / stopped.outer, 1, 0.03);
   EXPECT_NEAR(opposite.outer / started.outer, -1, 1e-6);
+}
+
+// Requirement: the pressure at a curved wall at rest leads the water along the wall. The cells at the walls, 4 mm wide, have a velocity
+// across them of at most 6 % of that along the walls, and the torques of the two cylinders differ by less than a fifth. Measured: 5.1 % and
+// 15 %; with zero slope of the pressure at walls at rest 8.7 % and 58 %.
+TEST(TurbulentCouette, velocity_across_curved_walls) {
+  const Cylinders steady = between_cylinders(20, 0, 10, 1500, 0.1);
+  std::printf("torque on the inner cylinder %.6f, on the outer %.6f N m; velocity across the walls %.4f of that along them\n", steady.inner,
+              steady.outer, steady.across);
+  EXPECT_LT(steady.across, 0.06);
+  EXPECT_NEAR(steady.inner / steady.outer, -1, 0.2);
 }

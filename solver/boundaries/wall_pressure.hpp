@@ -1,0 +1,32 @@
+#pragma once
+// What the slope of the pressure at a wall follows from (solver/continuity.hpp): the acceleration of the water there, or with a wall
+// function, past which the water slips, the gradients of the pressure around.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "solver/boundaries/boundary.hpp"
+
+namespace snag {
+
+/// Where a cell lies: between_walls has walls on opposite sides.
+enum class WallCell : std::uint8_t { inner, at_wall, between_walls };
+
+/// Where each cell lies, [n_all_cells]. Collective.
+std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary);
+
+/// Acceleration of the water at boundary face b (f - n_interior) without a given pressure, m/s2, next to a cell with this velocity: at an
+/// inlet as its condition gives it, at a wall that of the wall. Where the water `slips`, at a plane of symmetry that turns and at some
+/// walls with a wall function, it is carried round with its own velocity u along that of the wall, v: (u.v/v.v)^2 of the wall's
+/// acceleration, exact where the wall is a surface of revolution. At most all of it: water that is faster than a rotor at its start would
+/// have a multiple of the wall's acceleration, and the flow would diverge. None where the water runs against the wall.
+Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, int b, bool slips);
+
+/// The mean of grad p - f~ over the neighbours of an owned cell with a wall function, Pa/m; `pressure_gradient`: grad p, `held`: f~,
+/// [n_all_cells], or empty without a reaction. Those at no wall count alone where there are
+/// some: the gradient of a cell at a wall follows from the slope there, also that of the cell itself. None in a layer of one cell between
+/// two walls: nothing there would bound the slope.
+std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
+                                              std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell);
+
+}  // namespace snag
