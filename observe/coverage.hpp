@@ -16,7 +16,8 @@ struct Coverage {
   Coverage(double x_low, double y_low, double x_high, double y_high, double pixel);
 
   bool at(int i, int j) const { return i >= 0 && j >= 0 && i < nx && j < ny && covered[static_cast<std::size_t>(j) * nx + i] != 0; }
-  /// Covers the pixels whose centres are in the triangle.
+  /// Covers the pixels whose centres are in the triangle. Of two triangles on either side of a common edge one has the centres on it; an
+  /// edge that is not shared has them at the left and at the bottom.
   void fill_triangle(std::array<double, 3> x, std::array<double, 3> y);
   /// Covers the pixels whose centres are in the circle.
   void fill_circle(double x, double y, double radius);

@@ -30,6 +30,25 @@ std::vector<double> no_rim(const Sheet& sheet) { return std::vector<double>(shee
 
 }  // namespace
 
+// A square along the axes of the picture, in cells of four pixels whose diagonals run through the centres of pixels: its area is that of
+// the pixels, wherever it lies.
+TEST(Silhouette, SquareAlongTheAxes) {
+  constexpr int n = 30;
+  for (const double place : {0.0, 0.05, 0.08, 0.0137, 0.3}) {
+    Sheet square;
+    for (int row = 0; row <= n; ++row)
+      for (int column = 0; column <= n; ++column) square.points.push_back({place - 0.03 + 2e-3 * column, place - 0.03 + 2e-3 * row, 0});
+    for (int row = 0; row < n; ++row)
+      for (int column = 0; column < n; ++column) {
+        const int a = (n + 1) * row + column;
+        square.triangles.push_back({a, a + 1, a + n + 2}), square.triangles.push_back({a, a + n + 2, a + n + 1});
+      }
+    const Silhouette seen = silhouette(square.points, no_rim(square), square.triangles, {}, 5e-4);
+    EXPECT_NEAR(seen.area, 0.06 * 0.06, 1e-9) << place;
+    EXPECT_NEAR(seen.elongation_ratio, 1, 1e-9) << place;
+  }
+}
+
 // An ellipse of known moments is measured to 0.5 %.
 TEST(Silhouette, EllipseToHalfAPercent) {
   for (const double angle : {0.0, 0.4, -1.2}) {
