@@ -193,6 +193,23 @@ void judge(const Mesh& mesh, const Places& places, MeshQuality& q) {
     fail("quality", q.min_quality, places.quality, "must be at least 0.01 (1 is a regular cell); refine or optimise the mesh there");
 }
 
+/// Collective.
+std::int64_t count_meeting_pyramids(const Mesh& mesh) {
+  std::vector<double> is_pyramid(static_cast<std::size_t>(mesh.n_all_cells()));
+  for (int c = 0; c < mesh.n_cells; ++c) is_pyramid[c] = mesh.cell_shape[c] == CellShape::pyramid;
+  mesh.halo.exchange(is_pyramid);
+  std::int64_t n = 0;
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    if (is_pyramid[c] == 0) continue;
+    int shared = 0;
+    for (const int f : row(mesh.cell_face_start, mesh.cell_face, c))
+      if (f < mesh.n_interior && mesh.face_node_start[f + 1] - mesh.face_node_start[f] == 3)
+        shared += is_pyramid[mesh.owner[f] == c ? mesh.neighbour[f] : mesh.owner[f]] != 0;
+    n += shared >= 2;
+  }
+  return sum(mesh.comm, n);
+}
+
 /// Round-off depends on the ranks, the table must not.
 std::string words_above_round_off(double value) { return value < 1e-12 ? "below 1e-12" : number_text(value); }
 
@@ -218,6 +235,7 @@ MeshQuality quality(const Mesh& mesh) {
   see_faces(mesh, q, places);
   count(mesh, skew_cells(mesh), q.n_skew_cells, q.skew_volume);
   count(mesh, corner_cells(mesh), q.n_corner_cells, q.corner_volume);
+  q.n_meeting_pyramids = count_meeting_pyramids(mesh);
   q.n_regions = count_regions(mesh);
   judge(mesh, places, q);
   return q;
@@ -244,6 +262,7 @@ std::string quality_table(const Mesh& mesh, const MeshQuality& q) {
   if (q.n_corner_cells > 0)
     line("cells in corners (few neighbours)",
          std::to_string(q.n_corner_cells) + ", " + number_text(100 * q.corner_volume / q.volume) + " % of the volume");
+  if (q.n_meeting_pyramids > 0) line("pyramids whose tips meet", std::to_string(q.n_meeting_pyramids));
   line("closure, max", words_above_round_off(q.closure));
   for (std::size_t zone = 0; zone < mesh.zones.size(); ++zone) {
     std::vector<double> volume;

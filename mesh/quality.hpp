@@ -18,6 +18,7 @@ struct MeshQuality {
   double skew_volume = 0;                    // m3, of these cells
   std::int64_t n_corner_cells = 0;           // with few neighbours (mesh/skewness.hpp)
   double corner_volume = 0;                  // m3, of these cells
+  std::int64_t n_meeting_pyramids = 0;       // that share two triangles or more with other pyramids, as where their tips meet
   double closure = 0;                        // max over cells of |sum S| / sum |S|
   double min_quality = 0, mean_quality = 0;  // tetrahedra: 3 r_in / R_circ; others: min over corners of the scaled Jacobian
   double min_spacing = 0;                    // m, smallest distance between two cell centres across a face

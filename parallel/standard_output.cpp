@@ -1,10 +1,9 @@
 #include "parallel/standard_output.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <iostream>
 
 #include "base/atomic_file.hpp"
+#include "base/terminal.hpp"
 #include "parallel/session.hpp"
 
 namespace snag {
@@ -12,9 +11,8 @@ namespace snag {
 namespace {
 
 void print_here(const std::string& text) {
-  if (!(std::cout << text << std::flush))
-    throw Error(ExitCode::io, std::string("standard output: cannot be written (") + std::strerror(errno) +
-                                  "); check where it is redirected to, and that the disk has space");
+  std::cout << text;
+  check_standard_output();
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Section PumpSettings::section() {
             "Diameter of the pipe where the inlet pressure is measured, for the velocity head; by default from the area of the patch."},
            {"outlet_diameter", &outlet_diameter, "m", 1e-6, 1e6, Basis::assumed,
             "Diameter of the pipe where the outlet pressure is measured, for the velocity head; by default from the area of the patch."},
-           {"gravity", &gravity, "m/s2", 1e-6, 1e6, Basis::literature,
+           {"gravity", &gravity, "m/s2", 1e-6, 30, Basis::literature,
             "Gravity for the conversion of pressure to head; no force follows from it."}}};
 }
 const bool pump_table = add_case_table<PumpSettings>(100);

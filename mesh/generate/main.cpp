@@ -5,11 +5,9 @@
 #include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -20,6 +18,7 @@
 #include "base/error.hpp"
 #include "base/open_file.hpp"
 #include "base/section_text.hpp"
+#include "base/terminal.hpp"
 #include "base/words.hpp"
 #include "mesh/generate/geometry.hpp"
 #include "mesh/generate/verify.hpp"
@@ -225,12 +224,13 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+    if (app.exit(error) != 0) return static_cast<int>(ExitCode::usage);
+    check_standard_output();
+    return 0;
   }
   if (print_manual) {
-    if (std::fputs(manual().c_str(), stdout) < 0 || std::fflush(stdout) != 0)
-      throw Error(ExitCode::io, std::string("standard output: cannot be written (") + std::strerror(errno) +
-                                    "); check where it is redirected to, and that the disk has space");
+    std::fputs(manual().c_str(), stdout);
+    check_standard_output();
     return 0;
   }
   if (request.geometry.empty())

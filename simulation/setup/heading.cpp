@@ -87,6 +87,26 @@ bool water_has_walls(const Simulation& simulation) {
   return false;
 }
 
+/// Warnings of rags that start faster than their sub-steps allow for, and of rags in periodic meshes.
+std::vector<std::string> rag_warnings(const Simulation& simulation) {
+  std::vector<std::string> warnings;
+  if (!simulation.rags) return warnings;
+  const double impact = simulation.contacts.impact_speed;
+  std::int64_t n_fast = 0;
+  const RagPiece* fastest = nullptr;
+  for (const RagPiece& piece : simulation.rags->pieces()) {
+    n_fast += norm(piece.velocity) > impact;
+    if (!fastest || norm(piece.velocity) > norm(fastest->velocity)) fastest = &piece;
+  }
+  if (n_fast > 0)
+    warnings.push_back((n_fast == 1 ? "" : counted(n_fast, "piece") + " start too fast, the fastest: ") + fastest->rag.name +
+                       " starts at " + rounded(norm(fastest->velocity)) + " m/s, faster than [contact] impact_speed, " + rounded(impact) +
+                       " m/s, for which the sub-step and the stiffness of contacts are chosen; give impact_speed that speed");
+  if (simulation.is_periodic() && simulation.mesh)
+    warnings.emplace_back("rags are not carried through [[periodic]] patches: the run ends with code 5 where one gets there");
+  return warnings;
+}
+
 }  // namespace
 
 void log_heading(const Simulation& simulation, const CaseFile& file) {
@@ -116,6 +136,7 @@ void log_heading(const Simulation& simulation, const CaseFile& file) {
   if (simulation.rags && rank_of(MPI_COMM_WORLD) == 0)
     for (const std::string& line : gap_lines(simulation.walls, simulation.rags->rags(), simulation.contacts, simulation.time()))
       log::info(line);
+  for (const std::string& warning : rag_warnings(simulation)) log::warning(warning);
   if (simulation.pump)
     for (const std::string& warning : pump_warnings(simulation.water->flow, *simulation.pump)) log::warning(warning);
   if (simulation.coupled)

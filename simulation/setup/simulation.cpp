@@ -29,6 +29,15 @@ void read(const Table& root, Settings& settings) {
   root.table(section).read(section.parameters);
 }
 
+/// What to do with a file that is no case: the command that reads its tables.
+std::string remedy_without_run(const Table& root) {
+  const std::pair<const char*, const char*> readers[] = {
+      {"study", "snag study"}, {"experiment", "snag diagnose"}, {"point", "snag diagnose"}, {"camera", "snag observe"}};
+  for (const auto& [table, command] : readers)
+    if (root.has(table)) return std::string("its table \"") + table + "\" belongs to a file of `" + command + "`";
+  return "give [mesh] or [[rag]]";
+}
+
 }  // namespace
 
 Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowCache* store, Prepared* prepared)
@@ -51,7 +60,8 @@ Simulation::Simulation(const CaseFile& file, MPI_Comm comm, Stored stored, FlowC
   read_pump(root);
   build_rags(file);
   couple(file);
-  if (!water && !rags) throw Error(ExitCode::usage, root.where() + " has neither a mesh nor a rag: nothing to run; give [mesh] or [[rag]]");
+  if (!water && !rags)
+    throw Error(ExitCode::usage, root.where() + " has neither a mesh nor a rag: nothing to run; " + remedy_without_run(root));
   file.reject_unread();
 }
 

@@ -65,6 +65,8 @@ class Simulation {
   const PipeFlow& pipe_flow() const { return pipe_flow_; }
   /// The case says that the water is laminar; it is not only for want of a model.
   bool laminar_asked() const { return laminar_asked_; }
+  /// True if patches of the mesh are periodic.
+  bool is_periodic() const { return periodic_; }
   void save(CheckpointWriter& writer) const;
   void load(CheckpointReader& reader);
 

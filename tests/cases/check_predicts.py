@@ -164,6 +164,27 @@ class CheckPredicts(harness.CaseTest):
         run = self.check(self.water('[turbulence]\nmodel = "k_omega_sst"\n[flow]\nkinematic_viscosity_m2_s = 1e-4\n'))
         self.assertNotIn("counts as one", run.stdout)
 
+    def test_rough_walls_and_large_eddies(self):
+        """Metres for millimetres: sand higher than the cells at the wall, eddies wider than the inlet, gravity in cm/s2."""
+        text = WATER.format(mesh=self.mesh(*CHANNEL_MESH), ramp="turbulence_length_scale_m = 7").replace('kind = "wall"', 'kind = "wall"\nroughness_height_m = 0.25') + '[turbulence]\nmodel = "k_epsilon"\n'
+        run = self.check(self.case(text))
+        self.assertRegex(run.stdout, r"roughness_height is 250 mm, more than the \S+ mm from the wall")
+        self.assertRegex(run.stdout, r"turbulence_length_scale is 7e\+03 mm, wider than the patch")
+        self.assertIn("gravity", self.check(PUMP, "--set", "pump.gravity_m_s2=981", code=2).stderr)
+
+    def test_velocity_along_its_patch(self):
+        text = WATER.format(mesh=self.mesh(*CHANNEL_MESH), ramp="").replace("[0.3, 0, 0]", "[0, 0.3, 0]") + '[turbulence]\nmodel = "laminar"\n'
+        self.assertIn("the velocity lies along the patch", self.check(self.case(text)).stdout)
+
+    def test_files_that_are_no_cases(self):
+        for file, command in (("pump-demo/study.toml", "snag study"), ("diagnose-sphere/DIAGNOSIS.toml", "snag diagnose")):
+            self.assertIn(f"belongs to a file of `{command}`", self.check(harness.SOURCE_DIR / "cases" / file, code=2).stderr)
+
+    def test_rag_that_starts_fast(self):
+        rag = "[time]\nend_s = 0.1\nstep_s = 0.01\n[[rag]]\nlength_mm = 60\nwidth_mm = 40\nradius_mm = 2\ncentre_m = [0, 0, 0]\nvelocity_m_s = [%g, 0, 0]\n"
+        self.assertIn("starts at 9 m/s, faster than [contact] impact_speed, 5 m/s", self.check(self.case(rag % 9)).stdout)
+        self.assertNotIn("impact_speed, ", self.check(self.case(rag % 4)).stdout)
+
     def test_walls_that_face_away(self):
         (self.work / "housing.stl").write_text(stl())
         self.check(self.case(HOUSING.format(flipped="false")))

@@ -84,7 +84,7 @@ class Mistakes(harness.CaseTest):
     def test_output_that_cannot_be_written(self):
         """What a command prints is its result: an output on a full disk is an error. A run has its result in files, and goes on."""
         mesh, case = self.mesh(*CHANNEL_MESH), self.case(SMALL_SHEETS)
-        for words in (["manual"], ["completion"], ["--version"], ["--build-info"], ["--help"], ["run", "--help"], ["mesh", "--info", mesh], ["mesh", "--manual"],
+        for words in (["manual"], ["completion"], ["--version"], ["--build-info"], ["--help"], ["run", "--help"], ["mesh", "--info", mesh], ["mesh", "--manual"], ["mesh", "pump", "--help"],
                       ["run", case, "--out", self.work / "out"]):
             with open("/dev/full", "w") as full:
                 run = subprocess.run(harness.command(words), env=harness.ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True, timeout=100)

@@ -89,6 +89,22 @@ TEST(Quality, CountsCellsInCorners) {
   EXPECT_EQ(quality(structured_box(MPI_COMM_WORLD, {0, 0, 0}, {0.3, 0.4, 0.3}, {3, 4, 3})).n_corner_cells, 0);
 }
 
+// A cube of six pyramids about its middle: the tips of all meet. Those between hexahedra and tetrahedra touch no other pyramid.
+TEST(Quality, CountsPyramidsWhoseTipsMeet) {
+  test::Sample cube;
+  cube.volumes = {{1, "water"}}, cube.surfaces = {{2, "sides"}};
+  for (int k = 0; k < 8; ++k) cube.node.push_back({1.0 * (k % 2), 1.0 * (k / 2 % 2), 1.0 * (k / 4)});
+  cube.node.push_back({0.5, 0.5, 0.5});
+  for (const std::vector<int>& side : {std::vector{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
+    cube.element.push_back({3, 2, side});
+    cube.element.push_back({7, 1, {side[0], side[1], side[2], side[3], 8}});
+  }
+  const Mesh mesh = imported(cube);
+  EXPECT_EQ(quality(mesh).n_meeting_pyramids, 6);
+  EXPECT_NE(quality_table(mesh, quality(mesh)).find("pyramids whose tips meet"), std::string::npos);
+  EXPECT_EQ(quality(imported(test::mixed_units(2))).n_meeting_pyramids, 0);
+}
+
 // A cell turned inside out, and a flat one, are failures that say where they are.
 TEST(Quality, ReportsInvertedAndFlatCells) {
   const MeshQuality inverted = quality(imported(tetrahedron({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}})));
