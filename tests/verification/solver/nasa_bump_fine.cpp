@@ -19,7 +19,7 @@ TEST(NasaBumpFine, three_grids) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const int m = grids[i];
     NasaBump bump(m);
-    EXPECT_TRUE(march(bump.solver, 0.2 / m, 25 * m));
+    EXPECT_TRUE(march(bump.solver, 0.2 / m, 40 * m));
     const double before = at(bump.wall(), &WallPlace::friction, 0.75);
     march(bump.solver, 0.2 / m, 5 * m);
     const std::vector<WallPlace> wall = bump.wall();
