@@ -70,7 +70,7 @@ void foresee_step(const Simulation& simulation, Forecast& result) {
                               "; step_ms = " + rounded(1e3 * step * advised_courant / median) + " gives that");
 }
 
-/// Pyramids whose tips meet: a channel of them had 3 to 13 times its speed after 4 s, with two outer correctors 1.13 times.
+/// Warns of pyramids whose tips meet: a channel of them had up to 13 times its speed after 1 s, with two outer correctors 1.13 times.
 void foresee_cells(const Simulation& simulation, Forecast& result) {
   const std::int64_t n = simulation.mesh_quality.n_meeting_pyramids;
   if (n > 0 && simulation.water->settings().n_outer_correctors == 1)

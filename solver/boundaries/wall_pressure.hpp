@@ -23,9 +23,8 @@ std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary);
 Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, int b, bool slips);
 
 /// The mean of grad p - f~ over the neighbours of an owned cell with a wall function, Pa/m; `pressure_gradient`: grad p, `held`: f~,
-/// [n_all_cells], or empty without a reaction. Those at no wall count alone where there are
-/// some: the gradient of a cell at a wall follows from the slope there, also that of the cell itself. None in a layer of one cell between
-/// two walls: nothing there would bound the slope.
+/// [n_all_cells], or empty without a reaction. Those at no wall count alone where there are some: the gradient of a cell at a wall follows
+/// from the slope there, also that of the cell itself. None in a layer of one cell between two walls: nothing there would bound the slope.
 std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
                                               std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell);
 

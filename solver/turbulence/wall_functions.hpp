@@ -20,9 +20,9 @@
 // wall as Colebrook (1939) does for pipes of commerce. Walls of uniform sand have less friction than that at k_s* of 5 to 70.
 //
 // The water slips in the cell at the wall, so that the slope of the pressure there follows from the curvature of the streamlines, which is
-// not known. It is taken from the neighbours of the cell (Continuity::gradient_at_wall_function). Limit: where the velocity differs by
+// not known. It is taken from the neighbours of the cell (solver/boundaries/wall_pressure.hpp). Limit: where the velocity differs by
 // much between the cell at the wall and the next one, the pressure at a curved wall is of first order. In a ring of 12 cells between
-// cylinders the cells at the walls have a velocity across them of 4 % of that along them (with zero slope a tenth), and angular momentum is
+// cylinders the cells at the walls have a velocity across them of 5 % of that along them (with zero slope 9 %), and angular momentum is
 // lost: the torques of the two cylinders differ.
 #include <vector>
 

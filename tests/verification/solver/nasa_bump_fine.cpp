@@ -1,7 +1,7 @@
 // ranks: 1
 // labels: long
 // timeout: 2400
-// cost: 150
+// cost: 230
 #include <gtest/gtest.h>
 
 #include "tests/verification/solver/nasa_bump.hpp"
@@ -19,7 +19,7 @@ TEST(NasaBumpFine, three_grids) {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const int m = grids[i];
     NasaBump bump(m);
-    EXPECT_TRUE(march(bump.solver, 0.2 / m, 40 * m));
+    EXPECT_TRUE(march(bump.solver, 0.2 / m, 40 * m));  // after 25 m steps friction drifts by 0.12 % on the first grid
     const double before = at(bump.wall(), &WallPlace::friction, 0.75);
     march(bump.solver, 0.2 / m, 5 * m);
     const std::vector<WallPlace> wall = bump.wall();
