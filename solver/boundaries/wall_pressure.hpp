@@ -1,6 +1,7 @@
 #pragma once
 // What the slope of the pressure at a wall follows from (solver/continuity.hpp): the acceleration of the water there, or with a wall
 // function, past which the water slips, the gradients of the pressure around.
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,6 +22,11 @@ std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary);
 /// acceleration, exact where the wall is a surface of revolution. At most all of it: water that is faster than a rotor at its start would
 /// have a multiple of the wall's acceleration, and the flow would diverge. None where the water runs against the wall.
 Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, int b, bool slips);
+
+/// How much of the slope of the pressure the gradients around have at a wall function: nothing in the viscous sublayer, up to y+ 5, where
+/// the water in the cell does not slip; all in the logarithmic layer, from y+ 30 on; linear between. Bounds: Pope (2000), Turbulent Flows,
+/// table 7.1.
+inline double share_of_slip(double y_plus) { return std::clamp((y_plus - 5) / 25, 0.0, 1.0); }
 
 /// The mean of grad p - f~ over the neighbours of an owned cell with a wall function, Pa/m; `pressure_gradient`: grad p, `held`: f~,
 /// [n_all_cells], or empty without a reaction. Those at no wall count alone where there are some: the gradient of a cell at a wall follows

@@ -201,8 +201,7 @@ TEST(Balance, hydrostatic_with_wall_functions) {
     settings.body_force = {1, 2, -9.81 * 1.2};
     FlowSolver solver(
         mesh, settings, conditions("[[boundary]]\npatches = [\"x0\", \"x1\", \"y0\", \"y1\", \"z0\", \"z1\"]\nkind = \"wall\"\n"),
-        read_turbulence(
-            CaseFile::parse("[turbulence]\nmodel = \"k_epsilon\"\ninitial_k_m2_s2 = 1e-4\ninitial_epsilon_m2_s3 = 1e-4\n").root()));
+        read_turbulence(CaseFile::parse("[turbulence]\nmodel = \"k_epsilon\"\ninitial_k_m2_s2 = 10\ninitial_epsilon_m2_s3 = 10\n").root()));
     for (int i = 0; i < 10; ++i) solver.advance(0.02);
     EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.velocity[c]); }), 1e-6);
     EXPECT_LT(distance(mesh, [&](int c) { return norm_squared(solver.flow.pressure_gradient[c] - settings.body_force); }), 1e-4);
