@@ -33,8 +33,7 @@ const bool mesh_table = add_case_table<MeshSettings>(20);
 Section PeriodicSettings::section() {
   return {"periodic",
           "A pair of periodic patches: water that leaves through one enters through the other. Rags are not carried through: a run ends "
-          "with code "
-          "5 where one gets there.",
+          "with code 5 where one gets there.",
           {setting("first", &pair.first, "First patch of the pair."),
            setting("second", &pair.second, "The matching patch."),
            {"translation", &pair.translation, "m", -1e6, 1e6, Basis::assumed, "Shift from the first patch to the second."}},

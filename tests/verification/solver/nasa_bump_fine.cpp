@@ -10,8 +10,11 @@ using namespace snag;
 using namespace snag::test;
 
 // Three grids: friction at the top of the bump within 2 % of CFL3D's and FUN3D's with the SST model, before and behind it within 3 % of
-// their mean; forces within 5 %.
+// their mean; drag by friction, drag by pressure and lift within 2, 3 and 2 % of CFL3D's on 901,120 cells.
 TEST(NasaBumpFine, three_grids) {
+  // NASA's codes are compressible. Forces at a Mach number of 0.2 over those of incompressible flow: OpenFOAM 1912, rhoSimpleFoam over
+  // simpleFoam with SST on the finest of these grids. At Mach 0.02 the compressible program gives the incompressible forces within 0.3 %.
+  constexpr struct { double pressure, friction, lift; } of_mach_number{1.058, 0.995, 1.027};
   constexpr std::array grids{2, 3, 4};
   constexpr std::array places{0.6321975, 0.75, 0.8678025};
   constexpr std::array cfl3d{0.00502471, 0.00593328, 0.00260246}, fun3d{0.0050439, 0.00595062, 0.0026322};
@@ -38,9 +41,9 @@ TEST(NasaBumpFine, three_grids) {
     EXPECT_NEAR(friction[1][i] / before, 1, 1e-3);
     for (const WallPlace& place : wall) print_row("bump-wall", m, {place.x, place.friction, place.pressure});
     if (m < 4) continue;
-    EXPECT_NEAR(c_v / 0.0031819, 1, 0.02);
-    EXPECT_NEAR(c_p / 0.00040024, 1, 0.05);
-    EXPECT_NEAR(c_l / 0.0250421, 1, 0.05);
+    EXPECT_NEAR(c_v * of_mach_number.friction / 0.0031819, 1, 0.02);
+    EXPECT_NEAR(c_p * of_mach_number.pressure / 0.00040024, 1, 0.03);
+    EXPECT_NEAR(c_l * of_mach_number.lift / 0.0250421, 1, 0.02);
   }
   for (std::size_t k = 0; k < places.size(); ++k) {
     const GridLimit limit = grid_limit(grids, friction[k]);
