@@ -69,13 +69,11 @@ void CoupledSolver::step(double dt) {
   spread(dt);  // particles -> fluid, conservative: solid fraction, reaction
   if (!prescribed_field_) {
     laps.add_to(seconds_.coupling);
-    const bool is_first = flow_->time_step_size == 0;
     advance_flow_(dt);
     laps.add_to(seconds_.flow);
-    if (coupling_.settings.two_way()) load_->set_missed_rates(rags_.tiles(), kernel_field_->missed_rates(load_->impulses(rags_.tiles())));
+    if (coupling_.settings.two_way()) load_->end_step(rags_.tiles(), kernel_field_->missed_rates(given_));
     if (flow_->mesh.turning.zone >= 0) mesh_moved();
     prediction_->end_step();
-    if (is_first) exchange_->settle_first_step(dt);
   }
   write_report(dt);
   laps.add_to(seconds_.coupling);
@@ -140,12 +138,14 @@ void CoupledSolver::spread(double dt) {
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
   std::vector<double> screen(screens_ ? particles.size() : 0);
   for (std::size_t b = 0; b < screen.size(); ++b) screen[b] = load_->screen(particles.tile(b), particles.place(b));
-  const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .impulse = felt}, dt);
+  given_ = coupling_.settings.two_way() ? load_->given(rags_.tiles(), prediction_->extrapolation()) : felt;
+  const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .given = given_}, dt);
   report_.max_solid_fraction = balance.max_solid_fraction;
   judge_packing();
   if (!coupling_.settings.two_way()) return;
   check_momentum(balance);
-  report_.force_on_water = balance.on_water / dt;
+  const Vec3 lost = (balance.on_rags + balance.on_water) / (1 + prediction_->extrapolation());
+  report_.force_on_water = (lost - sum(rags_.comm(), std::span<const Vec3>(felt))) / dt;
   report_.momentum_exchange = balance.relative();
   std::vector<int> rag_of(particles.size());
   std::vector<Vec3> mean_places(particles.size());

@@ -81,8 +81,8 @@ class CoupledSolver {
   std::unique_ptr<PrescribedField> prescribed_field_;
   std::unique_ptr<FluidLoad> load_;
   std::unique_ptr<Exchange> exchange_;
-  bool screens_ = false;  // a force gives screens, and the water has eddies that they hinder
-  std::vector<Vec3> impulses_;
+  bool screens_ = false;                // a force gives screens, and the water has eddies that they hinder
+  std::vector<Vec3> impulses_, given_;  // of the last step: with what the water does not feel; I (coupling/exchange.hpp)
   CouplingReport report_;
   bool warned_of_packing_ = false;
   CouplingSeconds seconds_;

@@ -35,7 +35,7 @@ ExchangeBalance Exchange::spread(const ParticleAmounts& amounts, double dt) {
   for (std::size_t b = 0; b < amounts.volume.size(); ++b) {
     of_particles.push_back(amounts.volume[b]);
     if (screens_) of_particles.push_back(amounts.screen[b]);
-    for (int i = 0; two_way_ && i < 3; ++i) of_particles.push_back(-amounts.impulse[b][i] / dt);
+    for (int i = 0; two_way_ && i < 3; ++i) of_particles.push_back(-amounts.given[b][i] / dt);
   }
   kernel_.spread(of_particles, fields);
   if (screens_) mesh.halo.exchange(flow_.screen);
@@ -47,17 +47,11 @@ ExchangeBalance Exchange::spread(const ParticleAmounts& amounts, double dt) {
   for (int c = 0; c < mesh.n_cells; ++c)
     if (flow_.reaction[c] != Vec3{}) applied.push_back(dt * mesh.cell_volume[c] * flow_.reaction[c]);
   std::vector<double> exchanged;
-  for (const Vec3& impulse : amounts.impulse) exchanged.push_back(norm(impulse));
-  balance.on_rags = sum(mesh.comm, amounts.impulse);
+  for (const Vec3& impulse : amounts.given) exchanged.push_back(norm(impulse));
+  balance.on_rags = sum(mesh.comm, amounts.given);
   balance.on_water = sum(mesh.comm, std::span<const Vec3>(applied));
   balance.exchanged = sum(mesh.comm, std::span<const double>(exchanged));
   return balance;
-}
-
-void Exchange::settle_first_step(double dt) {
-  if (!two_way_) return;
-  for (int c = 0; c < flow_.mesh.n_cells; ++c) flow_.velocity_old[c] += (dt / flow_.density) * flow_.reaction[c];
-  flow_.mesh.halo.exchange(flat(flow_.velocity_old), 3);
 }
 
 void check_momentum(const ExchangeBalance& balance) {

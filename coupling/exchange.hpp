@@ -1,14 +1,19 @@
 #pragma once
 // The reaction of the particles in one step is spread to the water, with the weights by which they sampled it:
 //
-//   f_c = 1/V_c sum_b w_bc (-J_b/dt)      so that  sum_b J_b + dt sum_c V_c f_c = 0
+//   f_c = 1/V_c sum_b w_bc (-I_b/dt)      so that  sum_b I_b + dt sum_c V_c f_c = 0
 //
-// The first step of a run is Euler's, the next are BDF2, whose momentum is (3 u^n - u^(n-1))/2: with u^0 as it was, these would make half
-// of what the rags gave in the first step once more,
+// The equations of the water hold at the end of the step, J_b/dt is the mean over the step. I_b is J_b/dt extrapolated to the end,
 //
-//   rho (3 u^n - u^(n-1))/2 = rho (3 u^1 - u^0)/2 + dt (f^2 + ... + f^n) = rho u^0 + dt (3/2 f^1 + f^2 + ... + f^n)
+//   I_b = (1 + a) J_b - a J_b^old,      a = 1/2 for equal steps (TimeScheme::extrapolation), 0 in the first, Euler's
 //
-// u^0 <- u^0 + dt f^1/rho for the steps that follow makes it rho u^0 + dt (f^1 + f^2 + ... + f^n).
+// With J_b itself the water would lag behind by half a step: a wave of a cloth that swings with w gained energy, as with the damping ratio
+// -w dt/4. The momentum of BDF2 is (3 u^n - u^(n-1))/2, that of the water half a step on, and it gets each impulse once,
+//
+//   rho (3 u^n - u^(n-1))/2 = rho u^0 - (J^1 + ... + J^n + J^n/2)/V
+//
+// Water that just begins to be pushed or is pushed no more moves as it should from the first step on; only a piece that leaves the domain
+// takes a J_b^old with it.
 #include "coupling/kernel.hpp"
 #include "solver/fields/flow.hpp"
 
@@ -18,13 +23,13 @@ namespace snag {
 struct ParticleAmounts {
   std::span<const double> volume;  // m3
   std::span<const double> screen;  // FluidLoad::screen, m2
-  std::span<const Vec3> impulse;   // J, N s
+  std::span<const Vec3> given;     // I, N s
 };
 
 /// What was exchanged in one step; sums over all ranks.
 struct ExchangeBalance {
-  Vec3 on_rags, on_water;         // N s
-  double exchanged = 0;           // sum of |impulse| over the particles, N s
+  Vec3 on_rags, on_water;         // of I, N s
+  double exchanged = 0;           // sum of |I| over the particles, N s
   double max_solid_fraction = 0;  // of all cells, not clipped, 1
   double relative() const { return exchanged > 0 ? norm(on_rags + on_water) / exchanged : 0; }
 };
@@ -37,8 +42,6 @@ class Exchange {
   /// Sets solid fraction, screens and reaction of the flow from what the particles give over the step dt (s), and returns what was
   /// exchanged, for check_momentum. Collective.
   ExchangeBalance spread(const ParticleAmounts& amounts, double dt);
-  /// After the first step, of dt: takes what it gave to the water into the velocity before it. Collective.
-  void settle_first_step(double dt);
 
  private:
   const Kernel& kernel_;

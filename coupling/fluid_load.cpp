@@ -59,7 +59,10 @@ FluidLoad::FluidLoad(const FluidForces& forces, FluidField& field, const std::ve
   if (needs_impulse_) n_particle_state_ += 3;
   drag_begin_ = n_particle_state_;
   if (needs_drag_) n_particle_state_ += 1;
-  if (field.answers()) missed_rate_begin_ = n_particle_state_, n_particle_state_ += 3;
+  if (field.answers()) {
+    missed_rate_begin_ = n_particle_state_, step_impulse_begin_ = n_particle_state_ + 3;
+    n_particle_state_ += 6;
+  }
 }
 
 void FluidLoad::set_walls(const WallSet& walls) {
@@ -76,10 +79,15 @@ void FluidLoad::begin_step(std::span<const Tile> tiles, double time) {
   if (largest != scratch_size_) scratch_size_ = largest, scratch_.assign(n_arrays * largest, 0.0);
 }
 
-void FluidLoad::set_missed_rates(std::span<Tile> tiles, std::span<const Vec3> rates) {
+void FluidLoad::end_step(std::span<Tile> tiles, std::span<const Vec3> missed_rates) {
   const ParticleList particles(tiles);
-  for (std::size_t b = 0; b < particles.size(); ++b)
-    for (int i = 0; i < 3; ++i) state(tiles[particles.tile(b)], missed_rate_begin_ + i)[particles.place(b)] = rates[b][i];
+  for (std::size_t b = 0; b < particles.size(); ++b) {
+    const int t = particles.tile(b), k = particles.place(b);
+    for (int i = 0; i < 3; ++i) {
+      state(tiles[t], missed_rate_begin_ + i)[k] = missed_rates[b][i];
+      state(tiles[t], step_impulse_begin_ + i)[k] = impulse(t, k)[i];
+    }
+  }
 }
 
 void FluidLoad::add(std::size_t index, Tile& tile, double step) {
@@ -207,21 +215,25 @@ void FluidLoad::keep_drag(Tile& tile, const FluidSamples& fluid, const Particles
   }
 }
 
-/// The water on the way of the particles at the start of the sub-step, the time of their velocities: u + (c + e) t + G (x - h/2 v - x_0)
-/// - d J, its rate r = c + e + G v without the answer, and Du/Dt in the middle of the sub-step, where that water has u + h/2 r.
+/// The water on the way of the particles at the start of the sub-step, the time of their velocities: u + c t + G (x - h/2 v - x_0) - d J,
+/// its rate r = c + G v without the answer, and Du/Dt in the middle of the sub-step, where that water has u + h/2 r. c: of the water
+/// itself, of what the last answers were missed by and of what is left of the answer to the last impulse.
 void FluidLoad::follow(FluidSamples& fluid, std::size_t index, Tile& tile, const Particles& particles) {
   const auto component = [](const VectorArray& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
   const double elapsed = elapsed_[index], half = 0.5 * particles.step, *d = fluid.response ? fluid.response : array(zero);
   const VectorArray x = particles.position, x_0 = fluid.start, v = particles.velocity;
   for (int i = 0; i < 3; ++i) {
     const double *u = component(fluid.velocity, i), *c = component(fluid.velocity_rate, i), *J = sums_.field(index, impulse_x + i);
-    const double* e = missed_rate_begin_ < 0 ? array(zero) : state(tile, missed_rate_begin_ + i);
+    const bool answers = missed_rate_begin_ >= 0;
+    const double *e = answers ? state(tile, missed_rate_begin_ + i) : array(zero), left = fluid.response_left;
+    const double* last = answers ? state(tile, step_impulse_begin_ + i) : array(zero);
     const VectorArray G = fluid.velocity_gradient[i];
     double *seen = array(seen_velocity + i), *rate = array(rate_on_way + i);
 #pragma omp simd
     for (int k = particles.begin; k < particles.end; ++k) {
-      seen[k] = u[k] + elapsed * (c[k] + e[k]) + dot(G[k], x[k] - half * v[k] - x_0[k]) - d[k] * J[k];
-      rate[k] = c[k] + e[k] + dot(G[k], v[k]);
+      const double of_water = c[k] + e[k] + left * d[k] * last[k];
+      seen[k] = u[k] + elapsed * of_water + dot(G[k], x[k] - half * v[k] - x_0[k]) - d[k] * J[k];
+      rate[k] = of_water + dot(G[k], v[k]);
     }
   }
   const auto vector = [&](int f) { return VectorArray{array(f), array(f + 1), array(f + 2)}; };
@@ -266,6 +278,19 @@ std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
   const ParticleList particles(tiles);
   std::vector<Vec3> all(particles.size());
   for (std::size_t b = 0; b < all.size(); ++b) all[b] = impulse(particles.tile(b), particles.place(b));
+  return all;
+}
+
+std::vector<Vec3> FluidLoad::given(std::span<const Tile> tiles, double extrapolation) const {
+  const ParticleList particles(tiles);
+  std::vector<Vec3> all = impulses(tiles);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const Tile& tile = tiles[particles.tile(b)];
+    if (tile.particle_state.empty()) continue;
+    const double* last = tile.particle_state.data() + step_impulse_begin_ * tile.exists.size() + particles.place(b);
+    const std::size_t stride = tile.exists.size();
+    all[b] = (1 + extrapolation) * all[b] - extrapolation * Vec3{last[0], last[stride], last[2 * stride]};
+  }
   return all;
 }
 

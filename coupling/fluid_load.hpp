@@ -37,8 +37,9 @@ class FluidLoad final : public TileForce {
   const SampleSet& needed() const { return needed_; }
   /// Samples the fluid at `time` (s) and sets all sums to zero. Collective.
   void begin_step(std::span<const Tile> tiles, double time);
-  /// After a step of a fluid that answers: what its answer in the next one is predicted with (KernelField::missed_rates), m/s2.
-  void set_missed_rates(std::span<Tile> tiles, std::span<const Vec3> rates);
+  /// After a step of a fluid that answers: keeps the impulses of the step and what the answer in the next one is predicted with
+  /// (KernelField::missed_rates), m/s2.
+  void end_step(std::span<Tile> tiles, std::span<const Vec3> missed_rates);
   /// Numbers that the forces keep for each particle (Tile::particle_state).
   int n_particle_state() const { return n_particle_state_; }
   void add(std::size_t index, Tile& tile, double step) override;
@@ -52,7 +53,9 @@ class FluidLoad final : public TileForce {
   double screen(std::size_t index, int k) const;
   /// J of all particles of this rank, N s.
   std::vector<Vec3> impulses(std::span<const Tile> tiles) const;
-  /// The same with what the water gives and does not feel, as the pressure gradient, which would push water in their place, too. Without
+  /// What a fluid that answers is given: I = (1 + a) J - a J^old, N s (coupling/exchange.hpp); `extrapolation`: a.
+  std::vector<Vec3> given(std::span<const Tile> tiles, double extrapolation) const;
+  /// J with what the water gives and does not feel, as the pressure gradient, which would push water in their place, too. Without
   /// weight and buoyancy.
   std::vector<Vec3> impulses_with_unfelt(std::span<const Tile> tiles) const;
   /// Largest dt K/m of this rank's particles: above 1 a particle follows the water within one step of the flow.
@@ -81,7 +84,7 @@ class FluidLoad final : public TileForce {
   bool all_react_ = true, unfelt_ = false, torque_ = false, added_mass_ = false, changes_fluid_ = false,
        screen_ = false;  // what the forces give
   bool needs_impulse_ = false, needs_drag_ = false;
-  int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0, missed_rate_begin_ = -1;
+  int n_particle_state_ = 0, impulse_begin_ = 0, drag_begin_ = 0, missed_rate_begin_ = -1, step_impulse_begin_ = -1;
   std::optional<NearestWall> nearest_wall_;
   double time_ = 0;               // at the start of the step, s
   std::vector<double> elapsed_;   // since the start of the step, by tile, s

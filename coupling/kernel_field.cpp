@@ -73,10 +73,10 @@ void KernelField::move_to_place(std::size_t b, double share, int acceleration) {
   for (int i = 0; i < 3; ++i) arrays_.field(t, acceleration + i)[k] += carried[i];
 }
 
-std::vector<Vec3> KernelField::missed_rates(std::span<const Vec3> impulse) const {
+std::vector<Vec3> KernelField::missed_rates(std::span<const Vec3> given) const {
   std::vector<double> response(particles_.size());
   for (std::size_t b = 0; b < response.size(); ++b) response[b] = this->response(b);
-  return prediction_.missed_rates(kernel_, response, impulse);
+  return prediction_.missed_rates(kernel_, response, given);
 }
 
 Vec3 KernelField::mean_place(std::size_t b) const {
@@ -93,6 +93,7 @@ FluidSamples KernelField::at(std::size_t index, const Tile&, double, double) {
                      .velocity_rate = vector(change),
                      .start = vector(start),
                      .response = two_way_ ? arrays_.field(index, sampled::response) : nullptr,
+                     .response_left = two_way_ ? prediction_.response_left() : 0,
                      .velocity_gradient = {vector(gradient), vector(gradient + 3), vector(gradient + 6)},
                      .edge_distance = arrays_.field(index, edge_distance)};
   for_each_row([&](const SampleRow& row, int first) {

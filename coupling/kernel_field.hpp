@@ -27,8 +27,8 @@ class KernelField final : public FluidField {
   FluidSamples at(std::size_t index, const Tile& tile, double elapsed, double step) override;
   bool answers() const override { return two_way_; }
   /// After a step of the flow: by how much the prediction missed its answers (WaterPrediction::missed_rates), in the order of particles().
-  /// `impulse`: of the particles in that step, N s. Two-way; collective.
-  std::vector<Vec3> missed_rates(std::span<const Vec3> impulse) const;
+  /// `given`: I of the particles in that step, N s. Two-way; collective.
+  std::vector<Vec3> missed_rates(std::span<const Vec3> given) const;
   /// The particles of the last sample(), in the order of the kernel.
   const ParticleList& particles() const { return particles_; }
   /// Their places then, m.

@@ -42,6 +42,7 @@ struct FluidSamples {
   VectorArray velocity_rate = {};  // of u on the way of the particle, with `start` at that place, but for the answer to forces, m/s2
   VectorArray start = {};  // place of the particle at the start of the step, for which the samples are, m; null: they are those on its way
   const double* response = nullptr;                    // velocity that u loses per impulse of the particle, 1/kg; null: zero
+  double response_left = 0;                            // times response and the impulse of the last step: a rate of u, 1/s
   std::array<VectorArray, 3> velocity_gradient = {};   // G_ij = du_i/dx_j; row i is velocity_gradient[i], 1/s
   VectorArray pressure_gradient = {};                  // Pa/m
   VectorArray material_acceleration = {};              // Du/Dt, m/s2

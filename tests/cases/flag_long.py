@@ -32,7 +32,7 @@ class FlagLong(flag.Flag):
     def test_onset(self):
         for resolution in ((0.025, 0.025, 0.0125), (0.0125, 0.015, 0.00625)):
             self.onset(2, (0.12, 0.05), *resolution, 6, 16)
-        for resolution in ((0.025, 0.025, 0.00625), (0.0125, 0.015, 0.00625)):
+        for resolution in ((0.025, 0.025, 0.0125), (0.0125, 0.015, 0.00625)):
             self.onset(1, (0.05, 0.025), *resolution, 6, 16)
         for delta in (0.0125, 0.02):
             self.onset(0.1, (0.00115, 0.0008), 0.0125, delta, 0.00625, 3, 9)
