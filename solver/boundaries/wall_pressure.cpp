@@ -7,25 +7,12 @@
 
 namespace snag {
 
-std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary) {
-  std::vector<std::uint8_t> is_wall(static_cast<std::size_t>(mesh.n_faces));
+std::vector<char> cells_at_walls(const Mesh& mesh, const BoundarySet& boundary) {
+  std::vector<double> at_wall(static_cast<std::size_t>(mesh.n_all_cells()));
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
-    std::fill_n(is_wall.begin() + mesh.patches[p].first, mesh.patches[p].count, static_cast<std::uint8_t>(boundary.is_wall(p)));
-  std::vector<double> kind(static_cast<std::size_t>(mesh.n_all_cells()));
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    std::optional<Vec3> first;
-    for (const int f : row(mesh.cell_face_start, mesh.cell_face, c)) {
-      if (is_wall[f] == 0) continue;
-      const Vec3 normal = unit(mesh.face_vector[f]);
-      const bool is_opposite = first && dot(*first, normal) < -0.5;
-      kind[c] = std::max(kind[c], static_cast<double>(is_opposite ? WallCell::between_walls : WallCell::at_wall));
-      if (!first) first = normal;
-    }
-  }
-  mesh.halo.exchange(kind);
-  std::vector<WallCell> all;
-  for (const double k : kind) all.push_back(static_cast<WallCell>(static_cast<int>(k)));
-  return all;
+    for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f) at_wall[mesh.owner[f]] = 1;
+  mesh.halo.exchange(at_wall);
+  return {at_wall.begin(), at_wall.end()};
 }
 
 Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, int b, bool slips) {
@@ -43,20 +30,16 @@ double share_along_wall(const Vec3& relative_velocity, const Vec3& normal, doubl
   return std::clamp((none - std::abs(towards) / speed) / (none - full), 0.0, 1.0);
 }
 
-std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
-                                              std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell) {
-  if (wall_cell[cell] == WallCell::between_walls) return {};
-  Vec3 total, of_inner;
-  double n = 0, n_inner = 0;
+std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const char> at_wall, std::span<const Vec3> pressure_gradient,
+                                              std::span<const Vec3> held, int cell) {
+  Vec3 total;
+  double n = 0;
   for_each_neighbour(mesh, cell, [&](int other, double share) {
-    if (wall_cell[other] == WallCell::between_walls) return;
-    const Vec3 gradient = share * (pressure_gradient[other] - (held.empty() ? Vec3{} : held[other]));
-    total += gradient, n += share;
-    if (wall_cell[other] == WallCell::inner) of_inner += gradient, n_inner += share;
+    if (at_wall[other] != 0) return;
+    total += share * (pressure_gradient[other] - (held.empty() ? Vec3{} : held[other])), n += share;
   });
-  if (n_inner > 0) return of_inner / n_inner;
-  if (n > 0) return total / n;
-  return {};
+  if (n == 0) return {};
+  return total / n;
 }
 
 }  // namespace snag

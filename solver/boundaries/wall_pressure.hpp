@@ -10,11 +10,8 @@
 
 namespace snag {
 
-/// Where a cell lies: between_walls has walls on opposite sides.
-enum class WallCell : std::uint8_t { inner, at_wall, between_walls };
-
-/// Where each cell lies, [n_all_cells]. Collective.
-std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary);
+/// Which cells have a face on a wall, [n_all_cells]. Collective.
+std::vector<char> cells_at_walls(const Mesh& mesh, const BoundarySet& boundary);
 
 /// Acceleration of the water at boundary face b (f - n_interior) without a given pressure, m/s2, next to a cell with this velocity: at an
 /// inlet as its condition gives it, at a wall that of the wall. Where the water `slips`, at a plane of symmetry that turns and at some
@@ -28,11 +25,11 @@ Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, in
 /// table 7.1.
 inline double share_of_slip(double y_plus) { return std::clamp((y_plus - 5) / 25, 0.0, 1.0); }
 
-/// The mean of grad p - f~ over the neighbours of an owned cell with a wall function, Pa/m; `pressure_gradient`: grad p, `held`: f~,
-/// [n_all_cells], or empty without a reaction. Those at no wall count alone where there are some: the gradient of a cell at a wall follows
-/// from the slope there, also that of the cell itself. None in a layer of one cell between two walls: nothing there would bound the slope.
-std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
-                                              std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell);
+/// The mean of grad p - f~ over the neighbours of an owned cell with a wall function that lie at no wall, Pa/m; `pressure_gradient`: grad
+/// p, `held`: f~, [n_all_cells], or empty without a reaction. None where all lie at walls, as in corners and in a layer of one cell between
+/// two walls: their gradients follow from the slopes there, also that of the cell itself, and nothing would bound the slope.
+std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const char> at_wall, std::span<const Vec3> pressure_gradient,
+                                              std::span<const Vec3> held, int cell);
 
 /// How much of what the gradients around add to the slope, `more` (Pa/m, along `normal`, out of the water), counts for water with this
 /// velocity relative to the wall: all where it turns the water along the wall. What would drive it on, against the wall or away from it,

@@ -1,7 +1,7 @@
 # labels: long
 # timeout: 3600
 # cost: 600
-"""Requirement: the flutter of a flag, two-way, begins at the speed and with the frequency of the linear theory, within 15 % (frequency 10 %), for flags heavier and lighter than the water about them and for two kernels."""
+"""Requirement: the flutter of a flag, two-way, begins at the speed and with the frequency of the linear theory, within 5 % (12 % where the mass is that of the water; frequency 10 %), for flags heavier and lighter than the water about them and for two kernels."""
 import elastica
 import flag
 import harness
@@ -26,7 +26,7 @@ class FlagLong(flag.Flag):
             speed = (at / beta) ** 0.5
             frequency = speed * mode(beta).imag / sigma.imag
             print(f"  mass {mu:g}: onset U L (m/B)^(1/2) {(mu / beta) ** 0.5:.2f}, theory {(mu / at) ** 0.5:.2f} ({100 * (speed - 1):+.1f} %), frequency {100 * (frequency - 1):+.1f} %", flush=True)
-            self.assertLess(abs(speed - 1), 0.15)
+            self.assertLess(abs(speed - 1), 0.12 if mu == 1 else 0.05)
             self.assertLess(abs(frequency - 1), 0.1)
 
     def test_onset(self):
