@@ -51,7 +51,7 @@ Continuity::Continuity(const Mesh& mesh, const BoundarySet& boundary, const Cont
       slope_(workspace.vector[0]),
       gradient_(workspace.vector[1]),
       closed_cells_(closed_cells(mesh, squares_)),
-      at_wall_(cells_at_walls(mesh, boundary)),
+      wall_cell_(wall_cells(mesh, boundary)),
       mean_gradient_(workspace.mean_gradient()),
       change_(workspace.face),
       given_(mesh.n_faces - mesh.n_interior),
@@ -150,15 +150,11 @@ void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet&
       const bool has_wall_function = !flow.wall_function.empty() && flow.wall_function[b] != 0;
       const double share = has_wall_function ? share_of_slip(flow.y_plus[b]) : 0;
       std::optional<Vec3> around;
-      if (share > 0) around = gradient_at_wall_function(mesh_, at_wall_, flow.pressure_gradient, held_, P);
+      if (share > 0) around = gradient_at_wall_function(mesh_, wall_cell_, flow.pressure_gradient, held_, P);
       Vec3 gradient =
           flow.body_force - flow.density * acceleration_at_wall(flow.velocity[P], boundary.values(), b, slips || has_wall_function);
-      const Vec3 normal = unit(mesh_.face_vector[f]);
-      if (around) {
-        const Vec3 more = *around - gradient;
-        gradient += share * share_along_wall(flow.velocity[P] - boundary.values().velocity[b], normal, dot(more, normal)) * more;
-      }
-      const double slope = dot(gradient + given, normal);
+      if (around) gradient = share * *around + (1 - share) * gradient;
+      const double slope = dot(gradient + given, unit(mesh_.face_vector[f]));
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;
     }

@@ -45,7 +45,7 @@
 //   dp/dn = (f_b - rho a + f).n,     with a wall function:  dp/dn = (<grad p - f~> + f).n,    <..>: mean over its neighbours at no wall
 //
 // Water slips past a wall function, and what leads it along a curved wall is in the gradients around; from y+ 30 down to 5 the second
-// slope passes into the first, as the slip vanishes, and also where it would drive water on that runs against the wall or away from it.
+// slope passes into the first, as the slip vanishes. At edges of walls the first holds.
 //
 // So a force that pressure can hold leaves the water at rest: exactly where it is normal to layers of hexahedra, to second order on
 // tetrahedra. Sources: balanced forces, Francois et al. (2006), J. Comput. Phys. 213, 141-173; for screens and actuator discs, Rethore and
@@ -168,7 +168,7 @@ class Continuity {
   std::vector<int> closed_faces_;
   std::vector<Vec3> to_mean_;
   std::vector<double> mean_flux_;
-  std::vector<char> at_wall_;                              // [n_all_cells]
+  std::vector<WallCell> wall_cell_;                        // [n_all_cells]
   MeanGradient mean_gradient_;                             // of velocity, while fluxes are predicted
   std::vector<double>& change_;                            // of the pressure that holds f, from cell to cell, [n_faces]
   std::vector<double> given_, boundary_correction_;        // p' or its slope at the boundary as given; p' there

@@ -3,16 +3,58 @@
 #include <algorithm>
 
 #include "mesh/geometry.hpp"
+#include "parallel/rows.hpp"
 #include "solver/fields/face.hpp"
 
 namespace snag {
 
-std::vector<char> cells_at_walls(const Mesh& mesh, const BoundarySet& boundary) {
-  std::vector<double> at_wall(static_cast<std::size_t>(mesh.n_all_cells()));
+namespace {
+
+/// A node of a wall and the direction out of the water of a face of it.
+struct NodeNormal {
+  std::int64_t node;
+  Vec3 normal;
+};
+
+/// Numbers of the nodes where faces of walls meet at more than 45 degrees, as at an octagon: those of a coarse curved wall do not. Sorted;
+/// of those that lie on this rank. Collective.
+std::vector<std::int64_t> nodes_at_edges(const Mesh& mesh, const BoundarySet& boundary) {
+  constexpr double least_cosine = 0.7;
+  const auto nodes = [&](int f) { return row(mesh.face_node_start, mesh.face_node, f); };
+  std::vector<char> is_shared(mesh.node.size());  // with other ranks
+  for (int f = 0; f < mesh.n_interior; ++f)
+    for (const int node : nodes(f)) is_shared[node] = is_shared[node] != 0 || mesh.neighbour[f] >= mesh.n_cells;
+  std::vector<NodeNormal> all, shared;
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
-    for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f) at_wall[mesh.owner[f]] = 1;
-  mesh.halo.exchange(at_wall);
-  return {at_wall.begin(), at_wall.end()};
+    for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f)
+      for (const int node : nodes(f)) (is_shared[node] != 0 ? shared : all).push_back({mesh.node_id[node], unit(mesh.face_vector[f])});
+  const std::vector<NodeNormal> of_all_ranks = gathered(mesh.comm, shared);
+  all.insert(all.end(), of_all_ranks.begin(), of_all_ranks.end());
+  std::sort(all.begin(), all.end(), [](const NodeNormal& a, const NodeNormal& b) { return a.node < b.node; });
+  std::vector<std::int64_t> found;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size() && all[j].node == all[i].node; ++j)
+      if (dot(all[i].normal, all[j].normal) < least_cosine && (found.empty() || found.back() != all[i].node)) found.push_back(all[i].node);
+  return found;
+}
+
+}  // namespace
+
+std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary) {
+  std::vector<double> kind(static_cast<std::size_t>(mesh.n_all_cells()));
+  const auto set = [&](int c, WallCell where) { kind[c] = static_cast<double>(where); };
+  for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
+    for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f) set(mesh.owner[f], WallCell::at_wall);
+  const std::vector<std::int64_t> edges = nodes_at_edges(mesh, boundary);
+  for (int c = 0; c < mesh.n_cells; ++c) {
+    if (kind[c] == 0) continue;
+    for (const int node : row(mesh.cell_node_start, mesh.cell_node, c))
+      if (std::binary_search(edges.begin(), edges.end(), mesh.node_id[node])) set(c, WallCell::at_edge);
+  }
+  mesh.halo.exchange(kind);
+  std::vector<WallCell> all;
+  for (const double k : kind) all.push_back(static_cast<WallCell>(static_cast<int>(k)));
+  return all;
 }
 
 Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, int b, bool slips) {
@@ -23,19 +65,13 @@ Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, in
   return carried * carried * values.acceleration[b];
 }
 
-double share_along_wall(const Vec3& relative_velocity, const Vec3& normal, double more) {
-  constexpr double full = 0.25, none = 0.5;  // sines of 15 and 30 degrees
-  const double speed = norm(relative_velocity), towards = dot(relative_velocity, normal);
-  if (towards * more >= 0) return 1;  // a rising pressure brakes water that runs against the wall
-  return std::clamp((none - std::abs(towards) / speed) / (none - full), 0.0, 1.0);
-}
-
-std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const char> at_wall, std::span<const Vec3> pressure_gradient,
-                                              std::span<const Vec3> held, int cell) {
+std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
+                                              std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell) {
+  if (wall_cell[cell] == WallCell::at_edge) return {};
   Vec3 total;
   double n = 0;
   for_each_neighbour(mesh, cell, [&](int other, double share) {
-    if (at_wall[other] != 0) return;
+    if (wall_cell[other] != WallCell::inner) return;
     total += share * (pressure_gradient[other] - (held.empty() ? Vec3{} : held[other])), n += share;
   });
   if (n == 0) return {};

@@ -10,8 +10,11 @@
 
 namespace snag {
 
-/// Which cells have a face on a wall, [n_all_cells]. Collective.
-std::vector<char> cells_at_walls(const Mesh& mesh, const BoundarySet& boundary);
+/// Where a cell lies: at no wall, at a wall, or at an edge of walls, at a node where faces of walls meet at more than 45 degrees.
+enum class WallCell : std::uint8_t { inner, at_wall, at_edge };
+
+/// Where each cell lies, [n_all_cells]. Collective.
+std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary);
 
 /// Acceleration of the water at boundary face b (f - n_interior) without a given pressure, m/s2, next to a cell with this velocity: at an
 /// inlet as its condition gives it, at a wall that of the wall. Where the water `slips`, at a plane of symmetry that turns and at some
@@ -26,16 +29,10 @@ Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, in
 inline double share_of_slip(double y_plus) { return std::clamp((y_plus - 5) / 25, 0.0, 1.0); }
 
 /// The mean of grad p - f~ over the neighbours of an owned cell with a wall function that lie at no wall, Pa/m; `pressure_gradient`: grad
-/// p, `held`: f~, [n_all_cells], or empty without a reaction. None where all lie at walls, as in corners and in a layer of one cell between
-/// two walls: their gradients follow from the slopes there, also that of the cell itself, and nothing would bound the slope.
-std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const char> at_wall, std::span<const Vec3> pressure_gradient,
-                                              std::span<const Vec3> held, int cell);
-
-/// How much of what the gradients around add to the slope, `more` (Pa/m, along `normal`, out of the water), counts for water with this
-/// velocity relative to the wall: all where it turns the water along the wall. What would drive it on, against the wall or away from it,
-/// counts fully up to 15 degrees between water and wall, and not at all from 30 on; linear in the sine between. Up to 14 degrees are those
-/// of the cells round a polygon of 12 faces. At the edge of a blade the gradients around may be those of its other side: they drove single
-/// cells against the wall with 5 times the speed of the blade.
-double share_along_wall(const Vec3& relative_velocity, const Vec3& normal, double more);
+/// p, `held`: f~, [n_all_cells], or empty without a reaction. None where all lie at walls, as in a layer of one cell between two walls:
+/// their gradients follow from the slopes there, also that of the cell itself, and nothing would bound the slope. None at an edge of walls:
+/// the neighbours may lie round the corner, and their gradients drove single cells against a wall with 4.5 times the speed of the rotor.
+std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
+                                              std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell);
 
 }  // namespace snag

@@ -231,18 +231,18 @@ TEST(Boundaries, leadOut) {
   EXPECT_FALSE(leads_out(condition("z1", "wall")));
 }
 
-// Requirement: what the gradients around add to the slope of the pressure at a wall counts where it turns the water along the wall; where
-// it drives the water on it fades from 15 to 30 degrees between water and wall.
-TEST(WallPressure, SlopeDoesNotDriveWaterAgainstTheWall) {
-  const Vec3 n{0, 0, 1};  // out of the water
-  const auto at = [&](double sine, double more) { return share_along_wall(3 * Vec3{std::sqrt(1 - sine * sine), 0, sine}, n, more); };
-  for (const double sine : {-1.0, -0.6, 0.0, 0.6, 1.0})
-    EXPECT_EQ(at(sine, sine), 1) << sine;  // against the wall a rise, away from it a fall
-  for (const double sign : {-1.0, 1.0}) {
-    EXPECT_EQ(at(0.2 * sign, -sign), 1);
-    EXPECT_NEAR(at(0.375 * sign, -sign), 0.5, 1e-14);
-    EXPECT_EQ(at(0.5 * sign, -sign), 0);
-    EXPECT_EQ(at(sign, -sign), 0);
+// Requirement: in a box of 5 x 5 x 5 cells between walls on five sides the cells at their edges are told from those at one wall, the same
+// on any number of ranks.
+TEST(WallPressure, CellsAtEdges) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {5, 5, 5});
+  const FlowSolver solver(mesh, {}, conditions(walls + condition("z1", "pressure_outlet")));
+  const std::vector<WallCell> where = wall_cells(mesh, solver.boundary());
+  for (int c = 0; c < mesh.n_all_cells(); ++c) {
+    const Vec3& x = mesh.cell_centre[c];
+    const int n_walls = (x.x < 0.2) + (x.x > 0.8) + (x.y < 0.2) + (x.y > 0.8) + (x.z < 0.2);
+    EXPECT_EQ(where[c], n_walls == 0   ? WallCell::inner
+                        : n_walls == 1 ? WallCell::at_wall
+                                       : WallCell::at_edge)
+        << x.x << ' ' << x.y << ' ' << x.z;
   }
-  EXPECT_EQ(share_along_wall({}, n, 1), 1);
 }
