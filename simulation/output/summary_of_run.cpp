@@ -146,8 +146,10 @@ ExitCode Outputs::finish(ExitCode exit, const ReportWriter& write_report, const 
     if (rank_of(MPI_COMM_WORLD) == 0) write_summary(folder_ / "summary.json", s);
   });
   if (const std::string results = results_in_words(s); !results.empty()) log::info(results);
-  if (exit == ExitCode::ok && simulation_.water && !simulation_.frozen())
+  if (exit == ExitCode::ok && simulation_.water && !simulation_.frozen()) {
     for (const std::string& one : simulation_.water->boundary().unmet(simulation_.water->flow)) log::warning(one);
+    if (const std::string lone = simulation_.water->watch().lone_cell(simulation_.water->flow); !lone.empty()) log::warning(lone);
+  }
   if (s.pump && s.pump->flow < 0)
     log::warning("[pump]: water leaves through the inlet \"" + simulation_.pump->inlet + "\" (" + rounded(-1e3 * s.pump->flow) +
                  " L/s): head and efficiency are those of the way from it to \"" + simulation_.pump->outlet +

@@ -73,6 +73,27 @@ TEST(DivergenceWatch, sound_water) {
   EXPECT_NEAR(w.watch.largest_speed_ratio(), 10, 1e-9);
 }
 
+// A cell whose water is faster than the case and much faster than all cells around it is named; one of two fast neighbours is not, nor one
+// that is slower than the case.
+TEST(DivergenceWatch, lone_cell) {
+  Watched w;
+  const auto found = [&](double speed, double other) {
+    w.flow.velocity.assign(w.mesh.n_all_cells(), {0.9, 0, 0});
+    w.at_cell(100, [&](int c) { w.flow.velocity[c] = {0, speed, 0}; });
+    w.at_cell(101, [&](int c) { w.flow.velocity[c] = {0, 0, other}; });
+    w.mesh.halo.exchange(w.flow.velocity);
+    return w.watch.lone_cell(w.flow);
+  };
+  EXPECT_EQ(found(1.3, 0.9), "");
+  const std::string message = found(2, 0.9);
+  for (const char* part : {"cell 100 at (", "2 m/s", "0.9 m/s", "1 m/s", "n_outer_correctors"})
+    EXPECT_TRUE(mentions(message, part)) << message;
+  EXPECT_EQ(found(2, 1.5), "");
+  w.flow.velocity.assign(w.mesh.n_all_cells(), {0.1, 0, 0});
+  w.at_cell(100, [&](int c) { w.flow.velocity[c] = {0.8, 0, 0}; });
+  EXPECT_EQ(w.watch.lone_cell(w.flow), "");
+}
+
 // Each bound: the message names quantity, cell, place, step, time, the speed of the case and its source.
 TEST(DivergenceWatch, every_bound) {
   const std::vector<std::pair<std::string, void (*)(Watched&, int)>> ways{
