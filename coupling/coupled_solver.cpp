@@ -138,13 +138,13 @@ void CoupledSolver::spread(double dt) {
   for (std::size_t b = 0; b < particles.size(); ++b) volume[b] = rags_.rags()[rags_.tiles()[particles.tile(b)].rag].hydrodynamic_volume;
   std::vector<double> screen(screens_ ? particles.size() : 0);
   for (std::size_t b = 0; b < screen.size(); ++b) screen[b] = load_->screen(particles.tile(b), particles.place(b));
-  given_ = coupling_.settings.two_way() ? load_->given(rags_.tiles(), prediction_->extrapolation()) : felt;
+  given_ = coupling_.settings.two_way() ? load_->given(rags_.tiles(), prediction_->scheme()) : felt;
   const ExchangeBalance balance = exchange_->spread({.volume = volume, .screen = screen, .given = given_}, dt);
   report_.max_solid_fraction = balance.max_solid_fraction;
   judge_packing();
   if (!coupling_.settings.two_way()) return;
   check_momentum(balance);
-  const Vec3 lost = (balance.on_rags + balance.on_water) / (1 + prediction_->extrapolation());
+  const Vec3 lost = (balance.on_rags + balance.on_water) / prediction_->scheme().now;
   report_.force_on_water = (lost - sum(rags_.comm(), std::span<const Vec3>(felt))) / dt;
   report_.momentum_exchange = balance.relative();
   std::vector<int> rag_of(particles.size());

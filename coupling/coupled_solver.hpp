@@ -42,7 +42,7 @@ class CoupledSolver {
 
   /// Walls for forces that need them; `walls` must outlive the solver.
   void set_walls(const WallSet& walls) { load_->set_walls(walls); }
-  /// One coupled step, t -> t + dt: staggered, first order in dt; drag implicit in the velocities of particles and water together.
+  /// One coupled step, t -> t + dt: staggered; drag implicit in the velocities of particles and water together.
   /// Collective. Throws Error(invariant) if the exchange made or lost momentum, or a particle or bond was lost; Error(usage) if the
   /// particles fill more of a cell than the drag law holds for.
   void step(double dt);

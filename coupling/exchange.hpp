@@ -5,15 +5,15 @@
 //
 // The equations of the water hold at the end of the step, J_b/dt is the mean over the step. I_b is J_b/dt extrapolated to the end,
 //
-//   I_b = (1 + a) J_b - a J_b^old,      a = 1/2 for equal steps (TimeScheme::extrapolation), 0 in the first, Euler's
+//   I_b = now J_b - older J_b^old,      3/2 J_b - 1/2 J_b^old for equal steps, J_b in the first, Euler's (TimeScheme)
 //
 // With J_b itself the water would lag behind by half a step: a wave of a cloth that swings with w gained energy, as with the damping ratio
-// -w dt/4. The momentum of BDF2 is (3 u^n - u^(n-1))/2, that of the water half a step on, and it gets each impulse once,
+// -w dt/4. As now + old + older = 0, water that nothing else drives has lost the sum of all J at the end of each step, whatever the steps:
 //
-//   rho (3 u^n - u^(n-1))/2 = rho u^0 - (J^1 + ... + J^n + J^n/2)/V
+//   rho V u^n = rho V u^0 - (J^1 + ... + J^n)
 //
-// Water that just begins to be pushed or is pushed no more moves as it should from the first step on; only a piece that leaves the domain
-// takes a J_b^old with it.
+// A piece that leaves the domain, and a run that goes on from the water of another without its rags, leave older/now of the last impulse
+// in the water.
 #include "coupling/kernel.hpp"
 #include "solver/fields/flow.hpp"
 

@@ -281,7 +281,7 @@ std::vector<Vec3> FluidLoad::impulses(std::span<const Tile> tiles) const {
   return all;
 }
 
-std::vector<Vec3> FluidLoad::given(std::span<const Tile> tiles, double extrapolation) const {
+std::vector<Vec3> FluidLoad::given(std::span<const Tile> tiles, const TimeScheme& time) const {
   const ParticleList particles(tiles);
   std::vector<Vec3> all = impulses(tiles);
   for (std::size_t b = 0; b < all.size(); ++b) {
@@ -289,7 +289,7 @@ std::vector<Vec3> FluidLoad::given(std::span<const Tile> tiles, double extrapola
     if (tile.particle_state.empty()) continue;
     const double* last = tile.particle_state.data() + step_impulse_begin_ * tile.exists.size() + particles.place(b);
     const std::size_t stride = tile.exists.size();
-    all[b] = (1 + extrapolation) * all[b] - extrapolation * Vec3{last[0], last[stride], last[2 * stride]};
+    all[b] = time.now * all[b] - time.older * Vec3{last[0], last[stride], last[2 * stride]};
   }
   return all;
 }

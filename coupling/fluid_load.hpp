@@ -21,6 +21,7 @@
 #include "coupling/nearest_wall.hpp"
 #include "coupling/particle_list.hpp"
 #include "dem/rag_system.hpp"
+#include "solver/fields/time_scheme.hpp"
 
 namespace snag {
 
@@ -53,8 +54,8 @@ class FluidLoad final : public TileForce {
   double screen(std::size_t index, int k) const;
   /// J of all particles of this rank, N s.
   std::vector<Vec3> impulses(std::span<const Tile> tiles) const;
-  /// What a fluid that answers is given: I = (1 + a) J - a J^old, N s (coupling/exchange.hpp); `extrapolation`: a.
-  std::vector<Vec3> given(std::span<const Tile> tiles, double extrapolation) const;
+  /// What a fluid that answers is given: I = now J - older J^old, N s (coupling/exchange.hpp).
+  std::vector<Vec3> given(std::span<const Tile> tiles, const TimeScheme& time) const;
   /// J with what the water gives and does not feel, as the pressure gradient, which would push water in their place, too. Without
   /// weight and buoyancy.
   std::vector<Vec3> impulses_with_unfelt(std::span<const Tile> tiles) const;

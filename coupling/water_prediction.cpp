@@ -98,23 +98,22 @@ std::vector<double> WaterPrediction::response(const Kernel& kernel) const {
   kernel.spread(std::vector<double>(kernel.n_particles(), 1.0), 1, density);
   const CellField field{density.data(), 1};
   std::vector<double> at_particles = kernel.average(std::span(&field, 1));
-  for (double& d : at_particles) d *= (1 + extrapolation()) / (scheme_.now * flow_.density);
+  for (double& d : at_particles) d /= flow_.density;
   return at_particles;
 }
 
 std::vector<Vec3> WaterPrediction::missed_rates(const Kernel& kernel, std::span<const double> response, std::span<const Vec3> given) const {
   const std::vector<Vec3> reaction = kernel.average(std::span<const Vec3>(flow_.reaction));
-  const double weights = (1 + extrapolation()) / (scheme_.now * flow_.density);  // d over A S^T 1
-  std::vector<double> missed(3 * given.size());                                  // m
+  std::vector<double> missed(3 * given.size());  // m
   for (std::size_t b = 0; b < given.size(); ++b) {
-    const Vec3 m = (response[b] / (1 + extrapolation()) / scheme_.dt) * given[b] + (1 / (scheme_.now * flow_.density)) * reaction[b];
+    const Vec3 m = (1 / scheme_.now) * ((response[b] / scheme_.dt) * given[b] + (1 / flow_.density) * reaction[b]);
     for (int i = 0; i < 3; ++i) missed[3 * b + i] = m[i];
   }
   std::vector<Vec3> density(flow_.mesh.n_cells);
   kernel.spread(missed, 3, flat(density));
   for (int c = 0; c < flow_.mesh.n_cells; ++c) density[c] = resolved_[c] * turned(c, density[c]);
   std::vector<Vec3> rates = kernel.average(std::span<const Vec3>(density));
-  for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = (weights / response[b]) * rates[b];
+  for (std::size_t b = 0; b < rates.size(); ++b) rates[b] = (1 / (flow_.density * response[b])) * rates[b];  // A S^T 1
   return rates;
 }
 

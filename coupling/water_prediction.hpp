@@ -7,16 +7,16 @@
 //   u* = (dt R r - old u^n - older u^(n-1))/now                       velocity at the end of the step without a force of the rags
 //   change:        u* - u^n - G (R - 1) x_c                           at the place where the cell is at the start of the step
 //   acceleration:  (change + dt R f/(now rho))/dt + G u^n             Du/Dt, with the force of the rags of the last step
-//   response:      d_b = (1 + a) (A S^T 1)_b/(now rho)                velocity that the water loses per impulse of the particle, 1/kg
+//   response:      d_b = (A S^T 1)_b/rho                              velocity that the water loses per impulse of the particle, 1/kg
 //
 // R turns by the angle of the step in a zone that turns (x_c from its axis), so that water that turns with its zone is predicted exactly;
 // elsewhere R = 1. In the first step the water counts as steady, in a turning zone as seen from it. G: velocity gradient. A averages to the
-// particles, S^T spreads to the cells (coupling/kernel.hpp). (1 + a)/(now d_b) is the mass of water that a particle shares with its
+// particles, S^T spreads to the cells (coupling/kernel.hpp). 1/d_b is the mass of water that a particle shares with its
 // neighbours: 44.5 rho delta^3 for a particle by itself, 3.54 rho delta per area of cloth in a flat sheet.
 //
-// The water is given I = (1 + a) J - a J^old (coupling/exchange.hpp). A particle at x_b(t), t after the start of the step, feels
+// The water is given I = now J - older J^old (coupling/exchange.hpp). A particle at x_b(t), t after the start of the step, feels
 //
-//   u^n + (change/dt + e_b + a/(1 + a) d_b J_b^old/dt) t + G (x_b(t) - x_b(0)) - d_b J_b(t)
+//   u^n + (change/dt + e_b + older/now d_b J_b^old/dt) t + G (x_b(t) - x_b(0)) - d_b J_b(t)
 //
 // where J_b is its impulse since the start of the step. Without the term of G the water would lag behind by a step: in water that turns
 // by 3.6 degrees a step a neutral cloth would drift outwards with 3 % of the speed of the water. The scheme is stable for any resistance,
@@ -24,9 +24,9 @@
 // the pressure of the flow makes the answer smaller.
 //
 // e_b is what the answers of the last step were missed by: the flow shares f among cells side by side (f~, solver/continuity.hpp), and
-// d_b I_b/(1 + a) is (A S^T I)_b/(now rho) only where neighbours have the same impulse.
+// d_b I_b is (A S^T I)_b/rho only where neighbours have the same impulse.
 //
-//   e_b = s_b F(m),   m = (d_b I_b/(1 + a) + A f~ dt/(now rho))/dt,   F(m) = A R S^T m / (A S^T 1)
+//   e_b = s_b F(m),   m = (d_b I_b/dt + A f~/rho)/now,   F(m) = A R S^T m / (A S^T 1)
 //
 // In a steady flow change + A f~ dt/(now rho) = 0, so that with e = m the particle feels u^n during the whole step, and the law of its drag
 // holds for the velocity that the flow has, whatever d_b and the step. F keeps modes of the impulses small that the flow hardly answers to.
@@ -75,10 +75,10 @@ class WaterPrediction {
   /// [owned cells], m/s2.
   const std::vector<Vec3>& acceleration() const { return acceleration_; }
   double dt() const { return scheme_.dt; }
-  /// a of the step: TimeScheme::extrapolation.
-  double extrapolation() const { return scheme_.extrapolation(); }
-  /// a/(1 + a)/dt: times d and the impulse of the last step the rate of what is left of the answer to it, 1/s.
-  double response_left() const { return extrapolation() / ((1 + extrapolation()) * scheme_.dt); }
+  /// Of the step.
+  const TimeScheme& scheme() const { return scheme_; }
+  /// Times d and the impulse of the last step: the rate of what is left of the answer to it, 1/s.
+  double response_left() const { return scheme_.older / (scheme_.now * scheme_.dt); }
   /// d at the particles of the kernel, 1/kg. Collective.
   std::vector<double> response(const Kernel& kernel) const;
   /// e of the next step at the particles of the kernel, m/s2, after a step and with the weights it was made with. `response`: d, 1/kg;

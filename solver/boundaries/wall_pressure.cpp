@@ -65,6 +65,13 @@ Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, in
   return carried * carried * values.acceleration[b];
 }
 
+double share_along_wall(const Vec3& relative_velocity, const Vec3& normal, double more) {
+  constexpr double full = 0.25, none = 0.5;  // sines of 15 and 30 degrees
+  const double speed = norm(relative_velocity), towards = dot(relative_velocity, normal);
+  if (towards * more >= 0) return 1;  // a rising pressure brakes water that runs against the wall
+  return std::clamp((none - std::abs(towards) / speed) / (none - full), 0.0, 1.0);
+}
+
 std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
                                               std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell) {
   if (wall_cell[cell] == WallCell::at_edge) return {};
