@@ -153,12 +153,8 @@ void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet&
       if (share > 0) around = gradient_at_wall_function(mesh_, wall_cell_, flow.pressure_gradient, held_, P);
       Vec3 gradient =
           flow.body_force - flow.density * acceleration_at_wall(flow.velocity[P], boundary.values(), b, slips || has_wall_function);
-      const Vec3 normal = unit(mesh_.face_vector[f]);
-      if (around) {
-        const Vec3 more = *around - gradient;
-        gradient += share * share_along_wall(flow.velocity[P] - boundary.values().velocity[b], normal, dot(more, normal)) * more;
-      }
-      const double slope = dot(gradient + given, normal);
+      if (around) gradient = share * *around + (1 - share) * gradient;
+      const double slope = dot(gradient + given, unit(mesh_.face_vector[f]));
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;
     }

@@ -45,8 +45,7 @@
 //   dp/dn = (f_b - rho a + f).n,     with a wall function:  dp/dn = (<grad p - f~> + f).n,    <..>: mean over its neighbours at no wall
 //
 // Water slips past a wall function, and what leads it along a curved wall is in the gradients around; from y+ 30 down to 5 the second
-// slope passes into the first, as the slip vanishes, and where it would drive water on that runs against the wall or away from it. At
-// edges of walls the first holds.
+// slope passes into the first, as the slip vanishes. At edges of walls the first holds.
 //
 // So a force that pressure can hold leaves the water at rest: exactly where it is normal to layers of hexahedra, to second order on
 // tetrahedra. Sources: balanced forces, Francois et al. (2006), J. Comput. Phys. 213, 141-173; for screens and actuator discs, Rethore and

@@ -46,11 +46,9 @@ std::vector<WallCell> wall_cells(const Mesh& mesh, const BoundarySet& boundary) 
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
     for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f) set(mesh.owner[f], WallCell::at_wall);
   const std::vector<std::int64_t> edges = nodes_at_edges(mesh, boundary);
-  for (int c = 0; c < mesh.n_cells; ++c) {
-    if (kind[c] == 0) continue;
+  for (int c = 0; c < mesh.n_cells; ++c)
     for (const int node : row(mesh.cell_node_start, mesh.cell_node, c))
       if (std::binary_search(edges.begin(), edges.end(), mesh.node_id[node])) set(c, WallCell::at_edge);
-  }
   mesh.halo.exchange(kind);
   std::vector<WallCell> all;
   for (const double k : kind) all.push_back(static_cast<WallCell>(static_cast<int>(k)));
@@ -63,13 +61,6 @@ Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, in
   if (norm_squared(v) == 0) return {};
   const double carried = std::clamp(dot(velocity, v) / norm_squared(v), 0.0, 1.0);
   return carried * carried * values.acceleration[b];
-}
-
-double share_along_wall(const Vec3& relative_velocity, const Vec3& normal, double more) {
-  constexpr double full = 0.25, none = 0.5;  // sines of 15 and 30 degrees
-  const double speed = norm(relative_velocity), towards = dot(relative_velocity, normal);
-  if (towards * more >= 0) return 1;  // a rising pressure brakes water that runs against the wall
-  return std::clamp((none - std::abs(towards) / speed) / (none - full), 0.0, 1.0);
 }
 
 std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,

@@ -10,7 +10,7 @@
 
 namespace snag {
 
-/// Where a cell lies: at no wall, at a wall, or at an edge of walls, at a node where faces of walls meet at more than 45 degrees.
+/// Where a cell lies: at no wall, with a face on a wall, or at an edge: with a node where faces of walls meet at more than 45 degrees.
 enum class WallCell : std::uint8_t { inner, at_wall, at_edge };
 
 /// Where each cell lies, [n_all_cells]. Collective.
@@ -30,16 +30,9 @@ inline double share_of_slip(double y_plus) { return std::clamp((y_plus - 5) / 25
 
 /// The mean of grad p - f~ over the neighbours of an owned cell with a wall function that lie at no wall, Pa/m; `pressure_gradient`: grad
 /// p, `held`: f~, [n_all_cells], or empty without a reaction. None where all lie at walls, as in a layer of one cell between two walls:
-/// their gradients follow from the slopes there, also that of the cell itself, and nothing would bound the slope. None at an edge of walls:
-/// the neighbours may lie round the corner.
+/// their gradients follow from the slopes there, also that of the cell itself, and nothing would bound the slope. Cells at edges neither
+/// have nor give one: they may lie round the corner, and drove single cells against a wall with 4.5 times the speed of the rotor.
 std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
                                               std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell);
-
-/// How much of what the gradients around add to the slope, `more` (Pa/m, along `normal`, out of the water), counts for water with this
-/// velocity relative to the wall: all where it turns the water along the wall. What would drive it on, against the wall or away from it,
-/// counts fully up to 15 degrees between water and wall, and not at all from 30 on; linear in the sine between. Up to 14 degrees are those
-/// of the cells round a polygon of 12 faces. Behind the edges of blades gradients around drove single cells against the wall with 4.5 times
-/// the speed of the blade.
-double share_along_wall(const Vec3& relative_velocity, const Vec3& normal, double more);
 
 }  // namespace snag

@@ -246,19 +246,3 @@ TEST(WallPressure, CellsAtEdges) {
         << x.x << ' ' << x.y << ' ' << x.z;
   }
 }
-
-// Requirement: what the gradients around add to the slope of the pressure at a wall counts where it turns the water along the wall; where
-// it drives the water on it fades from 15 to 30 degrees between water and wall.
-TEST(WallPressure, SlopeDoesNotDriveWaterAgainstTheWall) {
-  const Vec3 n{0, 0, 1};  // out of the water
-  const auto at = [&](double sine, double more) { return share_along_wall(3 * Vec3{std::sqrt(1 - sine * sine), 0, sine}, n, more); };
-  for (const double sine : {-1.0, -0.6, 0.0, 0.6, 1.0})
-    EXPECT_EQ(at(sine, sine), 1) << sine;  // against the wall a rise, away from it a fall
-  for (const double sign : {-1.0, 1.0}) {
-    EXPECT_EQ(at(0.2 * sign, -sign), 1);
-    EXPECT_NEAR(at(0.375 * sign, -sign), 0.5, 1e-14);
-    EXPECT_EQ(at(0.5 * sign, -sign), 0);
-    EXPECT_EQ(at(sign, -sign), 0);
-  }
-  EXPECT_EQ(share_along_wall({}, n, 1), 1);
-}
