@@ -16,20 +16,16 @@ struct NodeNormal {
   Vec3 normal;
 };
 
-/// Numbers of the nodes where faces of walls meet at more than 45 degrees, as at an octagon: those of a coarse curved wall do not. Sorted;
-/// of those that lie on this rank. Collective.
+/// Numbers of the nodes where faces of walls meet at more than 45 degrees, as at an octagon: those of a coarse curved wall do not. Sorted.
+/// Collective.
 std::vector<std::int64_t> nodes_at_edges(const Mesh& mesh, const BoundarySet& boundary) {
   constexpr double least_cosine = 0.7;
-  const auto nodes = [&](int f) { return row(mesh.face_node_start, mesh.face_node, f); };
-  std::vector<char> is_shared(mesh.node.size());  // with other ranks
-  for (int f = 0; f < mesh.n_interior; ++f)
-    for (const int node : nodes(f)) is_shared[node] = is_shared[node] != 0 || mesh.neighbour[f] >= mesh.n_cells;
-  std::vector<NodeNormal> all, shared;
+  std::vector<NodeNormal> own;
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
     for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f)
-      for (const int node : nodes(f)) (is_shared[node] != 0 ? shared : all).push_back({mesh.node_id[node], unit(mesh.face_vector[f])});
-  const std::vector<NodeNormal> of_all_ranks = gathered(mesh.comm, shared);
-  all.insert(all.end(), of_all_ranks.begin(), of_all_ranks.end());
+      for (const int node : row(mesh.face_node_start, mesh.face_node, f)) own.push_back({mesh.node_id[node], unit(mesh.face_vector[f])});
+  // Of all ranks: two that share a node need not share a face there.
+  std::vector<NodeNormal> all = gathered(mesh.comm, own);
   std::sort(all.begin(), all.end(), [](const NodeNormal& a, const NodeNormal& b) { return a.node < b.node; });
   std::vector<std::int64_t> found;
   for (std::size_t i = 0; i < all.size(); ++i)
