@@ -231,8 +231,8 @@ TEST(Boundaries, leadOut) {
   EXPECT_FALSE(leads_out(condition("z1", "wall")));
 }
 
-// Requirement: in a box of 5 x 5 x 5 cells between walls on five sides the cells at their edges are told from those at one wall, the same
-// on any number of ranks.
+// Requirement: a box of 5 x 5 x 5 cells has walls on five sides. Cells with one wall face lie at a wall, cells with two or three lie at an
+// edge. The number of ranks does not change this.
 TEST(WallPressure, CellsAtEdges) {
   const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {5, 5, 5});
   const FlowSolver solver(mesh, {}, conditions(walls + condition("z1", "pressure_outlet")));
