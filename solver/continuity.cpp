@@ -149,12 +149,13 @@ void Continuity::set_boundary_of_correction(const Flow& flow, const BoundarySet&
       const Vec3 given = reaction_.empty() ? Vec3{} : reaction_[P];
       const bool has_wall_function = !flow.wall_function.empty() && flow.wall_function[b] != 0;
       const double share = has_wall_function ? share_of_slip(flow.y_plus[b]) : 0;
-      std::optional<Vec3> around;
-      if (share > 0) around = gradient_at_wall_function(mesh_, wall_cell_, flow.pressure_gradient, held_, P);
-      Vec3 gradient =
-          flow.body_force - flow.density * acceleration_at_wall(flow.velocity[P], boundary.values(), b, slips || has_wall_function);
-      if (around) gradient = share * *around + (1 - share) * gradient;
-      const double slope = dot(gradient + given, unit(mesh_.face_vector[f]));
+      std::optional<double> around;
+      if (share > 0) around = slope_at_wall_function(mesh_, wall_cell_, flow, held_, f);
+      const Vec3 out = unit(mesh_.face_vector[f]);
+      double slope = dot(
+          flow.body_force - flow.density * acceleration_at_wall(flow.velocity[P], boundary.values(), b, slips || has_wall_function), out);
+      if (around) slope = std::lerp(slope, *around, share);
+      slope += dot(given, out);
       given_[b] = slope - wall_slope[b];
       wall_slope[b] = slope;
     }

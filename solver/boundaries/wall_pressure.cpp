@@ -59,17 +59,30 @@ Vec3 acceleration_at_wall(const Vec3& velocity, const BoundaryValues& values, in
   return carried * carried * values.acceleration[b];
 }
 
-std::optional<Vec3> gradient_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell,
-                                              std::span<const Vec3> pressure_gradient, std::span<const Vec3> held, int cell) {
+std::optional<double> slope_at_wall_function(const Mesh& mesh, std::span<const WallCell> wall_cell, const Flow& flow,
+                                             std::span<const Vec3> held, int face) {
+  const int cell = mesh.owner[face];
   if (wall_cell[cell] == WallCell::at_edge) return {};
-  Vec3 total;
+  Vec3 total, total_held;
   double n = 0;
   for_each_neighbour(mesh, cell, [&](int other, double share) {
     if (wall_cell[other] != WallCell::inner) return;
-    total += share * (pressure_gradient[other] - (held.empty() ? Vec3{} : held[other])), n += share;
+    total += share * flow.pressure_gradient[other], n += share;
+    if (!held.empty()) total_held += share * held[other];
   });
   if (n == 0) return {};
-  return total / n;
+  // How much of G the pressures of the neighbours show: the least squares of p_N - p_P - a G.d.
+  const Vec3 gradient = total / n;
+  double shown = 0, expected = 0;
+  for (const int f : row(mesh.cell_face_start, mesh.cell_face, cell)) {
+    if (f >= mesh.n_interior) continue;
+    const bool is_owner = mesh.owner[f] == cell;
+    const double share = share_of_face(mesh, f, is_owner), change = dot(gradient, mesh.delta[f]) * (is_owner ? 1 : -1);
+    shown += share * change * (flow.pressure[mesh.owner[f] + mesh.neighbour[f] - cell] - flow.pressure[cell]);
+    expected += share * change * change;
+  }
+  const double part = 2 * shown < expected ? std::max(2 * shown / expected, 0.0) : 1;
+  return part * dot(gradient - total_held / n, unit(mesh.face_vector[face]));
 }
 
 }  // namespace snag

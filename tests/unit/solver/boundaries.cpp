@@ -246,3 +246,21 @@ TEST(WallPressure, CellsAtEdges) {
         << x.x << ' ' << x.y << ' ' << x.z;
   }
 }
+
+// Requirement: in a linear pressure, 2 Pa/m along z, the slope at the wall z = 0 is exact. With gradients ten times as large around, it is
+// twice that which the pressures show; with gradients of the other sign it is zero.
+TEST(WallPressure, GradientsThatPressuresDoNotShow) {
+  const Mesh mesh = structured_box(MPI_COMM_WORLD, {}, {1, 1, 1}, {5, 5, 5});
+  FlowSolver solver(mesh, {}, conditions(walls + condition("z1", "pressure_outlet")));
+  const std::vector<WallCell> where = wall_cells(mesh, solver.boundary());
+  Flow& flow = solver.flow;
+  for (const auto& [gradient, slope] : {std::pair{2.0, -2.0}, std::pair{20.0, -4.0}, std::pair{-20.0, 0.0}}) {
+    for (int c = 0; c < mesh.n_all_cells(); ++c) flow.pressure[c] = 2 * mesh.cell_centre[c].z, flow.pressure_gradient[c] = {0, 0, gradient};
+    const Patch& patch = mesh.patches[mesh.patch_index("z0")];
+    for (int f = patch.first; f < patch.end(); ++f) {
+      const std::optional<double> found = slope_at_wall_function(mesh, where, flow, {}, f);
+      EXPECT_EQ(found.has_value(), where[mesh.owner[f]] == WallCell::at_wall);
+      EXPECT_NEAR(found.value_or(slope), slope, 1e-12);
+    }
+  }
+}
