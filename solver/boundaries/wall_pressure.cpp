@@ -1,9 +1,11 @@
 #include "solver/boundaries/wall_pressure.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesh/geometry.hpp"
 #include "parallel/rows.hpp"
+#include "parallel/session.hpp"
 #include "solver/fields/face.hpp"
 
 namespace snag {
@@ -24,13 +26,21 @@ std::vector<std::int64_t> nodes_at_edges(const Mesh& mesh, const BoundarySet& bo
   for (int p = 0; p < static_cast<int>(mesh.patches.size()); ++p)
     for (int f = mesh.patches[p].first; boundary.is_wall(p) && f < mesh.patches[p].end(); ++f)
       for (const int node : row(mesh.face_node_start, mesh.face_node, f)) own.push_back({mesh.node_id[node], unit(mesh.face_vector[f])});
-  // Of all ranks: two that share a node need not share a face there.
-  std::vector<NodeNormal> all = gathered(mesh.comm, own);
-  std::sort(all.begin(), all.end(), [](const NodeNormal& a, const NodeNormal& b) { return a.node < b.node; });
-  std::vector<std::int64_t> found;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = i + 1; j < all.size() && all[j].node == all[i].node; ++j)
-      if (dot(all[i].normal, all[j].normal) < least_cosine && (found.empty() || found.back() != all[i].node)) found.push_back(all[i].node);
+  // The rank with the number `node` modulo the number of ranks judges a node: ranks that share it need not share a face there.
+  const int n_ranks = size_of(mesh.comm);
+  const auto judge = [n_ranks](const NodeNormal& row) { return static_cast<int>(row.node % n_ranks); };
+  std::sort(own.begin(), own.end(), [&](const NodeNormal& a, const NodeNormal& b) { return judge(a) < judge(b); });
+  std::vector<int> counts(static_cast<std::size_t>(n_ranks));
+  for (const NodeNormal& row : own) ++counts[judge(row)];
+  std::vector<NodeNormal> met = exchanged(mesh.comm, RowsByRank<NodeNormal>{std::move(own), std::move(counts)}).rows;
+  std::sort(met.begin(), met.end(), [](const NodeNormal& a, const NodeNormal& b) { return a.node < b.node; });
+  std::vector<std::int64_t> judged;
+  for (std::size_t i = 0; i < met.size(); ++i)
+    for (std::size_t j = i + 1; j < met.size() && met[j].node == met[i].node; ++j)
+      if (dot(met[i].normal, met[j].normal) < least_cosine && (judged.empty() || judged.back() != met[i].node))
+        judged.push_back(met[i].node);
+  std::vector<std::int64_t> found = gathered(mesh.comm, judged);
+  std::sort(found.begin(), found.end());
   return found;
 }
 
